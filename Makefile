@@ -1,0 +1,97 @@
+# make assure   prove the kernel, check the sample layouts, write the records under out/
+# make test     ruff, mypy, pytest
+# make bench    print the measured figures
+#
+# Needs Python 3.11 or later and make; everything else is installed into .venv, once.
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+PIP    := $(BIN)/python -m pip --disable-pip-version-check
+LAYOUTS := $(sort $(wildcard layouts/*.toml))
+SOLVER ?= both
+TESTS  ?= tests
+CONTRACTS := $(sort $(wildcard tests/contracts_*.py tests/*/contracts_*.py))
+# Tests run on this many processes.
+JOBS   ?= auto
+
+.DELETE_ON_ERROR:
+.PHONY: help assure prove check test lint types format bench crosshair setup lock clean distclean
+
+help:
+	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
+
+# ---- what it is for
+
+assure: prove check
+
+prove: setup
+	@mkdir -p out
+	$(BIN)/heisoku prove --solver $(SOLVER) --json out/prove.json --junit out/prove.xml
+
+check: setup
+	@mkdir -p out
+	@test -n "$(LAYOUTS)" || { echo "make check: no layouts/*.toml to check" >&2; exit 2; }
+	$(BIN)/heisoku check $(LAYOUTS) --json out/check.json
+
+# ---- checks on ourselves
+
+test: lint types
+	@mkdir -p out
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --junit-xml=out/test.xml $(TESTS)
+
+lint: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: setup
+	$(BIN)/mypy
+
+format: setup
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: setup
+	$(BIN)/python -m tests.bench
+
+# A second opinion on the lifter: contracts checked on the real bytecode.
+crosshair: $(VENV)/.crosshair $(VENV)/.project
+	$(BIN)/crosshair check --analysis_kind=asserts --report_all --per_condition_timeout=10 $(CONTRACTS)
+
+# ---- set-up, once: a stamp for each step
+
+setup: $(VENV)/.project
+
+$(VENV)/.dependencies: requirements.txt
+	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else "heisoku needs Python 3.11 or later, and $(PYTHON) is %d.%d: say which with make PYTHON=python3.11" % sys.version_info[:2])'
+	rm -rf $(VENV)
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); echo "make: $(PYTHON) cannot make a virtual environment; on Debian: apt-get install python3-venv" >&2; exit 2; }
+	$(PIP) install --quiet --require-hashes --requirement requirements.txt
+	@touch $@
+
+$(VENV)/.project: $(VENV)/.dependencies pyproject.toml
+	$(PIP) install --quiet --no-deps --no-index --no-build-isolation --config-settings editable_mode=compat --editable .
+	@touch $@
+
+$(VENV)/.crosshair: $(VENV)/.dependencies requirements-crosshair.txt
+	$(PIP) install --quiet --require-hashes --requirement requirements-crosshair.txt
+	@touch $@
+
+# ---- upkeep
+
+COMPILE = out/lock/bin/uv pip compile --quiet --upgrade --universal --fork-strategy fewest --generate-hashes \
+	--python-version 3.11 --no-emit-index-url --custom-compile-command "make lock"
+
+lock:
+	@mkdir -p out
+	$(PYTHON) -m venv out/lock
+	out/lock/bin/python -m pip install --quiet uv
+	$(COMPILE) requirements.in --output-file requirements.txt
+	$(COMPILE) --constraint requirements.txt requirements-crosshair.in --output-file requirements-crosshair.txt
+
+clean:
+	rm -rf out build *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -not -path './$(VENV)/*' -type d -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf $(VENV)
