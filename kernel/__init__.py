@@ -1,0 +1,1 @@
+"""The safety kernel: small pure machines, standard library only."""

@@ -1,0 +1,57 @@
+"""How far the unit lets the train go: its part of the contract with the brake (T4, T5, T9)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.layout import Layout
+from kernel.names import Block, Run
+from kernel.unit import Unit
+
+
+def may_proceed(unit: Unit, run: Run) -> bool:
+    """Tell whether the train may move under ``run``: permitted, not given back, second loop closed (T4, T5, T9)."""
+    order = unit.orders.get(run)
+    return order is not None and order.permitted and not order.given_back and order.loop_closed
+
+
+def may_overrun(unit: Unit, run: Run) -> bool:
+    """Tell whether the overlap still belongs to the train's authority (T9)."""
+    order = unit.orders.get(run)
+    return may_proceed(unit, run) and order is not None and not order.stopped
+
+
+def may_leave(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
+    """Tell whether the end of authority lies beyond ``block``, so that a head in it may go on (T4, T12).
+
+    It lies beyond while the way goes on, out of and into blocks that the tail has not left in
+    this run, and into the overlap only until the train has told that it stopped.
+    """
+    order = unit.orders.get(run)
+    target = layout.way[run.route].get(block) if run.route in layout.way else None
+    return (
+        order is not None
+        and target is not None
+        and may_proceed(unit, run)
+        and block not in order.left
+        and target not in order.left
+        and (target not in layout.overlap[run.route] or may_overrun(unit, run))
+    )
+
+
+def note_stopped(unit: Unit, run: Run, within_destination: bool) -> Unit:
+    """Draw the end of authority back to the destination once the train stands in it (T9).
+
+    ``within_destination``: by odometer and tags the train stands still, its front inside the
+    destination.
+    """
+    order = unit.orders.get(run)
+    if order is None or not within_destination or not may_proceed(unit, run):
+        return unit
+    return replace(unit, orders=unit.orders | {run: replace(order, stopped=True)})
+
+
+def tells_stopped(unit: Unit, run: Run) -> bool:
+    """Tell whether the unit tells the centre that it stands in the destination of ``run`` (T9)."""
+    order = unit.orders.get(run)
+    return order is not None and order.stopped and not order.given_back

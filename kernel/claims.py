@@ -1,0 +1,53 @@
+"""How claims end: block by block, points with their blocks, each by one cause (T7, T8)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.centre import NO_LOCKS, NO_RUNS, Centre, Grant
+from kernel.layout import Layout
+from kernel.names import Block, Cause, Point, Run, Stage
+
+
+def end_claims(
+    layout: Layout,
+    centre: Centre,
+    run: Run,
+    grant: Grant,
+    blocks: frozenset[Block],
+    points: frozenset[Point],
+    stage: Stage,
+    cause: Cause,
+) -> Centre:
+    """Free ``blocks`` and ``points`` from ``run``, note why, and leave it at ``stage``."""
+    return replace(
+        centre,
+        runs=centre.runs
+        | {
+            run: replace(
+                grant,
+                stage=stage,
+                ended=grant.ended | {block: cause for block in blocks if run in centre.claimed.get(block, NO_RUNS)},
+            )
+        },
+        claimed=centre.claimed | {block: centre.claimed.get(block, NO_RUNS) - {run} for block in blocks},
+        locked=centre.locked
+        | {
+            point: {other: lies for other, lies in centre.locked.get(point, NO_LOCKS).items() if other != run}
+            for point in points
+        },
+    )
+
+
+def end_run(layout: Layout, centre: Centre, run: Run, grant: Grant, cause: Cause) -> Centre:
+    """Free everything a run of a route holds, at once."""
+    return end_claims(
+        layout,
+        centre,
+        run,
+        grant,
+        layout.claims[run.route],
+        frozenset(point for point in layout.needs[run.route]),
+        Stage.OVER,
+        cause,
+    )

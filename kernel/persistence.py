@@ -1,0 +1,52 @@
+"""Which variable survives which restart (T8, ours).
+
+``kernel/restarts.py`` is written from this table; a test holds the two together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+
+class Memory(Enum):
+    """What a restart does to a variable."""
+
+    LASTING = "kept in lasting memory"
+    COUNTED = "counted up in lasting memory"
+    LOST = "set to the safe side"
+
+
+CENTRE: Mapping[str, tuple[Memory, str]] = {
+    "epoch": (Memory.COUNTED, "epoch"),
+    "newest": (Memory.LASTING, ""),
+    "accounted": (Memory.LOST, "{}"),
+    "runs": (Memory.LOST, "{}"),
+    "claimed": (Memory.LOST, "{}"),
+    "locked": (Memory.LOST, "{}"),
+    "lost_blocks": (Memory.LOST, "layout.blocks"),
+    "lost_points": (Memory.LOST, "layout.points"),
+    "terminal_life": (Memory.LOST, "{}"),
+    "supervised": (Memory.LOST, "frozenset()"),
+    "statements": (Memory.LOST, "{}"),
+}
+"""The centre: nothing but the two counters survives; every block and point is lost."""
+
+UNIT: Mapping[str, tuple[Memory, str]] = {
+    "life": (Memory.COUNTED, "life"),
+    "answered": (Memory.LOST, "None"),
+    "standing_in": (Memory.LOST, "frozenset()"),
+    "orders": (Memory.LOST, "{}"),
+    "head_tag": (Memory.LOST, "None"),
+    "tail_read": (Memory.LOST, "None"),
+    "occupied": (Memory.LOST, "frozenset()"),
+}
+"""The on-board unit: without orders it has no authority, so it stands."""
+
+TERMINAL: Mapping[str, tuple[Memory, str]] = {
+    "life": (Memory.COUNTED, "life"),
+    "holds": (Memory.LOST, "None"),
+    "wanted": (Memory.LOST, "None"),
+    "unlocked": (Memory.LASTING, ""),
+}
+"""The point terminal: the lock is mechanical and stays as it is; the lock id is lost."""

@@ -1,0 +1,49 @@
+"""What each restart leaves.  Written by ``python -m proofs.restarts`` from ``kernel/persistence.py`` (T8)."""
+
+from __future__ import annotations
+
+from kernel.centre import Centre
+from kernel.layout import Layout
+from kernel.names import Epoch, TerminalLife, UnitLife
+from kernel.terminal import Terminal
+from kernel.unit import Unit
+
+
+def restart_centre(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
+    """Begin a new epoch: every block and point is lost, nobody is accounted for."""
+    return Centre(
+        epoch=epoch,
+        newest=centre.newest,
+        accounted={},
+        runs={},
+        claimed={},
+        locked={},
+        lost_blocks=layout.blocks,
+        lost_points=layout.points,
+        terminal_life={},
+        supervised=frozenset(),
+        statements={},
+    )
+
+
+def restart_unit(unit: Unit, life: UnitLife) -> Unit:
+    """Begin a new life: no authority, and no memory of where the train is."""
+    return Unit(
+        life=life,
+        answered=None,
+        standing_in=frozenset(),
+        orders={},
+        head_tag=None,
+        tail_read=None,
+        occupied=frozenset(),
+    )
+
+
+def restart_terminal(terminal: Terminal, life: TerminalLife) -> Terminal:
+    """Begin a new life: the lock stays as it is, the lock id is gone."""
+    return Terminal(
+        life=life,
+        holds=None,
+        wanted=None,
+        unlocked=terminal.unlocked,
+    )

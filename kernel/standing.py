@@ -1,0 +1,32 @@
+"""Where the train stands: a unit's answer to the centre's challenge (T8, ours)."""
+
+from __future__ import annotations
+
+from kernel.names import Block, Epoch, UnitLife
+from kernel.unit import NO_ORDERS, Unit
+
+
+def answer(unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], at_rest: bool, healthy: bool) -> Unit:
+    """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands.
+
+    ``blocks``: by the tags at both ends, all the blocks the train is in.
+    ``at_rest``: it stands still.  ``healthy``: the through line reaches the tail.
+    A life answers once: what it said stays true, since it cannot move before the centre has
+    taken it.
+    """
+    if not at_rest or not healthy or life <= unit.life or unit.answered == epoch:
+        return unit
+    return Unit(
+        life=life,
+        answered=epoch,
+        standing_in=blocks,
+        orders=NO_ORDERS,
+        head_tag=None,
+        tail_read=None,
+        occupied=blocks,
+    )
+
+
+def tells_standing(unit: Unit, epoch: Epoch) -> bool:
+    """Tell whether the unit sends what it answered in ``epoch`` (T8)."""
+    return unit.answered == epoch

@@ -1,0 +1,62 @@
+"""Supervised release: two persons on the spot account for a train whose unit cannot (T8, ours).
+
+The first isolates the unit, which begins a new life that no authority reaches, and states
+where the train stands; the second looks for himself and confirms.  Only then, and only while
+the signaller keeps the procedure open, is the statement taken for the train's own word.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.centre import Centre, Statement
+from kernel.layout import Layout
+from kernel.names import Block, Cause, Epoch, Run, Train, UnitLife
+from kernel.recovery import account_for, standing_refusal
+from kernel.refusal import Refusal
+
+
+def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:
+    """Open the supervised procedure for a train; what was stated before counts no more."""
+    if train not in layout.fleet:
+        return centre
+    return replace(
+        centre,
+        supervised=centre.supervised | {train},
+        statements={other: said for other, said in centre.statements.items() if other != train},
+    )
+
+
+def note_statement(
+    centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
+) -> Centre:
+    """Note what the first person states: the life the isolated unit shows, and where the train stands."""
+    if train not in centre.supervised or epoch != centre.epoch:
+        return centre
+    return replace(centre, statements=centre.statements | {train: Statement(life=life, blocks=blocks)})
+
+
+def supervised_refusal(
+    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
+) -> Refusal | None:
+    """Say why the second person's confirmation does not account for the train."""
+    if train not in centre.supervised:
+        return Refusal.PROCEDURE_NOT_OPEN
+    said = centre.statements.get(train)
+    if said is None or said.life != life:
+        return Refusal.NO_STATEMENT
+    return standing_refusal(layout, centre, train, life, epoch, run)
+
+
+def note_statement_confirmed(
+    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
+) -> Centre:
+    """Account for the train as stated: the second person has confirmed it; the procedure closes."""
+    said = centre.statements.get(train)
+    if said is None or supervised_refusal(layout, centre, train, life, epoch, run) is not None:
+        return centre
+    return replace(
+        account_for(layout, centre, said.blocks, run, Cause.SUPERVISED),
+        supervised=centre.supervised - {train},
+        statements={other: words for other, words in centre.statements.items() if other != train},
+    )

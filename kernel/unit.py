@@ -1,0 +1,63 @@
+"""What an on-board unit remembers (車上装置); its machines are in the files beside this one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from kernel.names import Block, Epoch, Read, Run, Tag, UnitLife
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """The two reads of the tail antenna that prove it has left a block, in their order (T2, T6)."""
+
+    left: Read
+    entered: Read
+
+
+@dataclass(frozen=True)
+class Order:
+    """A run as the train knows it (T4, T5).
+
+    ``permitted``: the route-complete message has come.
+    ``given_back``: acknowledged as cancelled; never to be entered again (T9).
+    ``loop_closed``: second loop; every tag so far was the expected one, in its window (T5).
+    ``begun``: the head has read both tags at the end of the start block.
+    ``stopped``: the train has told that it stands in the destination (T9).
+    ``expected``: the tag that the head must read next; none after the last (T5).
+    ``left``: blocks the tail has left during this run, with what it read (T2, T6).
+    """
+
+    permitted: bool
+    given_back: bool
+    loop_closed: bool
+    begun: bool
+    stopped: bool
+    expected: Tag | None
+    left: Mapping[Block, Evidence]
+
+
+NO_ORDERS: Mapping[Run, Order] = {}
+NO_EVIDENCE: Mapping[Block, Evidence] = {}
+
+
+@dataclass(frozen=True)
+class Unit:
+    """All that a unit decides from; only ``life`` survives its restart (T8).
+
+    ``answered``: the epoch of the centre whose challenge this life has answered.
+    ``standing_in``: what it answered, the blocks it stood in.
+    ``orders``: the runs told to this life.
+    ``head_tag``: the tag the head read last (T5).
+    ``tail_read``: what the tail read last, while the through line was healthy (T2).
+    ``occupied``: the blocks the train is in, by its own tags (T2).
+    """
+
+    life: UnitLife
+    answered: Epoch | None
+    standing_in: frozenset[Block]
+    orders: Mapping[Run, Order]
+    head_tag: Tag | None
+    tail_read: Read | None
+    occupied: frozenset[Block]
