@@ -1,0 +1,249 @@
+"""An axiom, read as a search for every way in which it fails.
+
+The same source that is proved against is compiled here: ``all(body for … if …)`` becomes a loop,
+a conjunction is searched part by part, and each part that does not hold is reported with the loop
+variables that make it fail.  A look-up of something absent is a failure of its own.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from types import CodeType, ModuleType
+from typing import Any
+
+from kernel.layout import Layout
+from models.ground import Ground
+
+Axiom = Callable[[Layout, Ground], bool]
+Bindings = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of an axiom that cannot be taken further apart, and the loops it stands in.
+
+    ``terms``: its look-ups, innermost first, each compiled.  ``binders``: loop variable to the
+    expression it runs over.
+    """
+
+    source: str
+    terms: tuple[tuple[str, CodeType], ...]
+    binders: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A part of an axiom that fails; ``missing`` when something it looks up is absent."""
+
+    part: Part
+    bindings: Bindings
+    missing: bool
+
+
+@dataclass(frozen=True)
+class CompiledAxiom:
+    """An axiom with its first sentence, its parts, and the search for its failures."""
+
+    name: str
+    sentence: str
+    parts: tuple[Part, ...]
+    search: Callable[[Layout, Ground, list[int]], Iterator[tuple[int, Bindings, bool]]]
+
+    def failures(self, layout: Layout, ground: Ground) -> tuple[list[Failure], int]:
+        """Every failure in a layout, and how many instances were looked at."""
+        looked_at = [0]
+        found = [
+            Failure(self.parts[part], bindings, missing)
+            for part, bindings, missing in self.search(layout, ground, looked_at)
+        ]
+        return found, looked_at[0]
+
+
+def axioms_of(module: ModuleType) -> list[Axiom]:
+    """The axioms of a module in the order they are written: public functions of a layout and its ground."""
+    return [
+        function
+        for name, function in vars(module).items()
+        if inspect.isfunction(function)
+        and function.__module__ == module.__name__
+        and not name.startswith("_")
+        and list(inspect.signature(function).parameters) == ["layout", "ground"]
+    ]
+
+
+def compile_axiom(axiom: Axiom) -> CompiledAxiom:
+    """Compile an axiom's search; whatever is not of the known form is one part that holds or not."""
+    source = textwrap.dedent(inspect.getsource(axiom))
+    function = ast.parse(source).body[0]
+    assert isinstance(function, ast.FunctionDef)
+    body = [statement for statement in function.body if not _is_docstring(statement)]
+    writer = _Writer()
+    known_form = isinstance(body[-1], ast.Return) and all(_is_simple_assignment(s) for s in body[:-1])
+    if known_form:
+        assert isinstance(body[-1], ast.Return)
+        assert body[-1].value is not None
+        for statement in body[:-1]:
+            writer.line(ast.unparse(statement))
+        writer.search(body[-1].value)
+    else:
+        writer.search(ast.parse(f"{function.name}(layout, ground)", mode="eval").body)
+    namespace = dict(vars(inspect.getmodule(axiom)))
+    exec(compile(writer.text(), f"<search for {function.name}>", "exec"), namespace)
+    sentence = (inspect.getdoc(axiom) or function.name.replace("_", " ")).splitlines()[0]
+    return CompiledAxiom(function.name, sentence, tuple(writer.parts), namespace["search"])
+
+
+def _is_docstring(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+
+
+def _is_simple_assignment(statement: ast.stmt) -> bool:
+    if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
+        return False
+    return isinstance(statement.targets[0], ast.Name)
+
+
+class _Writer:
+    """Writes the source of a generator of failures, one construct at a time."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+        self.parts: list[Part] = []
+        self.binders: dict[str, str] = {}
+        self.depth = 1
+        self.names = 0
+
+    def text(self) -> str:
+        """The whole generator; it yields part number, bindings, and whether a look-up failed."""
+        head = "def search(layout, ground, looked_at):\n"
+        return head + "\n".join(["    if False: yield", *self.lines]) + "\n"
+
+    def line(self, text: str) -> None:
+        self.lines += ["    " * self.depth + line for line in text.splitlines()]
+
+    def fresh(self, stem: str) -> str:
+        self.names += 1
+        return f"_{stem}{self.names}"
+
+    def search(self, node: ast.expr, failed: str | None = None) -> None:
+        """Search an expression; ``failed`` counts the failures of the conjunction it is a part of."""
+        if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And):
+            counter = failed or self.counter()
+            for value in node.values:
+                self.search(value, counter)
+        elif isinstance(node, ast.BoolOp) and isinstance(node.values[-1], ast.BoolOp):
+            guard = ast.BoolOp(ast.Or(), node.values[:-1]) if len(node.values) > 2 else node.values[0]
+            self.unless(guard, node, failed)
+        elif isinstance(node, ast.IfExp):
+            self.branch(node, failed)
+        elif _is_all(node):
+            assert isinstance(node, ast.Call)
+            assert isinstance(node.args[0], ast.GeneratorExp)
+            self.loop(node.args[0], failed)
+        else:
+            self.leaf(node, failed)
+
+    def counter(self) -> str:
+        name = self.fresh("failed")
+        self.line(f"{name} = 0")
+        return name
+
+    def unless(self, guard: ast.expr, node: ast.BoolOp, failed: str | None) -> None:
+        """A disjunction whose last member is a conjunction: that one is searched where no other holds."""
+        flag = self.fresh("open")
+        self.line(f"{flag} = False")
+        self.attempt(f"{flag} = not ({ast.unparse(guard)})", guard, failed)
+        self.line(f"if {flag}:")
+        self.inside(lambda: self.search(node.values[-1], failed))
+
+    def branch(self, node: ast.IfExp, failed: str | None) -> None:
+        """``a if c else b``: search the branch that counts."""
+        flag = self.fresh("side")
+        self.line(f"{flag} = None")
+        self.attempt(f"{flag} = bool({ast.unparse(node.test)})", node.test, failed)
+        self.line(f"if {flag} is True:")
+        self.inside(lambda: self.search(node.body, failed))
+        self.line(f"if {flag} is False:")
+        self.inside(lambda: self.search(node.orelse, failed))
+
+    def loop(self, generator: ast.GeneratorExp, failed: str | None) -> None:
+        """``all(… for … if …)``: nested loops."""
+        outer, binders, conjunction = self.depth, dict(self.binders), failed
+        for clause in generator.generators:
+            items, source = self.fresh("items"), ast.unparse(clause.iter)
+            self.line(f"{items} = ()")
+            self.attempt(f"{items} = {source}", clause.iter, conjunction)
+            self.line(f"for {ast.unparse(clause.target)} in {items}:")
+            self.depth += 1
+            for name in ast.walk(clause.target):
+                if isinstance(name, ast.Name):
+                    self.binders[name.id] = source
+            for condition in clause.ifs:
+                flag = self.fresh("meant")
+                self.line(f"{flag} = False")
+                self.attempt(f"{flag} = {ast.unparse(condition)}", condition, conjunction)
+                self.line(f"if not {flag}: continue")
+        self.line("looked_at[0] += 1")
+        self.search(generator.elt)
+        self.depth, self.binders = outer, binders
+
+    def inside(self, write: Callable[[], None]) -> None:
+        self.depth += 1
+        write()
+        self.depth -= 1
+
+    def attempt(self, statement: str, node: ast.expr, failed: str | None) -> None:
+        """A statement whose look-ups may find nothing; that is a failure unless a part before failed."""
+        self.line(f"try:\n    {statement}\nexcept LookupError:")
+        self.inside(lambda: self.report(node, True, failed))
+
+    def leaf(self, node: ast.expr, failed: str | None) -> None:
+        """A part that is not taken further apart."""
+        flag = self.fresh("holds")
+        self.line(f"{flag} = True")
+        self.attempt(f"{flag} = {ast.unparse(node)}", node, failed)
+        self.line(f"if not {flag}:")
+        self.inside(lambda: self.report(node, False, failed))
+
+    def report(self, node: ast.expr, missing: bool, failed: str | None) -> None:
+        """Yield a failure with the loop variables that stand; an absent look-up only if it is the first."""
+        bound = ", ".join(f"{name!r}: {name}" for name in self.binders)
+        self.parts.append(Part(ast.unparse(node), _terms(node), dict(self.binders)))
+        indent = ""
+        if missing and failed:
+            self.line(f"if not {failed}:")
+            indent = "    "
+        self.line(f"{indent}yield {len(self.parts) - 1}, {{{bound}}}, {missing}")
+        if failed:
+            self.line(f"{failed} += 1")
+
+
+def _is_all(node: ast.expr) -> bool:
+    return (
+        isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Name)
+        and node.func.id == "all"
+        and len(node.args) == 1
+        and isinstance(node.args[0], ast.GeneratorExp)
+    )
+
+
+def _terms(node: ast.expr) -> tuple[tuple[str, CodeType], ...]:
+    """The look-ups in an expression, innermost first, outside of inner loops."""
+    found: dict[str, CodeType] = {}
+
+    def visit(inner: ast.AST) -> None:
+        if isinstance(inner, ast.GeneratorExp | ast.SetComp | ast.ListComp | ast.DictComp | ast.Lambda):
+            return
+        for child in ast.iter_child_nodes(inner):
+            visit(child)
+        if isinstance(inner, ast.Subscript):
+            text = ast.unparse(inner)
+            found.setdefault(text, compile(text, "<term>", "eval"))
+
+    visit(node)
+    return tuple(found.items())

@@ -1,0 +1,193 @@
+"""Blocks: the connected pieces of track that detectors cut (T2), and where movements in one lead.
+
+All track of a piece, with all its points, is one block.  Every question here is asked of one
+block at a time, so its cost is that of the block and not of the network.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from kernel.names import Block, Point, Position
+from models.layouts.track import HIGH, LOW, Cut, Heading, Joint, Segments, Stop
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """The blocks of a station.
+
+    ``of``: the block of every segment.  ``ends``: for a block, the headings out of it, at
+    detectors and at ends of track.  ``bounds``: the marks that bound it.  ``points_in``: its points.
+    """
+
+    segments: Segments
+    of: Sequence[Block]
+    pieces: Mapping[Block, tuple[int, ...]]
+    ends: Mapping[Block, tuple[Heading, ...]]
+    bounds: Mapping[Block, tuple[str, ...]]
+    points_in: Mapping[Block, frozenset[Point]]
+
+    @cached_property
+    def stands_in(self) -> Mapping[Point, Block]:
+        """The block of each point."""
+        return {point: block for block, points in self.points_in.items() for point in points}
+
+    def beyond(self, heading: Heading) -> Block | None:
+        """The block behind the detector that this heading runs to; none at the end of track."""
+        end = self.segments.at[heading]
+        return self.of[end.beyond[0]] if isinstance(end, Cut) else None
+
+
+def find_blocks(segments: Segments, given: Mapping[int, str]) -> Blocks:
+    """Join segments over junctions into blocks; ``given`` names the block of a segment.
+
+    A crossing joins both of its tracks: they share the place where they cross.
+    """
+    root = list(range(len(segments.segments)))
+
+    def find(index: int) -> int:
+        while root[index] != index:
+            root[index] = root[root[index]]
+            index = root[index]
+        return index
+
+    for junction in segments.station.junctions.values():
+        first, *others = (segments.leaving[end][0] for end in junction.ports.values())
+        for other in others:
+            root[find(first)] = find(other)
+    pieces: dict[int, list[int]] = {}
+    for index in range(len(root)):
+        pieces.setdefault(find(index), []).append(index)
+    return _named(segments, [tuple(piece) for piece in pieces.values()], given)
+
+
+def _named(segments: Segments, pieces: list[tuple[int, ...]], given: Mapping[int, str]) -> Blocks:
+    """Name each piece and collect what is in it."""
+    of: list[Block] = [Block("")] * len(segments.segments)
+    named: dict[Block, tuple[int, ...]] = {}
+    ends: dict[Block, tuple[Heading, ...]] = {}
+    bounds: dict[Block, tuple[str, ...]] = {}
+    points: dict[Block, frozenset[Point]] = {}
+    for piece in pieces:
+        out = tuple(
+            heading for index in piece for heading in ((index, LOW), (index, HIGH)) if not _joins(segments, heading)
+        )
+        marks = sorted({mark for heading in out if (mark := _mark_at(segments, heading)) is not None})
+        wanted = next((given[index] for index in piece if index in given), None)
+        block = _fresh(wanted or "B:" + "+".join(marks or [segments.segments[piece[0]].track]), named)
+        named[block], ends[block], bounds[block] = piece, out, tuple(marks)
+        for index in piece:
+            of[index] = block
+        joints = (segments.at[index, side] for index in piece for side in (LOW, HIGH))
+        points[block] = frozenset(
+            Point(end.junction)
+            for end in joints
+            if isinstance(end, Joint) and segments.station.junctions[end.junction].is_point
+        )
+    return Blocks(segments, of, named, ends, bounds, points)
+
+
+def _joins(segments: Segments, heading: Heading) -> bool:
+    return isinstance(segments.at[heading], Joint)
+
+
+def _mark_at(segments: Segments, heading: Heading) -> str | None:
+    end = segments.at[heading]
+    return end.mark if isinstance(end, Cut | Stop) else None
+
+
+def _fresh(name: str, taken: Mapping[Block, object]) -> Block:
+    """The name, with ``#2``, ``#3`` … behind it where it is taken."""
+    candidate, count = Block(name), 1
+    while candidate in taken:
+        count += 1
+        candidate = Block(f"{name}#{count}")
+    return candidate
+
+
+Facing = tuple[str, str, str]
+"""A point met facing: the junction, the port arrived at, the port taken."""
+
+
+def opposite(heading: Heading) -> Heading:
+    """The same segment, the other way."""
+    return heading[0], 1 - heading[1]
+
+
+def walk(segments: Segments, starts: Iterable[Heading], barred: tuple[str, Position] | None = None) -> set[Heading]:
+    """Every heading met by a movement inside one block from these on, over all positions of points.
+
+    ``barred`` forbids to pass that point facing where only that position leads the way taken.
+    """
+    met: set[Heading] = set()
+    todo = list(starts)
+    while todo:
+        heading = todo.pop()
+        if heading in met:
+            continue
+        met.add(heading)
+        end = segments.at[heading]
+        if isinstance(end, Joint):
+            ways = list(segments.onward(end))
+            for _, positions, onward in ways:
+                if barred is None or len(ways) < 2 or (end.junction, positions) != (barred[0], (barred[1],)):
+                    todo.append(onward)
+    return met
+
+
+def exits(blocks: Blocks, starts: Iterable[Heading]) -> set[Block]:
+    """The blocks that movements from these headings are led to over all positions of points."""
+    led = (blocks.beyond(heading) for heading in walk(blocks.segments, starts))
+    return {block for block in led if block is not None}
+
+
+def inward(blocks: Blocks, block: Block) -> list[Heading]:
+    """The headings into a block from each of its ends."""
+    return [opposite(heading) for heading in blocks.ends[block]]
+
+
+def demanded(blocks: Blocks, block: Block, starts: Sequence[Heading], goals: set[Heading]) -> dict[Point, Position]:
+    """The facing positions common to all movements in a block from ``starts`` to ``goals``.
+
+    A position is common when no movement gets there without it.
+    """
+    found: dict[Point, Position] = {}
+    if not goals & walk(blocks.segments, starts):
+        return found
+    for point in sorted(blocks.points_in[block]):
+        for position in sorted(blocks.segments.station.junctions[point].kind.positions):
+            if not goals & walk(blocks.segments, starts, (point, Position(position))):
+                found[point] = Position(position)
+    return found
+
+
+def towards(segments: Segments, starts: Sequence[Heading], goal: Heading) -> dict[Facing, tuple[str, ...]]:
+    """The facing choices, with the positions that allow each, of all movements that reach ``goal``.
+
+    Only points at which some other way on exists are listed.
+    """
+    met = walk(segments, starts)
+    before: dict[Heading, list[Heading]] = {}
+    for heading in met:
+        end = segments.at[heading]
+        if isinstance(end, Joint):
+            for _, _, onward in segments.onward(end):
+                before.setdefault(onward, []).append(heading)
+    reaching: set[Heading] = set()
+    todo = [goal] if goal in met else []
+    while todo:
+        heading = todo.pop()
+        if heading not in reaching:
+            reaching.add(heading)
+            todo += before.get(heading, [])
+    found: dict[Facing, tuple[str, ...]] = {}
+    for heading in sorted(reaching):
+        end = segments.at[heading]
+        if heading != goal and isinstance(end, Joint):
+            ways = list(segments.onward(end))
+            for port, positions, onward in ways:
+                if len(ways) > 1 and onward in reaching:
+                    found[end.junction, end.port, port] = positions
+    return found

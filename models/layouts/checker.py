@@ -1,0 +1,89 @@
+"""``heisoku check``: hold a layout against every axiom and tell all that is wrong with it.
+
+The work is near-linear in the size of the layout: each axiom is searched once, and nothing is
+looked up that the axiom does not name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from types import ModuleType
+from typing import Any
+
+import models.axioms
+from models.layouts.axiom_code import CompiledAxiom, Failure, axioms_of, compile_axiom
+from models.layouts.results import CheckResult, Imported, Verdict, Violation
+from models.layouts.sorts import Sorts
+
+
+@cache
+def compiled_axioms(module: ModuleType = models.axioms) -> tuple[CompiledAxiom, ...]:
+    """The axioms of a module, each ready to be searched."""
+    return tuple(compile_axiom(axiom) for axiom in axioms_of(module))
+
+
+def check(imported: Imported, axioms: Sequence[CompiledAxiom] | None = None) -> CheckResult:
+    """The verdict on a layout, with every violation of every axiom and those found at import."""
+    violations = list(imported.violations)
+    checked: dict[str, int] = {}
+    for axiom in compiled_axioms() if axioms is None else axioms:
+        failures, checked[axiom.name] = axiom.failures(imported.layout, imported.ground)
+        violations += sorted((explain(imported, axiom, failure) for failure in failures), key=lambda v: v.text)
+    unique = tuple(dict.fromkeys(violations))
+    verdict: Verdict = "does not hold" if unique else "holds"
+    return CheckResult(imported.name, verdict, unique, imported.remarks, checked)
+
+
+def explain(imported: Imported, axiom: CompiledAxiom, failure: Failure) -> Violation:
+    """A failure as a sentence, with the elements of the input file that take part in it."""
+    sorts = Sorts(imported)
+    elements: list[str] = []
+    said: list[str] = []
+    for name, value in failure.bindings.items():
+        sort = sorts.of_variable(name, failure.part.binders)
+        elements += sorts.elements(sort, value)
+        said.append(f"{_words(name)} '{value}'")
+    known: dict[str, Any] = {"layout": imported.layout, "ground": imported.ground, **failure.bindings}
+    absent = None
+    for text, code in failure.part.terms:
+        try:
+            value = eval(code, {}, known)
+        except LookupError:
+            absent = text
+            break
+        if isinstance(value, str):
+            elements += sorts.elements(sorts.of_expression(text, failure.part.binders), value)
+            said.append(f"{text} = '{value}'")
+    fault = f"{absent} is missing" if failure.missing and absent else f"'{failure.part.source}' fails"
+    where = ", ".join(said) or "the layout"
+    text = f"{axiom.sentence} Not so for {where}: {fault}."
+    return Violation(axiom.name, tuple(dict.fromkeys(elements)), text)
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def as_json(imported: Imported, result: CheckResult) -> dict[str, object]:
+    """The result as plain data, for ``--json``."""
+    layout = imported.layout
+    return {
+        "layout": result.name,
+        "format": imported.kind,
+        "verdict": result.verdict,
+        "exit_code": result.exit_code,
+        "counts": {
+            "blocks": len(layout.blocks),
+            "routes": len(layout.routes),
+            "points": len(layout.points),
+            "tags": len(layout.tag_in),
+        },
+        "checked": dict(result.checked),
+        "violations": [_plain(v.elements, v.text) | {"axiom": v.axiom} for v in result.violations],
+        "remarks": [_plain(remark.elements, remark.text) for remark in result.remarks],
+    }
+
+
+def _plain(elements: Sequence[str], text: str) -> dict[str, object]:
+    return {"elements": list(elements), "text": text}

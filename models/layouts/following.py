@@ -1,0 +1,166 @@
+"""Following a route along the track: from its entry, in a direction, over points, to its exit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from kernel.names import Block, Point, Position
+from models.layouts.blocks import Blocks, opposite
+from models.layouts.findings import Findings
+from models.layouts.results import BadInput
+from models.layouts.track import Cut, Heading, Joint, Stop
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A route as a file states it.
+
+    ``side``: the side of the entry mark that the route runs to (``LOW`` or ``HIGH``).
+    ``positions``: for each point, the position it must lie in.  ``release``: the detectors up to
+    which it is released in parts.  ``overlap``: the mark at which the overlap ends.  ``flank``:
+    points held off the path, with their positions.
+    """
+
+    name: str
+    place: str
+    entry: str
+    side: int
+    exit: str
+    positions: Mapping[str, str]
+    release: tuple[str, ...] = ()
+    overlap: str | None = None
+    flank: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass
+class Path:
+    """A route as followed.
+
+    ``crossed``: the detectors passed, each with the block before and behind it and the heading
+    behind it, from the entry to the last before the exit; ``beyond`` the same for the overlap, from
+    the exit on.  ``points``: for each block, the points passed in it and their positions.
+    """
+
+    wanted: Wanted
+    blocks: list[Block]
+    crossed: list[tuple[str, Heading]] = field(default_factory=list)
+    beyond: list[tuple[str, Heading]] = field(default_factory=list)
+    overlap: list[Block] = field(default_factory=list)
+    points: dict[Block, dict[Point, Position]] = field(default_factory=dict)
+    junctions: set[str] = field(default_factory=set)
+    entered: Heading = (0, 0)
+    from_stop: bool = False
+
+
+class Follower:
+    """Follows the routes of one file and collects what is wrong with them."""
+
+    def __init__(self, blocks: Blocks, file: str, findings: Findings) -> None:
+        self.blocks = blocks
+        self.file = file
+        self.findings = findings
+
+    def follow(self, wanted: Wanted) -> Path | None:
+        """The path of a route; none, with a violation noted, where its point positions are wrong.
+
+        :raises BadInput: the route runs in a circle or never reaches its exit.
+        """
+        away = self.blocks.segments.beside[wanted.entry]
+        if wanted.side not in away:
+            what = f"route '{wanted.name}' leaves the track at its entry '{wanted.entry}'"
+            raise BadInput(self.file, wanted.place, what, "turn the direction of the route round")
+        heading = away[wanted.side]
+        path = Path(wanted, [self.blocks.of[heading[0]]], entered=heading)
+        behind = self.blocks.segments.at[opposite(heading)]
+        path.from_stop = isinstance(behind, Stop)
+        if isinstance(behind, Cut):
+            path.crossed.append((wanted.entry, heading))
+            path.blocks.insert(0, self.blocks.of[behind.beyond[0]])
+        last = self._run(path, heading, wanted.exit, path.blocks, path.crossed)
+        if last is None:
+            return None
+        if wanted.overlap is not None and not self._run_overlap(path, last):
+            return None
+        return path
+
+    def _run_overlap(self, path: Path, last: Heading) -> bool:
+        """Follow on behind the exit to the end of the overlap."""
+        end = self.blocks.segments.at[last]
+        if not isinstance(end, Cut):
+            what = f"route '{path.wanted.name}' has an overlap but ends at buffer stop '{path.wanted.exit}'"
+            raise BadInput(self.file, path.wanted.place, what, "take the overlap away")
+        path.beyond.append((path.wanted.exit, end.beyond))
+        path.overlap.append(self.blocks.of[end.beyond[0]])
+        return self._run(path, end.beyond, str(path.wanted.overlap), path.overlap, path.beyond) is not None
+
+    def _run(
+        self, path: Path, heading: Heading, goal: str, into: list[Block], crossed: list[tuple[str, Heading]]
+    ) -> Heading | None:
+        """Run on to ``goal``, noting blocks and detectors; the heading at it, or none after a violation."""
+        seen: set[int] = set()
+        while True:
+            if heading[0] in seen:
+                track = self.blocks.segments.segments[heading[0]].track
+                self._lost(path, goal, f"it runs in a loop and comes to track '{track}' twice")
+            seen.add(heading[0])
+            end = self.blocks.segments.at[heading]
+            if isinstance(end, Joint):
+                onward = self._over(path, end, into[-1])
+                if onward is None:
+                    return None
+                heading = onward
+                continue
+            if end.mark == goal:
+                return heading
+            if isinstance(end, Stop):
+                where = f"at '{end.mark}'" if end.mark else "where track ends"
+                track = self.blocks.segments.segments[heading[0]].track
+                self._lost(path, goal, f"it ends {where} on track '{track}'")
+            assert isinstance(end, Cut)
+            heading = end.beyond
+            crossed.append((end.mark, heading))
+            into.append(self.blocks.of[heading[0]])
+
+    def _lost(self, path: Path, goal: str, why: str) -> None:
+        """The exit is never reached: the file contradicts itself."""
+        passed = self._passed(path)
+        over = f" over {self.findings.point_word} {passed}" if passed else ""
+        what = f"route '{path.wanted.name}'{over} never reaches '{goal}': {why}"
+        raise BadInput(self.file, path.wanted.place, what, "correct its point positions, direction or exit")
+
+    def _over(self, path: Path, joint: Joint, block: Block) -> Heading | None:
+        """The heading behind a junction, by the position the route gives for it."""
+        junction = self.blocks.segments.station.junctions[joint.junction]
+        position = path.wanted.positions.get(joint.junction)
+        ways = list(self.blocks.segments.onward(joint))
+        path.junctions.add(joint.junction)
+        if position is None and junction.is_point:
+            self._wrong(path, joint.junction, "passes it but gives no position for it")
+            return None
+        if position is not None and position not in junction.kind.positions:
+            known = ", ".join(sorted(junction.kind.positions))
+            self._wrong(path, joint.junction, f"wants it in '{position}', which it has not (it has {known})")
+            return None
+        led = [onward for _, positions, onward in ways if position is None or position in positions]
+        if not led:
+            self._wrong(path, joint.junction, f"arrives at its port {joint.port}, closed by '{position}'")
+            return None
+        assert len(led) == 1, "a position joins a port to one other"
+        if junction.is_point:
+            assert position is not None
+            self._pass(path, Point(joint.junction), Position(position), block)
+        return led[0]
+
+    def _pass(self, path: Path, point: Point, position: Position, block: Block) -> None:
+        path.points.setdefault(block, {})[point] = position
+
+    def _wrong(self, path: Path, junction: str, text: str) -> None:
+        name = path.wanted.name
+        before = [point for points in path.points.values() for point in points]
+        over = f", having passed {self._passed(path)}" if before else ""
+        full = f"{self.findings.point_word} '{junction}': route '{name}' {text}{over}"
+        self.findings.violation("a route is led over its points", (name, junction, *before), full)
+
+    def _passed(self, path: Path) -> str:
+        return ", ".join(f"'{p}' {position}" for points in path.points.values() for p, position in points.items())

@@ -1,0 +1,219 @@
+"""The native layout format: TOML written by hand; ``layouts/README.md`` describes it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from kernel.names import Block
+from models.layouts.assemble import Told, assemble
+from models.layouts.blocks import Blocks, find_blocks
+from models.layouts.findings import Findings
+from models.layouts.following import Follower, Wanted
+from models.layouts.native_schema import VALIDATOR
+from models.layouts.reading import identifier, validate
+from models.layouts.results import BadInput, Imported
+from models.layouts.track import HIGH, LOW, Junction, Kind, Mark, Segments, Station, cut_into_segments
+
+SLIP_LEGS = ("a1", "b1", "a2", "b2")
+KINDS: Mapping[str, Kind] = {
+    "turnout": Kind(("tip", "normal", "reverse"), {"normal": (("tip", "normal"),), "reverse": (("tip", "reverse"),)}),
+    "crossing": Kind(SLIP_LEGS, {"fixed": (("a1", "b1"), ("a2", "b2"))}),
+    "single slip": Kind(SLIP_LEGS, {"straight": (("a1", "b1"), ("a2", "b2")), "a1-b2": (("a1", "b2"),)}),
+    "double slip": Kind(
+        SLIP_LEGS,
+        {f"{a}-{b}": ((a, b),) for a in ("a1", "a2") for b in ("b1", "b2")},
+    ),
+}
+LEGS = frozenset(leg for kind in KINDS.values() for leg in kind.ports)
+DIRECTIONS = {"backward": LOW, "forward": HIGH}
+
+
+def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
+    """The layout in native data; its own fleet goes before ``trains``.
+
+    :raises BadInput: the data is no layout, refers to what is not there, or has no routes.
+    """
+    validate(file, data, VALIDATOR)
+    reader = NativeReader(file, data)
+    station = reader.station()
+    segments = cut_into_segments(station)
+    blocks = find_blocks(segments, reader.block_names(segments))
+    findings = Findings("point")
+    follower = Follower(blocks, file, findings)
+    paths = [path for wanted in reader.routes(station) if (path := follower.follow(wanted)) is not None]
+    fouls = reader.fouling(blocks)
+    told = Told(file, "native", tuple(data.get("trains", trains)), fouls, reader.held(blocks))
+    return assemble(blocks, paths, told, findings)
+
+
+class NativeReader:
+    """Turns validated native data into a station and its routes, resolving every reference."""
+
+    def __init__(self, file: str, data: Mapping[str, Any]) -> None:
+        self.file = file
+        self.data = data
+
+    def bad(self, place: str, what: str, what_to_do: str) -> BadInput:
+        """The error for this file."""
+        return BadInput(self.file, place, what, what_to_do)
+
+    def station(self) -> Station:
+        """Track, points, boundaries and ends of track."""
+        tracks = {self._name("tracks", name): track["length_mm"] for name, track in self.data["tracks"].items()}
+        points = self.data.get("points", {})
+        kinds = {self._name("points", name): KINDS[p.get("kind", "turnout")] for name, p in points.items()}
+        nodes: dict[str, list[tuple[str, int]]] = {}
+        for name, track in self.data["tracks"].items():
+            nodes.setdefault(track["from"], []).append((name, LOW))
+            nodes.setdefault(track["to"], []).append((name, HIGH))
+        legs: dict[str, dict[str, tuple[str, int]]] = {point: {} for point in kinds}
+        junctions: dict[str, Junction] = {}
+        marks = self._boundaries()
+        for node, ends in nodes.items():
+            point, _, leg = node.rpartition(".")
+            if point in kinds:
+                legs[point][leg] = self._leg(point, leg, kinds[point], ends)
+            elif leg in LEGS:
+                raise self.bad(f"tracks.{ends[0][0]}", f"there is no point '{point}'", "add it under points")
+            else:
+                self._plain_node(node, ends, tracks, junctions, marks)
+        for point, kind in kinds.items():
+            for leg in kind.ports:
+                if leg not in legs[point]:
+                    what = f"leg '{leg}' meets no track"
+                    raise self.bad(f"points.{point}", what, f"let a track begin or end at '{point}.{leg}'")
+            junctions[point] = Junction(point, kind, legs[point])
+        return Station(tracks, junctions, marks)
+
+    def _name(self, table: str, name: str) -> str:
+        return identifier(self.file, f"{table}.{name}", name)
+
+    def _leg(self, point: str, leg: str, kind: Kind, ends: list[tuple[str, int]]) -> tuple[str, int]:
+        """The one track end at a point's leg."""
+        if leg not in kind.ports:
+            raise self.bad(f"points.{point}", f"has no leg '{leg}'", f"its legs are {', '.join(kind.ports)}")
+        if len(ends) > 1:
+            met = " and ".join(f"'{track}'" for track, _ in ends)
+            raise self.bad(f"points.{point}", f"leg '{leg}' meets tracks {met}", "let one track end there")
+        return ends[0]
+
+    def _plain_node(
+        self,
+        node: str,
+        ends: list[tuple[str, int]],
+        tracks: Mapping[str, int],
+        junctions: dict[str, Junction],
+        marks: dict[str, Mark],
+    ) -> None:
+        """A node that is no leg: where two tracks meet it is a joint, where one ends it is an end of track."""
+        place = f"tracks.{ends[0][0]}"
+        if len(ends) > 2:
+            met = ", ".join(f"'{track}'" for track, _ in ends)
+            raise self.bad(place, f"node '{node}' joins {len(ends)} ends of track ({met})", "use a point to join three")
+        if len(ends) == 2:
+            joint = Kind(("a", "b"), {"fixed": (("a", "b"),)})
+            junctions[f"joint {node}"] = Junction(f"joint {node}", joint, {"a": ends[0], "b": ends[1]})
+            return
+        (track, side) = ends[0]
+        name = self._name("tracks", node)
+        if name in marks:
+            raise self.bad(place, f"end of track '{node}' has the name of a boundary", "rename one of the two")
+        marks[name] = Mark(name, track, tracks[track] if side == HIGH else 0, cuts=False)
+
+    def _boundaries(self) -> dict[str, Mark]:
+        """The boundaries on all tracks."""
+        marks: dict[str, Mark] = {}
+        for track, entries in self.data["tracks"].items():
+            taken: dict[int, str] = {}
+            for name, at_mm in entries.get("boundaries", {}).items():
+                place = f"tracks.{track}.boundaries.{name}"
+                identifier(self.file, place, name)
+                if name in marks:
+                    raise self.bad(place, f"boundary '{name}' is also on track '{marks[name].track}'", "rename one")
+                if not 0 < at_mm < entries["length_mm"]:
+                    what = f"{at_mm} mm is not within the track (0 to {entries['length_mm']} mm, ends excluded)"
+                    raise self.bad(place, what, "move the boundary")
+                if at_mm in taken:
+                    raise self.bad(place, f"lies at the same place as '{taken[at_mm]}'", "move one of the two")
+                taken[at_mm] = name
+                marks[name] = Mark(name, track, at_mm, cuts=True)
+        return marks
+
+    def block_names(self, segments: Segments) -> dict[int, str]:
+        """The names given to blocks, by a segment of each."""
+        given: dict[int, str] = {}
+        for name, place in self.data.get("blocks", {}).items():
+            self._name("blocks", name)
+            self._known(f"blocks.{name}", "track", place["track"], segments.station.tracks)
+            first, last = segments.leaving[place["track"], LOW][0], segments.leaving[place["track"], HIGH][0]
+            inside = [
+                index
+                for index in range(first, last + 1)
+                if segments.segments[index].from_mm <= place["at_mm"] <= segments.segments[index].to_mm
+            ]
+            if len(inside) != 1:
+                where = "is at a boundary" if inside else "is beyond the end of the track"
+                raise self.bad(f"blocks.{name}", f"{place['at_mm']} mm {where}", "give a place inside the block")
+            given[inside[0]] = name
+        return given
+
+    def _known(self, place: str, what: str, name: str, known: Collection[str]) -> str:
+        if name not in known:
+            raise self.bad(place, f"there is no {what} '{name}'", "correct the name or add what it names")
+        return name
+
+    def routes(self, station: Station) -> list[Wanted]:
+        """The routes, with every reference known."""
+        if not self.data["routes"]:
+            raise self.bad("routes", "has no routes: nothing to check", "give the routes of the layout")
+        return [self._route(name, route, station) for name, route in self.data["routes"].items()]
+
+    def _route(self, name: str, route: Mapping[str, Any], station: Station) -> Wanted:
+        place = f"routes.{name}"
+        for field in ("from", "to", "overlap_to"):
+            if field in route:
+                self._known(f"{place}.{field}", "boundary or end of track", route[field], station.marks)
+        for boundary in route.get("release_at", []):
+            if boundary not in station.marks or not station.marks[boundary].cuts:
+                self._known(f"{place}.release_at", "boundary", boundary, ())
+        for field in ("points", "flank"):
+            for point, position in route.get(field, {}).items():
+                self._known(f"{place}.{field}", "point", point, self.data.get("points", {}))
+                if field == "flank":
+                    known = station.junctions[point].kind.positions
+                    self._known(f"{place}.flank.{point}", f"position (of {', '.join(known)})", position, known)
+        return Wanted(
+            name=self._name("routes", name),
+            place=place,
+            entry=route["from"],
+            side=DIRECTIONS[route["direction"]],
+            exit=route["to"],
+            positions=route.get("points", {}),
+            release=tuple(route.get("release_at", [])),
+            overlap=route.get("overlap_to"),
+            flank=route.get("flank", {}),
+        )
+
+    def _pairs(self, field: str, blocks: Blocks) -> list[tuple[Block, Block]]:
+        """Pairs of known blocks."""
+        found: list[tuple[Block, Block]] = []
+        for index, (first, second) in enumerate(self.data.get(field, [])):
+            for name in (first, second):
+                self._known(f"{field}[{index}]", "block", name, blocks.pieces)
+            found.append((Block(first), Block(second)))
+        return found
+
+    def fouling(self, blocks: Blocks) -> dict[Block, frozenset[Block]]:
+        """The blocks that a train in each block also obstructs, both ways."""
+        found: dict[Block, frozenset[Block]] = {}
+        for first, second in self._pairs("fouling", blocks):
+            for block, other in ((first, second), (second, first)):
+                found[block] = found.get(block, frozenset()) | {other}
+        return found
+
+    def held(self, blocks: Blocks) -> frozenset[tuple[Block, Block]] | None:
+        """The pairs that train protection alone keeps apart; none for 'rest'."""
+        if self.data.get("held_by_authority") == "rest":
+            return None
+        return frozenset(self._pairs("held_by_authority", blocks))

@@ -1,0 +1,105 @@
+"""What importing and checking a layout give back: the layout, and what was found in it.
+
+Two kinds of fault are told apart.  :class:`BadInput` ends the work: the file cannot be read as
+a layout at all (exit code 2).  A :class:`Violation` is a finding about a layout that could be
+read (exit code 1); all of them are reported, never only the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from kernel.layout import Layout, TagRecords
+from kernel.names import Block, Point, Route, Tag
+from models.ground import Ground
+from models.layouts.track import Station
+
+Verdict = Literal["holds", "does not hold"]
+
+
+class BadInput(Exception):
+    """The input cannot be read as a layout: which file, where in it, what is wrong, what to do."""
+
+    def __init__(self, file: str, place: str, what: str, what_to_do: str) -> None:
+        self.file = one_line(file)
+        self.place = one_line(place)
+        self.what = one_line(what)
+        self.what_to_do = one_line(what_to_do)
+        super().__init__(f"{self.file}: {self.place}: {self.what}; {self.what_to_do}")
+
+
+def one_line(text: str, limit: int = 400) -> str:
+    """The text on one line of printable characters, cut at ``limit`` characters."""
+    flat = "".join(char if char.isprintable() else " " for char in text)
+    return flat if len(flat) <= limit else flat[: limit - 1] + "…"
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One way in which a layout fails: the axiom or import rule, the file's elements, a sentence."""
+
+    axiom: str
+    elements: tuple[str, ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class Remark:
+    """Something worth telling that makes no layout wrong."""
+
+    elements: tuple[str, ...]
+    text: str
+
+
+Span = tuple[str, int, int]
+"""A stretch of one track: its name, from and to in mm."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where everything in a layout came from: ids of the input file, and the track of each block.
+
+    ``spans`` is empty for a format that has no track (an interlocking table).
+    """
+
+    blocks: Mapping[Block, tuple[str, ...]]
+    routes: Mapping[Route, tuple[str, ...]]
+    points: Mapping[Point, tuple[str, ...]]
+    tags: Mapping[Tag, tuple[str, ...]]
+    spans: Mapping[Block, tuple[Span, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Imported:
+    """A layout file, read: what the kernel is told, how the track is, and what was noticed.
+
+    ``kind`` names the format; ``station`` is the track graph for formats that have one.
+    """
+
+    name: str
+    kind: str
+    layout: Layout
+    ground: Ground
+    records: TagRecords
+    places: Places
+    remarks: tuple[Remark, ...]
+    violations: tuple[Violation, ...]
+    station: Station | None = None
+
+
+@dataclass(frozen=True)
+class CheckResult:
+    """The verdict on one layout; ``checked`` counts the instances of each axiom that were evaluated."""
+
+    name: str
+    verdict: Verdict
+    violations: tuple[Violation, ...]
+    remarks: tuple[Remark, ...]
+    checked: Mapping[str, int]
+
+    @property
+    def exit_code(self) -> int:
+        """0 if the layout lies inside the proof's assumptions, 1 if not."""
+        return 0 if self.verdict == "holds" else 1

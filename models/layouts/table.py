@@ -1,0 +1,117 @@
+"""Interlocking tables: routes with their path, sections, points and declared conflicts, and no track plan.
+
+Blocks are the sections, and the pieces of path that belong to no section: those are the track of
+the points between sections.  Which piece of path belongs to which section is read off the table as
+a whole: they are the pieces that nearly always come with it.
+
+A route starts in the last block of the routes of its orientation that end at its source signal;
+where there is none, in a block ``before <signal>`` of its own.  Track is known only as far as
+routes run over it: from one block lead those that follow it on some route which came the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from jsonschema import Draft202012Validator
+
+from models.layouts.conflicts import compare_conflicts
+from models.layouts.findings import Findings
+from models.layouts.reading import by_name, identifier, validate
+from models.layouts.results import BadInput, Imported
+from models.layouts.table_layout import assemble_table
+
+_NAMED = {"type": "array", "items": {"type": "object", "required": ["id"], "properties": {"id": {"type": "string"}}}}
+_POSITIONED = {
+    "type": "array",
+    "items": {
+        "type": "object",
+        "required": ["id", "position"],
+        "properties": {"id": {"type": "string"}, "position": {"type": "string"}},
+    },
+}
+_ROUTE = {
+    "type": "object",
+    "required": ["id", "source", "destination", "orientation", "path", "sections", "points", "conflicts"],
+    "properties": {
+        **{name: {"type": "string"} for name in ("id", "source", "destination", "orientation")},
+        "path": _NAMED,
+        "sections": _NAMED,
+        "points": _POSITIONED,
+        "conflicts": _NAMED,
+    },
+}
+_VALIDATOR = Draft202012Validator(
+    {
+        "type": "object",
+        "required": ["interlocking-table"],
+        "properties": {"interlocking-table": {"type": "array", "items": _ROUTE}},
+    }
+)
+
+
+@dataclass(frozen=True)
+class TableRoute:
+    """One row of an interlocking table; ``path`` holds segments and signals in running order."""
+
+    name: str
+    source: str
+    destination: str
+    orientation: str
+    path: tuple[str, ...]
+    sections: tuple[str, ...]
+    points: Mapping[str, str]
+    conflicts: frozenset[str]
+
+
+def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
+    """The layout in an interlocking table.
+
+    :raises BadInput: the data is no table, refers to what is not there, or has no routes.
+    """
+    validate(file, data, _VALIDATOR)
+    routes = read_routes(file, data["interlocking-table"])
+    findings = Findings("point")
+    compare_conflicts(list(routes.values()), findings)
+    return assemble_table(file, list(routes.values()), trains, findings)
+
+
+def read_routes(file: str, rows: list[Mapping[str, Any]]) -> dict[str, TableRoute]:
+    """The rows by route, with every declared conflict resolved."""
+    named = by_name(file, "interlocking-table", rows)
+    if not named:
+        raise BadInput(file, "interlocking-table", "has no routes: nothing to check", "give the routes")
+    routes = {name: _read_route(file, name, row) for name, row in named.items()}
+    for name, route in routes.items():
+        for other in sorted(route.conflicts - set(routes)):
+            what = f"there is no route '{other}'"
+            raise BadInput(file, f"route '{name}' conflicts", what, "correct the reference or add the route")
+    return routes
+
+
+def _read_route(file: str, name: str, row: Mapping[str, Any]) -> TableRoute:
+    """One row; nothing in its lists may stand twice."""
+    place = f"route '{name}'"
+    lists: dict[str, list[str]] = {}
+    for field in ("path", "sections", "points", "conflicts"):
+        ids = [identifier(file, f"{place} {field}", item["id"]) for item in row[field]]
+        twice = next((item for index, item in enumerate(ids) if item in ids[:index]), None)
+        if twice is not None:
+            why = "the path runs in a loop" if field == "path" else "keep one of the two"
+            raise BadInput(file, f"{place} {field}", f"lists '{twice}' twice", why)
+        lists[field] = ids
+    if not lists["path"] or not lists["sections"]:
+        empty = "path" if not lists["path"] else "sections"
+        raise BadInput(file, f"{place} {empty}", "is empty: the route leads through nothing", "give what it runs over")
+    return TableRoute(
+        name=name,
+        source=identifier(file, f"{place} source", row["source"]),
+        destination=identifier(file, f"{place} destination", row["destination"]),
+        orientation=row["orientation"],
+        path=tuple(lists["path"]),
+        sections=tuple(lists["sections"]),
+        points={item["id"]: item["position"] for item in row["points"]},
+        conflicts=frozenset(lists["conflicts"]),
+    )

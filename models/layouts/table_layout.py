@@ -1,0 +1,281 @@
+"""From the rows of an interlocking table to a :class:`Layout`, as far as its routes tell the track."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from kernel.layout import Layout
+from kernel.names import Block, Point, Position, Route, Tag, Train
+from models.ground import Ground
+from models.layouts.findings import Findings
+from models.layouts.numbers import number_blocks, records_for
+from models.layouts.results import Imported, Places
+
+if TYPE_CHECKING:
+    from models.layouts.table import TableRoute
+
+ALWAYS_TOGETHER = 0.8
+"""A piece of path belongs to a section if at least this share of the routes over either have both."""
+
+
+def homes(routes: Sequence[TableRoute]) -> dict[str, str]:
+    """The section that each piece of path belongs to; pieces that belong to none are left out."""
+    over: dict[str, set[str]] = defaultdict(set)
+    through: dict[str, set[str]] = defaultdict(set)
+    signals = {signal for route in routes for signal in (route.source, route.destination)}
+    for route in routes:
+        for piece in route.path:
+            over[piece].add(route.name)
+        for section in route.sections:
+            through[section].add(route.name)
+    found: dict[str, str] = {}
+    for piece in sorted(set(over) - signals):
+        share = {s: len(over[piece] & through[s]) / len(over[piece] | through[s]) for s in sorted(through)}
+        best = max(share, key=lambda section: share[section])
+        if share[best] >= ALWAYS_TOGETHER:
+            found[piece] = best
+    return found
+
+
+@dataclass
+class Row:
+    """One route as blocks in order: its start, then what it covers; and the blocks its points stand in."""
+
+    route: TableRoute
+    covers: list[Block]
+    needs: dict[Point, Position]
+    start: Block
+
+    @property
+    def chain(self) -> list[Block]:
+        """Start and covered blocks in running order."""
+        return [self.start, *self.covers]
+
+
+def assemble_table(file: str, routes: Sequence[TableRoute], trains: Sequence[str], findings: Findings) -> Imported:
+    """The layout that a table tells of."""
+    rows = [Row(route, covers, _needs(route), Block("")) for route, covers in _covered(routes, findings)]
+    _start(rows, findings)
+    stands_in = _stand(rows, findings)
+    _agree(rows, stands_in, findings)
+    track = Track(rows)
+    layout = _layout(rows, stands_in, track, trains)
+    places = Places(
+        blocks={block: (_element(block),) for block in layout.blocks},
+        routes={route: (str(route),) for route in layout.routes},
+        points={point: (str(point),) for point in layout.points},
+        tags={tag: (_element(block),) for tag, block in layout.tag_in.items()},
+    )
+    groups = [*layout.claims.values(), *({block, *others} for block, others in track.neighbours.items())]
+    turnouts = frozenset(stands_in.values())
+    records = records_for(layout.tag_in, number_blocks(layout.blocks, groups), {}, turnouts)
+    ground = track.ground(rows, layout)
+    remarks, violations = tuple(findings.remarks), tuple(findings.violations)
+    return Imported(file, "interlocking table", layout, ground, records, places, remarks, violations)
+
+
+def _element(block: Block) -> str:
+    """The element of the file that a block stands for: a section, a piece of path, or a signal."""
+    return block.removeprefix("before ")
+
+
+def _needs(route: TableRoute) -> dict[Point, Position]:
+    return {Point(point): Position(position) for point, position in route.points.items()}
+
+
+def _covered(routes: Sequence[TableRoute], findings: Findings) -> Iterable[tuple[TableRoute, list[Block]]]:
+    """Each route with its blocks in running order, held against the sections it lists."""
+    home = homes(routes)
+    signals = {signal for route in routes for signal in (route.source, route.destination)}
+    for route in routes:
+        pieces = [home.get(piece, piece) for piece in route.path if piece not in signals]
+        covers = list(dict.fromkeys(Block(piece) for piece in pieces))
+        passed = [block for block in covers if block in set(home.values())]
+        if passed != list(route.sections):
+            text = f"route '{route.name}' lists sections {_list(route.sections)} but its path runs over {_list(passed)}"
+            odd = sorted(set(passed) ^ set(route.sections)) or list(route.sections)
+            findings.violation("sections are those of the path", (route.name, *odd), text)
+        covers += [Block(section) for section in route.sections if section not in covers]
+        yield route, covers
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(f"'{name}'" for name in names) or "none"
+
+
+def _start(rows: Sequence[Row], findings: Findings) -> None:
+    """Where each route starts: at the end of those that end at its source signal, running the same way."""
+    ends: dict[tuple[str, str], Counter[Block]] = defaultdict(Counter)
+    for row in rows:
+        ends[row.route.destination, row.route.orientation][row.covers[-1]] += 1
+    told: set[str] = set()
+    for row in rows:
+        source, found = row.route.source, ends.get((row.route.source, row.route.orientation))
+        if not found:
+            row.start = Block(f"before {source}")
+            if source not in told:
+                text = f"no route ends at signal '{source}': routes from it start in a block of their own"
+                findings.remark((source,), text)
+        else:
+            row.start = min(found, key=lambda block: (-found[block], block))
+            if len(found) > 1 and source not in told:
+                text = f"routes to signal '{source}' end in different sections: {_list(sorted(found))}"
+                findings.violation("a signal stands at one section", (source, *sorted(found)), text)
+        told.add(source)
+
+
+def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
+    """The block of each point: the piece of path that belongs to no section, by its place in the order.
+
+    Points and pieces both stand in running order in the table; most routes decide.
+    """
+    sections = {section for row in rows for section in row.route.sections}
+    votes: dict[Point, Counter[Block]] = defaultdict(Counter)
+    for row in rows:
+        loose = [block for block in row.covers if block not in sections]
+        for point, block in zip(row.needs, loose, strict=False):
+            votes[point][block] += 1 if len(loose) == len(row.needs) else 0
+        for point in row.needs:
+            votes[point][Block(f"at {point}")] += 0
+    stands_in = {point: min(found, key=lambda block: (-found[block], block)) for point, found in votes.items()}
+    for row in rows:
+        on_path = {point for point, block in stands_in.items() if block in row.covers}
+        for point in sorted(on_path - set(row.needs)):
+            text = f"route '{row.route.name}' runs over point '{point}' and gives no position for it"
+            findings.violation("a route is led over its points", (row.route.name, point), text)
+        for point in sorted(set(row.needs) - on_path):
+            text = f"route '{row.route.name}' gives a position for point '{point}', which is not on its path"
+            findings.violation("a route's positions are of its points", (row.route.name, point), text)
+    return stands_in
+
+
+def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
+    """A point joins two blocks in the same position on every route; where rows differ, the fewest are wrong."""
+    lies: dict[tuple[Point, frozenset[Block]], dict[Position, list[str]]] = defaultdict(lambda: defaultdict(list))
+    for row in rows:
+        sides = dict(zip(row.chain[1:], zip(row.chain, row.chain[2:], strict=False), strict=False))
+        for point, position in row.needs.items():
+            before, behind = sides.get(stands_in[point], (None, None))
+            if before is not None and behind is not None and not before.startswith("before "):
+                lies[point, frozenset((before, behind))][position].append(row.route.name)
+    for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
+        most = max(map(len, by_position.values()))
+        doubted = [at for at in by_position if len(by_position[at]) < most] or list(by_position)
+        for position in sorted(doubted) if len(by_position) > 1 else ():
+            for route in by_position[position]:
+                between = _list(sorted(pair))
+                text = f"route '{route}' wants point '{point}' in '{position}' between {between}; others do not"
+                findings.violation("a point lies one way between two blocks", (route, point), text)
+
+
+def _layout(rows: Sequence[Row], stands_in: Mapping[Point, Block], track: Track, trains: Sequence[str]) -> Layout:
+    """The relations that the kernel is told; everything is released on arrival."""
+    by = {Route(row.route.name): row for row in rows}
+    blocks = frozenset(block for row in rows for block in row.chain) | frozenset(stands_in.values())
+    tag_in = {tag: block for pair in track.pairs for tag, block in zip(tags(*pair), pair, strict=True)}
+    order = {name: [tag for pair in pairwise(row.chain) for tag in tags(*pair)] for name, row in by.items()}
+    return Layout(
+        fleet=frozenset(Train(train) for train in trains),
+        blocks=blocks,
+        routes=frozenset(by),
+        points=frozenset(stands_in),
+        start={name: row.start for name, row in by.items()},
+        destination={name: row.covers[-1] for name, row in by.items()},
+        covers={name: frozenset(row.covers) for name, row in by.items()},
+        overlap={name: frozenset() for name in by},
+        claims={name: frozenset(row.chain) for name, row in by.items()},
+        way={name: dict(pairwise(row.chain)) for name, row in by.items()},
+        needs={name: row.needs for name, row in by.items()},
+        released_with={
+            name: {p: stands_in[p] if stands_in[p] in row.chain else row.covers[-1] for p in row.needs}
+            for name, row in by.items()
+        },
+        released_after={name: _released_after(row) for name, row in by.items()},
+        fouls={},
+        stands_in=stands_in,
+        points_in={block: frozenset(p for p in stands_in if stands_in[p] == block) for block in blocks},
+        tag_in=tag_in,
+        partner={tag: other for pair in track.pairs for tag, other in _both_ways(tags(*pair))},
+        first_tag={name: read[0] for name, read in order.items()},
+        tag_after={name: dict(pairwise(read)) for name, read in order.items()},
+    )
+
+
+def _both_ways(pair: tuple[Tag, Tag]) -> list[tuple[Tag, Tag]]:
+    return [pair, (pair[1], pair[0])]
+
+
+def _released_after(row: Row) -> dict[Block, Block]:
+    """All on arrival, before the destination; start and destination alone."""
+    last = row.covers[-2] if len(row.covers) > 1 else row.covers[-1]
+    return dict.fromkeys(row.covers, last) | {row.start: row.start, row.covers[-1]: row.covers[-1]}
+
+
+def tags(first: Block, second: Block) -> tuple[Tag, Tag]:
+    """The tags at the boundary of two blocks, on the side of the first and of the second."""
+    low, high = sorted((first, second))
+    return Tag(f"{low}|{high}@{first}"), Tag(f"{low}|{high}@{second}")
+
+
+class Track:
+    """The track as far as routes run over it."""
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        self.pairs = sorted({(min(pair), max(pair)) for row in rows for pair in pairwise(row.chain)})
+        self.neighbours: dict[Block, frozenset[Block]] = defaultdict(frozenset)
+        for first, second in self.pairs:
+            self.neighbours[first] |= {second}
+            self.neighbours[second] |= {first}
+        self.after: dict[tuple[str, Block | None, Block], set[Block]] = defaultdict(set)
+        lies: dict[tuple[Block, Block], list[dict[Point, Position]]] = defaultdict(list)
+        for row in rows:
+            for before, block, behind in zip([None, *row.chain], row.chain, row.chain[1:], strict=False):
+                self.after[row.route.orientation, before, block].add(behind)
+                self.after[row.route.orientation, None, block].add(behind)
+                lies[block, behind].append(row.needs)
+        self.lies = lies
+
+    def leads(self, row: Row) -> dict[Block, frozenset[Block]]:
+        """For each block with a way on, all that follow it on routes which came the same way."""
+        before = [None, *row.chain]
+        return {
+            block: frozenset(self.after[row.route.orientation, came, block])
+            for came, block in zip(before, row.chain[:-1], strict=False)
+        }
+
+    def ground(self, rows: Sequence[Row], layout: Layout) -> Ground:
+        """What the kernel does not see of the track."""
+        opens: dict[Block, dict[Block, dict[Point, Position]]] = defaultdict(dict)
+        for (block, behind), needs in self.lies.items():
+            standing = [{p: at for p, at in need.items() if layout.stands_in[p] == block} for need in needs]
+            opens[block][behind] = dict(set.intersection(*(set(demands.items()) for demands in standing)))
+        leads = {Route(row.route.name): self.leads(row) for row in rows}
+        turnout = {Route(row.route.name): _turnouts(row, leads[Route(row.route.name)], opens) for row in rows}
+        held: dict[Block, set[Block]] = defaultdict(set)
+        for row in rows:
+            for target in row.covers:
+                for block in self.neighbours[target] - set(row.chain):
+                    if target in opens.get(block, {}):
+                        held[block].add(target)
+        laid = {tag: {other: frozenset({layout.tag_in[tag]})} for tag, other in layout.partner.items()}
+        flank: dict[Route, dict[Block, dict[Block, Point]]] = {route: {} for route in layout.routes}
+        shut = {block: frozenset(targets) for block, targets in held.items()}
+        return Ground(leads, dict(self.neighbours), dict(opens), turnout, flank, shut, laid)
+
+
+def _turnouts(
+    row: Row, leads: Mapping[Block, frozenset[Block]], opens: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]
+) -> dict[Block, dict[Block, Point]]:
+    """The points of a route that turn its train from where it is not to go."""
+    found: dict[Block, dict[Block, Point]] = {block: {} for block in leads}
+    for block, following in pairwise(row.chain):
+        for target in leads[block] - {following}:
+            demands = opens[block].get(target, {})
+            turning = [p for p in sorted(demands) if row.needs.get(p, demands[p]) != demands[p]]
+            if turning:
+                found[block][target] = turning[0]
+    return found

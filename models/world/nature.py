@@ -1,0 +1,113 @@
+"""What trains and people do: each transition says why nature does no more than that."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.authority import may_overrun, may_proceed
+from kernel.names import Block, Car, Epoch, Run, Train, UnitLife
+from kernel.restarts import restart_unit as restarted_unit
+from models.world.assumptions import (
+    a_train_obeys_its_authority,
+    track_is_open,
+    two_persons_do_not_err_alike,
+)
+from models.world.state import Site, System
+
+
+def start_rolling(site: Site, system: System, run: Run) -> System:
+    """A train with authority gathers speed: from now on it cannot stop at once.
+
+    Without authority the unit holds the brake, so no train begins to roll.
+    """
+    if run.train not in system.units or not may_proceed(system.units[run.train], run):
+        return system
+    return replace(system, track=replace(system.track, rolling=system.track.rolling | {run}))
+
+
+def overrun(site: Site, system: System, run: Run) -> System:
+    """A train brakes so late that it will slip into its overlap; the overlap is laid out for no more (T9)."""
+    if run.train not in system.units or not may_overrun(system.units[run.train], run):
+        return system
+    return replace(
+        system,
+        track=replace(
+            system.track, rolling=system.track.rolling | {run}, slipping=system.track.slipping | {run}
+        ),
+    )
+
+
+def come_to_rest(site: Site, system: System, run: Run) -> System:
+    """A train comes to rest at any moment: brakes, obstacles and drivers are free to."""
+    return replace(
+        system,
+        track=replace(system.track, rolling=system.track.rolling - {run}, slipping=system.track.slipping - {run}),
+    )
+
+
+def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, target: Block) -> System:
+    """A car reaches from a block it is in into the next, where track and points lead it.
+
+    Cars are pulled or pushed by their own train and go forward in the direction of the run; what
+    lets the train out of a block is its unit's authority, never the block it gets into.
+    """
+    if site.formation.train_of.get(car) != run.train or block not in system.track.at.get(car, frozenset()):
+        return system
+    if run.route not in site.ground.leads or target not in site.ground.leads[run.route].get(block, frozenset()):
+        return system
+    if not track_is_open(site, system, block, target):
+        return system
+    if not a_train_obeys_its_authority(site, system, run, block):
+        return system
+    return replace(
+        system,
+        track=replace(
+            system.track,
+            at=system.track.at | {car: system.track.at.get(car, frozenset()) | {target}},
+            under=system.track.under | {car: system.track.under.get(car, {}) | {target: run}},
+            run_into=system.track.run_into | {run},
+        ),
+    )
+
+
+def car_leaves(site: Site, system: System, car: Car, block: Block) -> System:
+    """A car's last axle leaves a block; whether any antenna reads anything there is another matter.
+
+    A train at rest leaves nothing, and parts of it that were left behind have their brakes on.
+    """
+    if all(run.train != site.formation.train_of.get(car) for run in system.track.rolling):
+        return system
+    return replace(
+        system,
+        track=replace(
+            system.track, at=system.track.at | {car: system.track.at.get(car, frozenset()) - {block}}
+        ),
+    )
+
+
+def part(site: Site, system: System, train: Train) -> System:
+    """A coupling breaks and some cars stay behind (T3, P5)."""
+    return replace(system, track=replace(system.track, parted=system.track.parted | {train}))
+
+
+def take_over(
+    site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife, blocks: frozenset[Block]
+) -> System:
+    """The first person isolates a unit at rest, in a new life, and states, rightly or not, where the train is (T8)."""
+    if train not in system.units or epoch not in system.radio.challenges or life <= system.units[train].life:
+        return system
+    return replace(
+        system,
+        units=system.units | {train: restarted_unit(system.units[train], life)},
+        radio=replace(
+            system.radio, statements=system.radio.statements | {(train, life, epoch): blocks}
+        ),
+    )
+
+
+def confirm_statement(site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife) -> System:
+    """The second person looks for himself and confirms (T8)."""
+    if not two_persons_do_not_err_alike(site, system, train, life, epoch):
+        return system
+    confirmed = system.radio.confirmed_statements | {(train, life, epoch)}
+    return replace(system, radio=replace(system.radio, confirmed_statements=confirmed))

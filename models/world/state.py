@@ -1,0 +1,120 @@
+"""The state of the whole: centre, units, terminals, the radio between them, and the track as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from kernel.centre import Centre
+from kernel.layout import Layout, TagRecords
+from kernel.names import (
+    Block,
+    Car,
+    Epoch,
+    Point,
+    Position,
+    Read,
+    Run,
+    TerminalLife,
+    Train,
+    UnitLife,
+)
+from kernel.terminal import Terminal
+from kernel.unit import Unit
+from models.ground import Ground
+
+NO_CARS: frozenset[Car] = frozenset()
+
+
+@dataclass(frozen=True)
+class Formation:
+    """Which cars make a train, and their order in each run.
+
+    ``train_of``: the train a car belongs to, whether or not it still hangs on it.
+    ``last``: the last car in the direction of a run.
+    ``ahead``: for a run and a car, the cars ahead of it.
+    """
+
+    train_of: Mapping[Car, Train]
+    last: Mapping[Run, Car]
+    ahead: Mapping[Run, Mapping[Car, frozenset[Car]]]
+
+
+@dataclass(frozen=True)
+class Site:
+    """What does not change: the layout as told, what is written in its tags, the ground, the trains."""
+
+    layout: Layout
+    records: TagRecords
+    ground: Ground
+    formation: Formation
+
+
+@dataclass(frozen=True)
+class Radio:
+    """Every message ever sent.  Any of them may arrive, any number of times, at any moment, or never (T11).
+
+    ``orders``, ``enquiries``: centre to train, for a point terminal; ``relayed_…``: on to the terminal.
+    ``confirmed``: terminal to train; ``confirmations``: on to the centre.
+    ``offers``, ``permits``, ``recalls``: centre to train; ``echoes``, ``returns``: back.
+    ``tail_reports``, ``stops``: train to centre (third loop, standstill).
+    ``challenges``: centre to all; ``standings``: the answers, one a life and epoch.
+    ``standing_runs``: centre to train, under which run it stands.
+    ``terminal_lives``: terminal to centre.
+    ``statements``, ``confirmed_statements``: the two persons of the supervised procedure.
+    """
+
+    orders: frozenset[tuple[Run, Point, TerminalLife]]
+    relayed_orders: frozenset[tuple[Run, Point, TerminalLife]]
+    enquiries: frozenset[tuple[Run, Point, TerminalLife]]
+    relayed_enquiries: frozenset[tuple[Run, Point, TerminalLife]]
+    confirmed: frozenset[tuple[Run, Point, Position]]
+    confirmations: frozenset[tuple[Run, Point, Position]]
+    offers: frozenset[Run]
+    echoes: frozenset[Run]
+    permits: frozenset[Run]
+    recalls: frozenset[Run]
+    returns: frozenset[Run]
+    tail_reports: frozenset[tuple[Run, Block, Read, Read]]
+    stops: frozenset[Run]
+    challenges: frozenset[Epoch]
+    standings: Mapping[tuple[Train, UnitLife, Epoch], frozenset[Block]]
+    standing_runs: frozenset[Run]
+    terminal_lives: frozenset[tuple[Point, TerminalLife]]
+    statements: Mapping[tuple[Train, UnitLife, Epoch], frozenset[Block]]
+    confirmed_statements: frozenset[tuple[Train, UnitLife, Epoch]]
+
+
+@dataclass(frozen=True)
+class Track:
+    """What is really there.
+
+    ``at``: the blocks each car is in.
+    ``under``: history: the run under which a car came into a block it has been in.
+    ``run_into``: history: runs under which some car has moved.
+    ``behind``: history: for each run the blocks that its tail has been seen to leave.
+    ``rolling``: runs in which the train can no longer stop before the blocks they cover.
+    ``slipping``: runs in which the train can no longer stop inside the destination.
+    ``lies``: how each point lies.
+    ``parted``: trains that have lost some of their cars.
+    """
+
+    at: Mapping[Car, frozenset[Block]]
+    under: Mapping[Car, Mapping[Block, Run]]
+    run_into: frozenset[Run]
+    behind: frozenset[tuple[Run, Block]]
+    rolling: frozenset[Run]
+    slipping: frozenset[Run]
+    lies: Mapping[Point, Position]
+    parted: frozenset[Train]
+
+
+@dataclass(frozen=True)
+class System:
+    """One moment of the whole system."""
+
+    centre: Centre
+    units: Mapping[Train, Unit]
+    terminals: Mapping[Point, Terminal]
+    radio: Radio
+    track: Track
