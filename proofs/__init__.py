@@ -1,0 +1,1 @@
+"""Proofs about the kernel: lifting, invariants, induction, witnesses."""

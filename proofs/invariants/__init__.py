@@ -1,0 +1,1 @@
+"""What always holds: safety claims, and the lemmas that carry their induction."""

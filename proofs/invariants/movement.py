@@ -1,0 +1,233 @@
+"""Lemmas on where trains are and can be led: each stretch of track is one train's."""
+
+from __future__ import annotations
+
+from kernel.names import Stage
+from models.world.assumptions import stands_exactly
+from models.world.state import Site, System
+from proofs.invariants.vocabulary import genuine, reaches, told
+
+
+def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
+    """Runs that a train rolls, slips or has moved under were permitted."""
+    return (
+        all(run in system.radio.permits for run in system.track.rolling)
+        and all(run in system.track.rolling for run in system.track.slipping)
+        and all(run in system.radio.permits for run in system.track.run_into)
+    )
+
+
+def a_car_came_under_a_run_of_its_train(site: Site, system: System) -> bool:
+    """A car in a block came there under a run of its own train: into a block beyond the start, or standing there."""
+    return all(
+        run.train == site.formation.train_of.get(car)
+        and (
+            run.route not in site.layout.routes
+            or (
+                run in system.track.run_into
+                and block in site.layout.claims[run.route]
+                and block != site.layout.start[run.route]
+            )
+        )
+        for car in system.track.under
+        for block, run in system.track.under[car].items()
+    )
+
+
+def a_reachable_block_is_held(site: Site, system: System) -> bool:
+    """Where an accounted train can be led, the centre holds the block for that run."""
+    return all(
+        run in system.centre.claimed.get(block, frozenset())
+        for run in system.radio.permits
+        if run.route in site.layout.routes and run.train in system.centre.accounted
+        for block in site.layout.claims[run.route]
+        if reaches(site, system, run, block)
+    )
+
+
+def reach_is_exclusive(site: Site, system: System) -> bool:
+    """No block can be reached by two trains, and none that can be reached holds a car of another."""
+    return all(
+        not reaches(site, system, other, block) or run.train == other.train
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if reaches(site, system, run, block)
+        for other in system.radio.permits
+    ) and all(
+        block not in system.track.at[car] or run.train == site.formation.train_of.get(car)
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if reaches(site, system, run, block)
+        for car in system.track.at
+    )
+
+
+def reach_is_clear_of_fouling(site: Site, system: System) -> bool:
+    """Neither can blocks that foul each other be reached by two trains, or hold another's car."""
+    return all(
+        not reaches(site, system, other, beside) or run.train == other.train
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if reaches(site, system, run, block)
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in system.radio.permits
+    ) and all(
+        beside not in system.track.at[car] or run.train == site.formation.train_of.get(car)
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if reaches(site, system, run, block)
+        for beside in site.layout.fouls.get(block, frozenset())
+        for car in system.track.at
+    )
+
+
+def a_held_block_is_closed_to_others(site: Site, system: System) -> bool:
+    """What the centre holds for a train, nobody else can be led into, or is in."""
+    return all(
+        not reaches(site, system, other, block) or run.train == other.train
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for other in system.radio.permits
+    ) and all(
+        block not in system.track.at[car] or run.train == site.formation.train_of.get(car)
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for car in system.track.at
+    )
+
+
+def a_held_block_is_clear_of_fouling(site: Site, system: System) -> bool:
+    """The same for the blocks that foul it."""
+    return all(
+        not reaches(site, system, other, beside) or run.train == other.train
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in system.radio.permits
+    ) and all(
+        beside not in system.track.at[car] or run.train == site.formation.train_of.get(car)
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for beside in site.layout.fouls.get(block, frozenset())
+        for car in system.track.at
+    )
+
+
+def a_reported_block_is_left_by_all_cars(site: Site, system: System) -> bool:
+    """Where the tail has read the genuine pair of a block, no car is that came there under this run."""
+    return all(
+        not genuine(site, block, left, entered)
+        or block not in system.track.at.get(car, frozenset())
+        or system.track.under.get(car, {}).get(block) != run
+        for run, block, left, entered in system.radio.tail_reports
+        for car in system.track.at
+    ) and all(
+        not genuine(site, block, evidence.left, evidence.entered)
+        or block not in system.track.at.get(car, frozenset())
+        or system.track.under.get(car, {}).get(block) != run
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+        for block, evidence in order.left.items()
+        for car in system.track.at
+    )
+
+
+def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
+    """In one life a unit forgets no block its tail has left, and what it has left or reported is behind it."""
+    return (
+        all(
+            run.train in system.units
+            and (
+                run.life < system.units[run.train].life
+                or (
+                    run.life == system.units[run.train].life
+                    and run in system.units[run.train].orders
+                    and block in system.units[run.train].orders[run].left
+                )
+            )
+            for run, block in system.track.behind
+        )
+        and all(
+            (run, block) in system.track.behind
+            for train in system.units
+            for run, order in system.units[train].orders.items()
+            for block in order.left
+        )
+        and all((run, block) in system.track.behind for run, block, _left, _entered in system.radio.tail_reports)
+    )
+
+
+def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
+    """While the word of a standing train is in the air, no run was offered to that life and none rolls."""
+    return all(
+        (train in system.units and life <= system.units[train].life)
+        and all(run.train != train or run.life < life for run in system.radio.offers)
+        and all(run.train != train for run in system.track.rolling)
+        for train, life, epoch in system.radio.standings
+        if told(system, train, life, epoch)
+    ) and all(
+        (train in system.units and life <= system.units[train].life)
+        and all(run.train != train or run.life < life for run in system.radio.offers)
+        and all(run.train != train for run in system.track.rolling)
+        for train, life, epoch in system.radio.confirmed_statements
+        if told(system, train, life, epoch)
+    )
+
+
+def a_train_that_told_stands_there(site: Site, system: System) -> bool:
+    """While the word of a standing train is in the air, it stands exactly there."""
+    return all(
+        stands_exactly(site, system, train, blocks)
+        for (train, life, epoch), blocks in system.radio.standings.items()
+        if told(system, train, life, epoch)
+    ) and all(
+        (train, life, epoch) in system.radio.statements
+        and stands_exactly(site, system, train, system.radio.statements[train, life, epoch])
+        for train, life, epoch in system.radio.confirmed_statements
+        if told(system, train, life, epoch)
+    )
+
+
+def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
+    """A unit that answered this epoch, and has not been taken at its word, stands exactly there, offered nothing."""
+    return all(
+        unit.answered != system.centre.epoch
+        or (train in system.centre.accounted and unit.life <= system.centre.accounted[train])
+        or (
+            stands_exactly(site, system, train, unit.standing_in)
+            and all(run.train != train or run.life < unit.life for run in system.radio.offers)
+        )
+        for train, unit in system.units.items()
+    )
+
+
+def a_unit_taken_over_was_offered_nothing(site: Site, system: System) -> bool:
+    """A life that began with a statement in this epoch was offered nothing before the centre accounted for it."""
+    return all(
+        epoch != system.centre.epoch
+        or (train in system.centre.accounted and life <= system.centre.accounted[train])
+        or all(run.train != train or run.life < life for run in system.radio.offers)
+        for train, life, epoch in system.radio.statements
+    )
+
+
+def the_first_statement_noted_is_the_one_in_the_air(site: Site, system: System) -> bool:
+    """What the centre noted of a supervised train is what the first person stated in that life and epoch."""
+    return all(
+        (train, said.life, system.centre.epoch) in system.radio.statements
+        and system.radio.statements[train, said.life, system.centre.epoch] == said.blocks
+        for train, said in system.centre.statements.items()
+    )
+
+
+def an_unset_run_has_not_been_entered(site: Site, system: System) -> bool:
+    """No train rolls or has moved under a run that is not yet set."""
+    return all(
+        (grant.stage != Stage.RESERVED and grant.stage != Stage.OFFERED)
+        or (run not in system.radio.permits and run not in system.track.run_into)
+        for run, grant in system.centre.runs.items()
+    )

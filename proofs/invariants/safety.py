@@ -1,0 +1,142 @@
+"""The claims that the safety case makes of the interlocking (design section 4.T)."""
+
+from __future__ import annotations
+
+from kernel.names import Cause, Stage
+from models.world.assumptions import track_is_open
+from models.world.state import Site, System
+from proofs.invariants.vocabulary import genuine, reaches
+
+
+def no_two_trains_in_a_block(site: Site, system: System) -> bool:
+    """Cars in one block belong to one train."""
+    return all(
+        site.formation.train_of.get(car) == site.formation.train_of.get(other)
+        for car in system.track.at
+        for block in system.track.at[car]
+        for other in system.track.at
+        if block in system.track.at[other]
+    )
+
+
+def no_two_trains_in_fouling_blocks(site: Site, system: System) -> bool:
+    """Cars in blocks that foul each other belong to one train."""
+    return all(
+        site.formation.train_of.get(car) == site.formation.train_of.get(other)
+        for car in system.track.at
+        for block in system.track.at[car]
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in system.track.at
+        if beside in system.track.at[other]
+    )
+
+
+def physical_occupancy_is_recorded(site: Site, system: System) -> bool:
+    """Where a car is, the centre holds the block: for the run it came under, or as lost."""
+    return all(
+        any(
+            holder == system.track.under.get(car, {}).get(block)
+            for holder in system.centre.claimed.get(block, frozenset())
+        )
+        if site.formation.train_of.get(car) in system.centre.accounted
+        else block in system.centre.lost_blocks
+        for car in system.track.at
+        for block in system.track.at[car]
+    )
+
+
+def no_conflicting_routes(site: Site, system: System) -> bool:
+    """Blocks, and blocks that foul each other, are held for one train."""
+    return all(
+        run.train == other.train
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for other in system.centre.claimed[block]
+    ) and all(
+        run.train == other.train
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in system.centre.claimed.get(beside, frozenset())
+    )
+
+
+def points_lie_for_the_set_route(site: Site, system: System) -> bool:
+    """Where a train can be led, every point released with that block lies as needed and is locked."""
+    return all(
+        point in system.terminals
+        and not system.terminals[point].unlocked
+        and system.track.lies.get(point) == site.layout.needs[run.route][point]
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for point in site.layout.needs[run.route]
+        if reaches(site, system, run, site.layout.released_with[run.route][point])
+    )
+
+
+def no_point_moves_under_a_train(site: Site, system: System) -> bool:
+    """A point in a block that a car is in is locked."""
+    return all(
+        point in system.terminals and not system.terminals[point].unlocked
+        for car in system.track.at
+        for block in system.track.at[car]
+        for point in site.layout.points_in.get(block, frozenset())
+    )
+
+
+def no_open_flank(site: Site, system: System) -> bool:
+    """Into a block that a train can be led into, no track is open from outside but under authority."""
+    return all(
+        not track_is_open(site, system, beside, block)
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if block != site.layout.start[run.route] and reaches(site, system, run, block)
+        for beside in site.ground.neighbours.get(block, frozenset())
+        if beside not in site.layout.claims[run.route]
+        and block not in site.ground.held_by_authority.get(beside, frozenset())
+    )
+
+
+def entry_only_after_first_loop(site: Site, system: System) -> bool:
+    """No car has moved under a run whose list was not echoed and whose permit was not sent after that."""
+    return all(run in system.radio.permits and run in system.radio.echoes for run in system.track.run_into)
+
+
+def released_only_on_third_loop_evidence(site: Site, system: System) -> bool:
+    """A claim that ended by tail evidence ended on a report of this run with the records of this block's tags."""
+    return all(
+        any(
+            other == run and place == block and genuine(site, block, left, entered)
+            for other, place, left, entered in system.radio.tail_reports
+        )
+        for run, grant in system.centre.runs.items()
+        for block, cause in grant.ended.items()
+        if cause == Cause.TAIL_EVIDENCE
+    )
+
+
+def every_other_release_has_its_reason(site: Site, system: System) -> bool:
+    """Standstill, acknowledgement, silence of the first loop, or a new word where the train stands: each was there."""
+    return all(
+        (cause != Cause.STANDSTILL or (run in system.radio.stops and block in site.layout.overlap[run.route]))
+        and (cause != Cause.CANCELLED or run in system.radio.returns)
+        and (cause != Cause.WITHDRAWN or run not in system.radio.offers)
+        and (
+            (cause != Cause.RECOVERED and cause != Cause.SUPERVISED)
+            or (run.train in system.centre.accounted and run.life < system.centre.accounted[run.train])
+        )
+        and (cause == Cause.TAIL_EVIDENCE or cause == Cause.STANDSTILL or grant.stage == Stage.OVER)
+        for run, grant in system.centre.runs.items()
+        for block, cause in grant.ended.items()
+    )
+
+
+def a_claim_ends_by_one_cause(site: Site, system: System) -> bool:
+    """A claimed block of a route is held, or its end has a cause; never both."""
+    return all(
+        (run in system.centre.claimed.get(block, frozenset())) != (block in grant.ended)
+        for run, grant in system.centre.runs.items()
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+    )

@@ -1,0 +1,92 @@
+"""Words that several invariants share."""
+
+from __future__ import annotations
+
+from kernel.names import Block, Epoch, Point, Position, Read, Run, Stage, Train, UnitLife
+from models.world.state import Site, System
+
+
+def could_proceed(system: System, run: Run) -> bool:
+    """The permit is in the air, the life it names is the unit's, and the run was not given back."""
+    unit = system.units.get(run.train)
+    if unit is None or run not in system.radio.permits or run.life != unit.life:
+        return False
+    order = unit.orders.get(run)
+    return order is None or not order.given_back
+
+
+def could_overrun(system: System, run: Run) -> bool:
+    """As above, and the train has not told that it stopped."""
+    unit = system.units.get(run.train)
+    if unit is None or not could_proceed(system, run):
+        return False
+    order = unit.orders.get(run)
+    return order is None or not order.stopped
+
+
+def reaches(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The train can be led into, or on from, ``block`` under ``run``: by a permit in the air, or rolling."""
+    return (
+        run.route in site.layout.routes
+        and (run, block) not in system.track.behind
+        and (
+            (
+                (block == site.layout.start[run.route] or block in site.layout.covers[run.route])
+                and (could_proceed(system, run) or run in system.track.rolling)
+            )
+            or (
+                block in site.layout.overlap[run.route]
+                and (could_overrun(system, run) or run in system.track.slipping)
+            )
+        )
+    )
+
+
+def at_stage(system: System, run: Run, stage: Stage) -> bool:
+    """The centre knows the run, and has it at this stage."""
+    grant = system.centre.runs.get(run)
+    return grant is not None and grant.stage == stage
+
+
+def frozen(site: Site, system: System, point: Point) -> bool:
+    """The point is locked, and every order that its terminal could still obey agrees with how it lies."""
+    terminal = system.terminals.get(point)
+    return (
+        terminal is not None
+        and not terminal.unlocked
+        and all(
+            site.layout.needs[run.route].get(point) == system.track.lies.get(point)
+            for run, other, life in system.radio.orders
+            if other == point
+            and life == terminal.life
+            and (terminal.holds is None or terminal.holds.serial < run.serial)
+        )
+    )
+
+
+def frozen_at(site: Site, system: System, point: Point, position: Position) -> bool:
+    """The point is frozen in this position."""
+    return frozen(site, system, point) and system.track.lies.get(point) == position
+
+
+def genuine(site: Site, block: Block, left: Read, entered: Read) -> bool:
+    """Both reads carry what is written in the pair of tags at the end of ``block``."""
+    return (
+        site.layout.tag_in.get(left.tag) == block
+        and site.layout.partner.get(left.tag) == entered.tag
+        and site.records.record.get(left.tag) == left.record
+        and site.records.record.get(entered.tag) == entered.record
+    )
+
+
+def told(system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
+    """The word is in the air that this train stands somewhere in this life, and the centre could still take it."""
+    known = system.centre.accounted.get(train)
+    return (
+        epoch == system.centre.epoch
+        and (known is None or known < life)
+        and (
+            (train, life, epoch) in system.radio.standings
+            or ((train, life, epoch) in system.radio.confirmed_statements)
+        )
+    )

@@ -1,0 +1,143 @@
+"""The matrix of transitions and invariants, readable at 120 columns.
+
+A row a transition, a mark an invariant.  The invariants stand in groups, one for each file they
+are written in, so that a column is found without counting far.  What is not proved is spelled out
+below the matrix; what is proved is only counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePath
+
+from rich.console import Console
+from rich.text import Text
+
+from proofs.records import Obligation, Report, Verdict, overall
+
+MARK: Mapping[Verdict, tuple[str, str]] = {
+    "proved": (".", "green"),
+    "refuted": ("X", "bold red"),
+    "undecided": ("?", "bold yellow"),
+}
+SPELLED_OUT_AT_MOST = 50
+NAMES_AT_MOST = 44
+
+Cell = list[Obligation]
+Cells = dict[tuple[str, str], Cell]
+
+
+def print_matrix(console: Console, report: Report) -> None:
+    """Print the matrix, what the columns are, every cell that is not proved, and the totals."""
+    cells = cells_of(report.obligations)
+    groups = groups_of(report.obligations)
+    transitions = list(dict.fromkeys(obligation["transition"] for obligation in report.obligations))
+    name_width = min(NAMES_AT_MOST, max((len(name) for name in transitions), default=0))
+    if groups:
+        show(console, heading(groups, name_width))
+    for transition in transitions:
+        show(console, row(transition, groups, cells, name_width))
+    for letter, (group, invariants) in zip(letters(len(groups)), groups.items(), strict=True):
+        console.print(Text(f"{letter} {group}: {', '.join(invariants)}", style="dim"))
+    spell_out(console, [cell for cell in cells.values() if verdict_of(cell) != "proved"])
+    for line in totals(report, cells, len(transitions)):
+        console.print(line, highlight=False)
+
+
+def cells_of(obligations: Iterable[Obligation]) -> Cells:
+    """The answers to each question: one for every solver and seed it was put to."""
+    cells: Cells = {}
+    for obligation in obligations:
+        cells.setdefault((obligation["transition"], obligation["invariant"]), []).append(obligation)
+    return cells
+
+
+def groups_of(obligations: Iterable[Obligation]) -> dict[str, list[str]]:
+    """The invariants by the file they stand in, in the order in which they were asked."""
+    groups: dict[str, list[str]] = {}
+    for obligation in obligations:
+        members = groups.setdefault(PurePath(obligation["source"]["file"]).stem, [])
+        if obligation["invariant"] not in members:
+            members.append(obligation["invariant"])
+    return groups
+
+
+def verdict_of(cell: Cell) -> Verdict:
+    """The worst answer that any solver gave at any seed."""
+    return overall([obligation["verdict"] for obligation in cell])
+
+
+def letters(count: int) -> list[str]:
+    """``count`` short names for groups: A to Z, then A2 and so on."""
+    return [chr(ord("A") + index % 26) + (str(index // 26 + 1) if index >= 26 else "") for index in range(count)]
+
+
+def heading(groups: Mapping[str, Sequence[str]], name_width: int) -> Text:
+    """The line above the matrix: each group's letter over its first column."""
+    line = " " * name_width
+    for letter, invariants in zip(letters(len(groups)), groups.values(), strict=True):
+        line += "  " + letter.ljust(len(invariants))
+    return Text(line + "  proved  seconds", style="bold")
+
+
+def row(transition: str, groups: Mapping[str, Sequence[str]], cells: Cells, name_width: int) -> Text:
+    """One transition: its name, its marks, how many are proved, and the seconds spent on it."""
+    short = transition if len(transition) <= name_width else transition[: name_width - 1] + "~"
+    line = Text(short.ljust(name_width))
+    mine = [cell for (name, _), cell in cells.items() if name == transition]
+    for invariants in groups.values():
+        line.append("  ")
+        for invariant in invariants:
+            cell = cells.get((transition, invariant))
+            mark, style = MARK[verdict_of(cell)] if cell else (" ", "")
+            line.append(mark, style=style)
+    proved = sum(verdict_of(cell) == "proved" for cell in mine)
+    seconds = sum(obligation["seconds"] for cell in mine for obligation in cell)
+    line.append(f"  {proved:>3}/{len(mine):<3} {seconds:7.1f}", style="" if proved == len(mine) else "bold red")
+    return line
+
+
+def spell_out(console: Console, bad: Sequence[Cell]) -> None:
+    """Say of each cell that is not proved what was asked, of whom, and where the invariant stands."""
+    for cell in bad[:SPELLED_OUT_AT_MOST]:
+        first = cell[0]
+        verdict = verdict_of(cell)
+        begin, end = first["source"]["lines"]
+        console.print()
+        console.print(Text(f"{first['transition']} × {first['invariant']}: {verdict}", style=MARK[verdict][1]))
+        console.print(f"  invariant at {first['source']['file']}:{begin}-{end}", highlight=False, markup=False)
+        console.print(f"  hypotheses: {', '.join(first['hypotheses']) or 'none'}", highlight=False, markup=False)
+        for answer in cell:
+            console.print(
+                f"  {answer['solver']} {answer['solver_version']} seed {answer['seed']}: {answer['verdict']},"
+                f" rlimit {answer['rlimit_spent']:,} of {answer['rlimit']:,}, {answer['seconds']:.1f} s"
+                + (f"; {answer['note']}" if "note" in answer else ""),
+                highlight=False,
+                markup=False,
+            )
+    if len(bad) > SPELLED_OUT_AT_MOST:
+        console.print(f"... and {len(bad) - SPELLED_OUT_AT_MOST} more; --json F writes all of them", highlight=False)
+
+
+def totals(report: Report, cells: Cells, transitions: int) -> list[str]:
+    """How many things were checked, with what result, and how long it took."""
+    verdicts = [verdict_of(cell) for cell in cells.values()]
+    invariants = len({invariant for _, invariant in cells})
+    solvers = sorted({f"{obligation['solver']} {obligation['solver_version']}" for obligation in report.obligations})
+    seeds = {obligation["seed"] for obligation in report.obligations}
+    lines = [
+        "",
+        f"{transitions} transitions × {invariants} invariants: {len(cells)} obligations, "
+        + ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in MARK),
+        f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
+        f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
+    ]
+    split = sum(len({answer["verdict"] for answer in cell}) > 1 for cell in cells.values())
+    if split:
+        lines.insert(3, f"{split} obligations on which solvers or seeds differ")
+    return lines
+
+
+def show(console: Console, line: Text) -> None:
+    """Print a line of the matrix unbroken, however narrow the terminal is."""
+    console.print(line, soft_wrap=True)

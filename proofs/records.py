@@ -1,0 +1,143 @@
+"""The records that a proof run leaves: one dictionary an obligation, and one file a run.
+
+A record is what the evidence report and the matrix read; neither sees a solver.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import subprocess
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+from typing import Literal, NotRequired, TypedDict
+
+Verdict = Literal["proved", "refuted", "undecided"]
+
+HOLDS, DOES_NOT_HOLD, BAD_INPUT, UNDECIDED = 0, 1, 2, 3
+"""The exit codes of every command."""
+
+EXIT_CODE: Mapping[Verdict, int] = {"proved": HOLDS, "refuted": DOES_NOT_HOLD, "undecided": UNDECIDED}
+
+
+class Source(TypedDict):
+    """Where the invariant of an obligation stands: file, first and last line."""
+
+    file: str
+    lines: tuple[int, int]
+
+
+class Obligation(TypedDict):
+    """One question put to one solver with one seed, and its answer.
+
+    ``transition`` is ``init`` for the initial state.  ``hypotheses`` names the invariants that were
+    assumed of the state before.  ``rlimit`` is the budget, ``rlimit_spent`` what was used, both in
+    the solver's own units.  ``smt2_sha256`` is the hash of the SMT-LIB text that was solved.
+    """
+
+    transition: str
+    invariant: str
+    hypotheses: list[str]
+    verdict: Verdict
+    solver: str
+    solver_version: str
+    seed: int
+    rlimit: int
+    rlimit_spent: int
+    seconds: float
+    smt2_sha256: str
+    source: Source
+    note: NotRequired[str]
+
+
+class Record(TypedDict):
+    """One proof run, as it is written to ``out/prove.json``; ``commit`` is null outside a git checkout."""
+
+    verdict: Verdict
+    obligations: list[Obligation]
+    lifting_seconds: float
+    wall_seconds: float
+    versions: dict[str, str]
+    commit: str | None
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a proof run gives back; ``seconds`` of lifting are apart from those of the whole run."""
+
+    obligations: Sequence[Obligation]
+    lifting_seconds: float
+    wall_seconds: float
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the whole run."""
+        return overall([obligation["verdict"] for obligation in self.obligations])
+
+    @property
+    def exit_code(self) -> int:
+        """0 proved, 1 refuted, 3 undecided."""
+        return EXIT_CODE[self.verdict]
+
+    def record(self) -> Record:
+        """The run as it is written to a file."""
+        return {
+            "verdict": self.verdict,
+            "obligations": list(self.obligations),
+            "lifting_seconds": round(self.lifting_seconds, 3),
+            "wall_seconds": round(self.wall_seconds, 3),
+            "versions": versions(),
+            "commit": commit(),
+        }
+
+
+def overall(verdicts: Sequence[Verdict]) -> Verdict:
+    """The worst verdict: refuted before undecided before proved.  Nothing asked is nothing proved."""
+    if "refuted" in verdicts:
+        return "refuted"
+    if "undecided" in verdicts or not verdicts:
+        return "undecided"
+    return "proved"
+
+
+def versions() -> dict[str, str]:
+    """The versions of Python, of both solvers and of this project."""
+    found = {"python": platform.python_version()}
+    for name in ("z3-solver", "cvc5", "heisoku"):
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def commit() -> str | None:
+    """The commit that the source is at, with ``+`` behind it if files differ from it; None if unknown."""
+    here = Path(__file__).resolve().parent
+    try:
+        head, changes = (
+            subprocess.run(["git", "-C", str(here), *words], capture_output=True, text=True, check=True, timeout=20)
+            for words in (["rev-parse", "HEAD"], ["status", "--porcelain"])
+        )
+    except (OSError, subprocess.SubprocessError):
+        return None
+    return head.stdout.strip() + ("+" if changes.stdout.strip() else "")
+
+
+def write_json(path: Path, record: Mapping[str, object]) -> None:
+    """Write a record, whole or not at all, so that no reader ever finds half of one."""
+    write_whole(path, (json.dumps(record, ensure_ascii=False, indent=1) + "\n").encode())
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file beside its place and move it there, making its folder where that is missing."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        beside.write_bytes(content)
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)

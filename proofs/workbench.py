@@ -1,0 +1,142 @@
+"""Lifts the start, every transition and every invariant once, and lays out each obligation."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import z3
+
+from models.world.state import Site, System
+from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
+from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
+from proofs.transitions import event_types
+
+START = "init"
+"""The name of the first row of the matrix."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way that a transition changes the state: its condition, what it defines, the state after."""
+
+    condition: Any
+    definitions: list[Any]
+    after: Any
+
+
+@dataclass(frozen=True)
+class Part:
+    """One solver call: named hypotheses, the way taken, and the conjunct that is to follow."""
+
+    hypotheses: Mapping[str, Any]
+    given: list[Any]
+    goal: Any
+
+
+@dataclass
+class Workbench:
+    """Everything lifted in one scope; ``named`` chooses the two-vocabulary form of transitions.
+
+    ``sources`` replaces the syntax trees of functions (mutants).
+    """
+
+    scope: Scope = field(default_factory=UnboundedScope)
+    named: bool = True
+    sources: Mapping[Callable[..., Any], Any] | None = None
+    seconds: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Declare the site and the state before."""
+        began = time.perf_counter()
+        self.lifter = Lifter(self.scope, self.sources)
+        self.site = self.scope.fresh(Site, "site")
+        self.before = self.scope.fresh(System, "pre")
+        self._ways: dict[str, list[Way]] = {}
+        self._claims: dict[tuple[int, str], list[Any]] = {}
+        self.seconds += time.perf_counter() - began
+
+    @cached_property
+    def assumed(self) -> Mapping[str, Any]:
+        """The layout axioms and premises as formulas."""
+        began = time.perf_counter()
+        layout, ground = self.site.fields["layout"], self.site.fields["ground"]
+        formulas = {name: self.lifter.formula(axiom, layout, ground) for name, axiom in AXIOMS.items()}
+        formulas |= {name: self.lifter.formula(premise, self.site) for name, premise in PREMISES.items()}
+        formulas |= {named.name: named.formula for named in self.scope.axioms()}
+        self.seconds += time.perf_counter() - began
+        return formulas
+
+    @cached_property
+    def initial(self) -> Mapping[str, Any]:
+        """What holds at the start."""
+        began = time.perf_counter()
+        formulas = {name: self.lifter.formula(claim, self.site, self.before) for name, claim in INITIAL.items()}
+        self.seconds += time.perf_counter() - began
+        return formulas
+
+    @cached_property
+    def invariants(self) -> Mapping[str, Any]:
+        """Every invariant of the state before."""
+        began = time.perf_counter()
+        formulas = {name: self.lifter.formula(claim, self.site, self.before) for name, claim in INVARIANTS.items()}
+        self.seconds += time.perf_counter() - began
+        return formulas
+
+    def ways(self, transition: str) -> list[Way]:
+        """Every way that a transition changes the state; refusals leave it as it is and prove themselves."""
+        if transition not in self._ways:
+            began = time.perf_counter()
+            step = STEPS[transition]
+            event = [self.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()]
+            found = []
+            for condition, after in self.lifter.cases(step, self.site, self.before, *event):
+                if after is self.before:
+                    continue
+                if self.named:
+                    after, definitions = self.scope.name(after, "post", relative_to=self.before)
+                    found.append(Way(condition, [named.formula for named in definitions], after))
+                else:
+                    found.append(Way(condition, [], after))
+            self._ways[transition] = found
+            self.seconds += time.perf_counter() - began
+        return self._ways[transition]
+
+    def claim(self, state: Any, invariant: str) -> list[Any]:
+        """The conjuncts of an invariant in a state."""
+        key = (id(state), invariant)
+        if key not in self._claims:
+            began = time.perf_counter()
+            self._claims[key] = conjuncts(self.lifter.formula(INVARIANTS[invariant], self.site, state))
+            self.seconds += time.perf_counter() - began
+        return self._claims[key]
+
+    def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
+        """Lay out one obligation; ``None`` means every hypothesis there is."""
+        available = dict(self.assumed)
+        available |= self.initial if transition == START else self.invariants
+        chosen = available if hypotheses is None else {name: available[name] for name in hypotheses}
+        order = {named.name: named.formula for named in self.scope.axioms()}
+        chosen = order | chosen
+        if transition == START:
+            return [Part(chosen, [], goal) for goal in self.claim(self.before, invariant)]
+        return [
+            Part(chosen, [way.condition, *way.definitions], goal)
+            for way in self.ways(transition)
+            for goal in self.claim(way.after, invariant)
+        ]
+
+
+def as_solver(part: Part, seed: int, rlimit: int) -> z3.Solver:
+    """Give a fresh solver that is asked to refute the part."""
+    solver = z3.Solver()
+    solver.set("rlimit", rlimit)
+    solver.set("random_seed", seed)
+    for formula in part.hypotheses.values():
+        solver.add(formula)
+    solver.add(*part.given)
+    solver.add(z3.Not(part.goal))
+    return solver
