@@ -1,0 +1,265 @@
+"""The command line: prove the kernel, check layouts against the proof's assumptions, draw them.
+
+Exit codes, everywhere: 0 holds, 1 does not hold, 2 bad input or usage, 3 undecided.
+Findings go to standard output; progress and complaints to standard error.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from enum import StrEnum
+from io import TextIOWrapper
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TextIO
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, write_json, write_whole
+
+if TYPE_CHECKING:
+    from models.layouts import CheckResult, Imported
+
+COLUMNS_OF_A_FILE = 120
+"""Columns to write where the output is not a terminal."""
+INTERRUPTED = 130
+CHECKED = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", BAD_INPUT: "bad input"}
+
+app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode="markdown",
+    help="A railway safety kernel without track circuits, proved once for every layout.\n\n"
+    "Exit codes: 0 holds, 1 does not hold, 2 bad input or usage, 3 undecided.",
+)
+
+
+class Refused(Exception):
+    """Input that cannot be used: one line for whoever gave it."""
+
+
+class Solvers(StrEnum):
+    """Which solvers to ask."""
+
+    z3 = "z3"
+    cvc5 = "cvc5"
+    both = "both"
+
+
+Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
+Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
+Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
+JUnit = Annotated[Path | None, typer.Option("--junit", metavar="F", help="Write JUnit XML there.", show_default=False)]
+
+
+@app.command()
+def prove(
+    json: Json = None,
+    junit: JUnit = None,
+    solver: Annotated[Solvers, typer.Option(help="Which solver to ask.")] = Solvers.z3,
+    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    seeds: Annotated[int, typer.Option(metavar="N", min=1, help="Seeds to repeat every obligation with.")] = 1,
+    only: Annotated[
+        str | None,
+        typer.Option(metavar="PATTERN", help="Only transitions or invariants of this name.", show_default=False),
+    ] = None,
+) -> None:
+    """Prove the kernel: every transition keeps every invariant, on every layout.
+
+    Examples:
+
+    * `heisoku prove`
+    * `heisoku prove --solver both --json out/prove.json --junit out/prove.xml`
+    * `heisoku prove --only "reserve*" --seeds 10`
+    """
+    from proofs.junit import write_junit
+    from proofs.matrix import print_matrix
+    from proofs.run import prove_all
+
+    writable(json, junit)
+    with progress("proving") as step:
+        report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step)
+    if not report.obligations:
+        raise Refused(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
+    print_matrix(console(), report)
+    if json:
+        write_json(json, report.record())
+    if junit:
+        write_junit(junit, report)
+    raise typer.Exit(report.exit_code)
+
+
+@app.command()
+def check(layouts: Layouts, json: Json = None) -> None:
+    """Check layouts against what the proof assumes of them; report every violation, not only the first.
+
+    Examples:
+
+    * `heisoku check layouts/passing_station.toml`
+    * `heisoku check layouts/*.toml --json out/check.json`
+    """
+    from models.layouts import BadInput, as_json, load
+    from models.layouts import check as check_layout
+
+    writable(json)
+    found: list[tuple[Imported, CheckResult] | BadInput] = []
+    with progress("checking") as step:
+        for done, path in enumerate(layouts):
+            step(done, len(layouts), path.name)
+            try:
+                imported = load(path)
+            except BadInput as bad:
+                found.append(bad)
+            else:
+                found.append((imported, check_layout(imported)))
+
+    out, worst, checked = console(), HOLDS, 0
+    entries: list[dict[str, object]] = []
+    for path, one in zip(layouts, found, strict=True):
+        if isinstance(one, BadInput):
+            complain(str(one))
+            entries.append({"file": str(path), "verdict": "bad input", "text": str(one)})
+            worst = BAD_INPUT
+            continue
+        entries.append({"file": str(path), **as_json(*one)})
+        checked += sum(one[1].checked.values())
+        worst = max(worst, one[1].exit_code)
+        print_check(out, path, one[1])
+    unread = sum(isinstance(one, BadInput) for one in found)
+    aside = f", {unread} not read" if unread else ""
+    print_line(out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {CHECKED[worst]}")
+    if json:
+        write_json(json, {"verdict": CHECKED[worst], "layouts": entries})
+    raise typer.Exit(worst)
+
+
+@app.command()
+def draw(
+    layout: Layout,
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="F.svg", help="The drawing.", show_default=False)],
+    route: Annotated[str | None, typer.Option(metavar="R", help="Highlight this route.", show_default=False)] = None,
+) -> None:
+    """Draw the track diagram of a layout: blocks, points, tags, and one route highlighted.
+
+    Examples:
+
+    * `heisoku draw layouts/passing_station.toml -o out/station.svg`
+    * `heisoku draw layouts/passing_station.toml -o out/station.svg --route A-1`
+    """
+    from models.layouts import BadInput, load
+    from models.layouts import draw as draw_layout
+
+    writable(output)
+    try:
+        imported = load(layout)
+        picture = draw_layout(imported, route)
+    except BadInput as bad:
+        raise Refused(str(bad)) from bad
+    write_whole(output, picture.encode())
+    drawn = imported.layout
+    print_line(
+        console(), f"{output}: {len(drawn.blocks)} blocks, {len(drawn.points)} points, {len(drawn.tag_in)} tags drawn"
+    )
+
+
+def print_check(out: Console, path: Path, result: CheckResult) -> None:
+    """One layout: its verdict, every violation with the elements that cause it, every remark."""
+    print_line(
+        out, f"{path}: {result.verdict} ({sum(result.checked.values())} instances of {len(result.checked)} axioms)"
+    )
+    for violation in result.violations:
+        print_line(out, f"  {violation.axiom}: {violation.text} [{', '.join(violation.elements)}]")
+    for remark in result.remarks:
+        print_line(out, f"  remark: {remark.text} [{', '.join(remark.elements)}]")
+
+
+def print_line(out: Console, line: str) -> None:
+    """One line, whatever stands in the names of a layout file: no markup, nothing that moves a cursor."""
+    out.print(printable(line), markup=False, highlight=False, soft_wrap=True)
+
+
+def printable(text: str) -> str:
+    """The text on one line, without control characters."""
+    return "".join(char if char.isprintable() else " " for char in text)
+
+
+def console(file: TextIO | None = None) -> Console:
+    """Standard output, or another stream; 120 columns wide where it is not a terminal."""
+    stream = file or sys.stdout
+    return Console(file=stream, width=None if stream.isatty() else COLUMNS_OF_A_FILE)
+
+
+def complain(line: str) -> None:
+    """One line on standard error."""
+    print(printable(line), file=sys.stderr)
+
+
+def writable(*paths: Path | None) -> None:
+    """Find out before the work, not after it, that a record cannot be written."""
+    for path in paths:
+        if path is None:
+            continue
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise Refused(f"{path}: cannot make the folder ({error.strerror}); name another file") from error
+        if path.is_dir() or not os.access(path.parent, os.W_OK):
+            raise Refused(f"{path}: cannot be written; name another file")
+
+
+@contextmanager
+def progress(what: str) -> Iterator[Callable[[int, int, str], None]]:
+    """Give a function (done, total, name) that moves a bar on standard error; none unless it is a terminal."""
+    bar = Progress(
+        TextColumn(what),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("{task.fields[name]}", markup=False),
+        console=console(sys.stderr),
+        disable=not sys.stderr.isatty(),
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task(what, total=None, name="")
+        yield lambda done, total, name: bar.update(task, completed=done, total=total, name=name)
+
+
+def main() -> None:
+    """Run the command line; whatever happens, the exit code is one of the four."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run one command and give its exit code.  An interruption or a fault of our own decides nothing: 3."""
+    try:
+        code = app(list(arguments), prog_name="heisoku", standalone_mode=False)
+    except typer.TyperException as usage:
+        complain(f"heisoku: {usage.format_message().rstrip('.')}; see heisoku --help")
+        return BAD_INPUT
+    except Refused as bad:
+        complain(f"{bad}")
+        return BAD_INPUT
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return UNDECIDED
+    except Exception as fault:
+        if os.environ.get("HEISOKU_TRACEBACK"):
+            traceback.print_exc()
+        complain(f"heisoku: a fault of its own, {type(fault).__name__}: {fault}; HEISOKU_TRACEBACK=1 shows where")
+        return UNDECIDED
+    if code == INTERRUPTED:
+        complain("heisoku: interrupted; nothing is decided")
+        return UNDECIDED
+    return int(code or HOLDS)
+
+
+if __name__ == "__main__":
+    main()
