@@ -16,6 +16,7 @@ from enum import Enum
 from functools import cache
 from typing import Any, NewType, TypeAlias
 
+from kernel.maps import Map
 from proofs.lift.errors import OutsideSubset
 
 
@@ -110,7 +111,7 @@ def kind_of_type(annotation: Any, owner: Any = None) -> Kind:
         return TupleKind(tuple(kind_of_type(argument, owner) for argument in arguments))
     elif origin is frozenset:
         return SetKind(_key(arguments[0], owner))
-    elif origin is Mapping:
+    elif origin in (Mapping, Map):
         return MapKind(_key(arguments[0], owner), kind_of_type(arguments[1], owner))
     elif isinstance(annotation, type):
         if issubclass(annotation, Enum) or (issubclass(annotation, tuple) and hasattr(annotation, "_fields")):
@@ -153,6 +154,11 @@ def _key(annotation: Any, owner: Any) -> Kind:
     except TypeError:
         raise _outside(annotation, owner) from None
     return kind
+
+
+def _is_map_protocol(origin: Any) -> bool:
+    """Whether a generic type is a protocol that says what a map can do."""
+    return getattr(origin, "_is_protocol", False) and {"__getitem__", "get", "items"} <= set(dir(origin))
 
 
 def _outside(annotation: Any, owner: Any) -> OutsideSubset:

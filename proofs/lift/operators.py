@@ -79,14 +79,31 @@ def set_of(frame: Frame, values: tuple[Value, ...], node: ast.AST) -> Set:
 
 @construct(ast.Dict)
 def lift_dict(frame: Frame, node: ast.Dict, env: Env) -> Value:
-    """``{k: v}``."""
-    entries = []
-    for key, value in zip(node.keys, node.values, strict=True):
-        if key is None:
-            raise frame.outside(node, "** in a dict display", "write m | {k: v}")
-        entries.append((frame.unwrap(evaluate(frame, key, env), key), evaluate(frame, value, env)))
-    kept = tuple(entry for entry in entries if not isinstance(entry[0], Absent))
-    return listed_map(frame.scope.kind_of(kept[0][0]), kept) if kept else EMPTY_MAP
+    """``{k: v}``, and ``{**m, k: v}``, which is ``m | {k: v}``."""
+    made: Map = EMPTY_MAP
+    for key_node, value_node in zip(node.keys, node.values, strict=True):
+        value = evaluate(frame, value_node, env)
+        if key_node is None:
+            part = frame.unwrap(value, value_node)
+        else:
+            key = frame.unwrap(evaluate(frame, key_node, env), key_node)
+            absent = isinstance(key, Absent)
+            part = EMPTY_MAP if absent else listed_map(frame.scope.kind_of(key), ((key, value),))
+        if isinstance(part, Absent):
+            return ABSENT
+        if not isinstance(part, Map):
+            raise frame.outside(node, f"** of a {name_of(part)}", "{**m, k: v} of a Mapping m")
+        made = part if made is EMPTY_MAP else union(made, part)
+    return made
+
+
+def union(left: Map, right: Map) -> Map:
+    """``left | right``: of two entries with the same key the right one counts."""
+    return Map(
+        left.key or right.key,
+        lambda *q: or_(left.has(*q), right.has(*q)),
+        lambda *q: overlay(right.has(*q), right.get(*q), left.get(*q)),
+    )
 
 
 # Operators -----------------------------------------------------------------------------------
@@ -105,11 +122,7 @@ def lift_binop(frame: Frame, node: ast.BinOp, env: Env) -> Value:
         case ast.Sub(), Set(), Set():
             return Set(left.element, lambda *q: and_(left.member(*q), not_(right.member(*q))))
         case ast.BitOr(), Map(), Map():
-            return Map(
-                left.key or right.key,
-                lambda *q: or_(left.has(*q), right.has(*q)),
-                lambda *q: overlay(right.has(*q), right.get(*q), left.get(*q)),
-            )
+            return union(left, right)
     if isinstance(left, Absent) or isinstance(right, Absent):
         return ABSENT
     return _arithmetic(frame, node, left, right)

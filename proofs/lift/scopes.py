@@ -18,9 +18,11 @@ from proofs.lift.kinds import BOOL, INT, Kind, RecordKind, Scalar, TupleKind, fi
 from proofs.lift.terms import (
     Term,
     Truth,
+    address,
     and_,
     enumeration,
     equal_terms,
+    function_of,
     implies_,
     is_constant,
     ite_,
@@ -46,7 +48,7 @@ class Scope(ABC):
         self._depth = 0
         self._functions: dict[tuple[str, Keys, Scalar], Function] = {}
         self._sorts: dict[Scalar, Any] = {}
-        self._scalars: dict[str, Scalar] = {}
+        self._scalars: dict[int, Scalar] = {}
         self.sort(BOOL)
         self.sort(INT)
         self._normal_forms: dict[str, Named] = {}
@@ -57,7 +59,7 @@ class Scope(ABC):
         """Return the Z3 sort of a scalar."""
         if scalar not in self._sorts:
             self._sorts[scalar] = self._sort(scalar)
-            self._scalars[str(self._sorts[scalar])] = scalar
+            self._scalars[address(self._sorts[scalar])] = scalar
         return self._sorts[scalar]
 
     def _sort(self, scalar: Scalar) -> Any:
@@ -69,7 +71,7 @@ class Scope(ABC):
 
     def scalar_of(self, term: Term) -> Scalar:
         """Return the type that a term is of."""
-        return BOOL if isinstance(term, bool) else self._scalars[str(term.sort())]
+        return BOOL if isinstance(term, bool) else self._scalars[address(term.sort())]
 
     def kind_of(self, value: Value) -> Kind:
         """Return the kind of a value that is to be a key."""
@@ -147,15 +149,8 @@ class Scope(ABC):
         """Return the function of logic of this name and these sorts."""
         place = (path, keys, result)
         if place not in self._functions:
-            self._functions[place] = self._declared(path, [self.sort(key) for key in keys], self.sort(result))
+            self._functions[place] = function_of(path, [self.sort(key) for key in keys], self.sort(result))
         return self._functions[place]
-
-    def _declared(self, path: str, keys: list[Any], result: Any) -> Function:
-        if not keys:
-            constant = z3.Const(path, result)
-            return lambda: constant
-        function = z3.Function(path, *keys, result)
-        return lambda *terms: function(*map(to_z3, terms))
 
     def fresh(self, type_: Any, prefix: str) -> Value:
         """Return an arbitrary value of a type, its symbols named by the prefix and the field."""

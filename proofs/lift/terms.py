@@ -6,7 +6,7 @@ and concrete states are evaluated without a solver.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -18,20 +18,25 @@ Truth: TypeAlias = Any
 """A Z3 Boolean, or a Python ``bool``."""
 
 _CONSTANTS: dict[int, Term] = {}
-"""Every enumeration value by its Z3 id: two different ones are never equal."""
+"""Every enumeration value by its address: two different ones are never equal."""
+
+
+def address(term: Any) -> int:
+    """Return where Z3 keeps a term or a sort: it keeps equal ones once, so this is what makes one."""
+    return int(term.ast.value)
 
 
 @cache
 def enumeration(name: str, values: tuple[str, ...]) -> tuple[Any, tuple[Term, ...]]:
     """Declare a sort of named, distinct values; the same declaration gives the same sort."""
     sort, terms = z3.EnumSort(name, list(values))
-    _CONSTANTS.update({term.get_id(): term for term in terms})
+    _CONSTANTS.update({address(term): term for term in terms})
     return sort, tuple(terms)
 
 
 def is_constant(term: Term) -> bool:
     """Whether a term is a known value: an enumeration value, a numeral, a decided truth."""
-    return isinstance(term, bool) or term.get_id() in _CONSTANTS or isinstance(term, z3.IntNumRef)
+    return isinstance(term, bool) or address(term) in _CONSTANTS or isinstance(term, z3.IntNumRef)
 
 
 def to_z3(term: Term) -> Any:
@@ -43,38 +48,87 @@ def same(left: Any, right: Any) -> bool:
     """Whether two values are the same object, or the same term."""
     if left is right:
         return True
-    return isinstance(left, z3.ExprRef) and isinstance(right, z3.ExprRef) and bool(left.eq(right))
+    return isinstance(left, z3.ExprRef) and isinstance(right, z3.ExprRef) and address(left) == address(right)
 
 
 def and_(*parts: Truth) -> Truth:
     """Conjunction."""
-    return _junction(parts, neutral=True, build=z3.And)
+    kept = _kept(parts, neutral=True, operator=z3.Z3_OP_AND)
+    return kept if isinstance(kept, bool) else _joined(kept, z3.Z3_mk_and)
 
 
 def or_(*parts: Truth) -> Truth:
-    """Disjunction."""
-    return _junction(parts, neutral=False, build=z3.Or)
+    """Disjunction; ``a or (a and b)`` is ``a``."""
+    kept = _kept(parts, neutral=False, operator=z3.Z3_OP_OR)
+    if isinstance(kept, bool):
+        return kept
+    if 1 < len(kept) <= _FEW:
+        for key, part in list(kept.items()):
+            if _operator(part) == z3.Z3_OP_AND and any(address(child) in kept for child in part.children()):
+                del kept[key]
+    return _joined(kept, z3.Z3_mk_or)
 
 
-def _junction(parts: Sequence[Truth], neutral: bool, build: Any) -> Truth:
-    """Join the parts, leaving out neutral and repeated ones; one absorbing part decides."""
-    left: dict[int, Truth] = {}
+_FEW = 8
+"""Junctions of more parts than this (a quantifier written out) are left as they are."""
+
+
+def _kept(parts: Sequence[Truth], neutral: bool, operator: int) -> dict[int, Truth] | bool:
+    """Return the parts without neutral and repeated ones, those of small inner junctions among them."""
+    kept: dict[int, Truth] = {}
     for part in parts:
         if isinstance(part, bool):
             if part is not neutral:
                 return not neutral
+        elif len(parts) <= _FEW and _operator(part) == operator and part.num_args() <= _FEW:
+            kept.update({address(child): child for child in part.children()})
         else:
-            left[part.get_id()] = part
-    if not left:
-        return neutral
-    return next(iter(left.values())) if len(left) == 1 else build(*left.values())
+            kept[address(part)] = part
+    return kept or neutral
+
+
+def _joined(kept: dict[int, Truth], build: Any) -> Truth:
+    if len(kept) == 1:
+        return next(iter(kept.values()))
+    context = next(iter(kept.values())).ctx
+    return z3.BoolRef(build(context.ref(), len(kept), _addresses(kept.values())), context)
+
+
+# Z3's own Python functions check and convert their arguments again and again, which is most of
+# the time of lifting.  Where the lifter has made sure of the sorts, it calls Z3 directly.
+
+
+def _addresses(terms: Collection[Term]) -> Any:
+    return (z3.Ast * len(terms))(*[term.ast for term in terms])
+
+
+def _operator(term: Term) -> int | None:
+    """Return the kind of a term's outermost symbol; None if it is a quantifier or a variable."""
+    context = term.ctx_ref()
+    if z3.Z3_get_ast_kind(context, term.ast) != z3.Z3_APP_AST:
+        return None
+    return int(z3.Z3_get_decl_kind(context, z3.Z3_get_app_decl(context, term.ast)))
+
+
+def function_of(path: str, keys: Sequence[Any], result: Any) -> Callable[..., Term]:
+    """Declare a function of logic: a constant if it has no keys."""
+    constant = z3.Const(path, result)
+    if not keys:
+        return lambda: constant
+    declared, wrap, context = z3.Function(path, *keys, result), type(constant), constant.ctx
+
+    def apply(*terms: Term) -> Term:
+        arguments = _addresses([to_z3(term) for term in terms])
+        return wrap(z3.Z3_mk_app(context.ref(), declared.ast, len(terms), arguments), context)
+
+    return apply
 
 
 def not_(part: Truth) -> Truth:
     """Negation; a double one cancels."""
     if isinstance(part, bool):
         return not part
-    return part.arg(0) if z3.is_not(part) else z3.Not(part)
+    return part.arg(0) if _operator(part) == z3.Z3_OP_NOT else z3.Not(part)
 
 
 def implies_(left: Truth, right: Truth) -> Truth:
@@ -107,7 +161,7 @@ def equal_terms(left: Term, right: Term) -> Truth:
         return right if left else not_(right)
     if isinstance(right, bool):
         return left if right else not_(left)
-    if left.eq(right):
+    if address(left) == address(right):
         return True
     if is_constant(left) and is_constant(right):
         return False

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from proofs.lift.kinds import Kind, RecordKind, Scalar, TupleKind, fields_of, scalars_of
-from proofs.lift.terms import Term, Truth, and_, equal_terms, ite_, not_, or_, same
+from proofs.lift.terms import Term, Truth, address, and_, equal_terms, ite_, not_, or_, same
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,9 +178,16 @@ def equal_keys(left: tuple[Term, ...], right: tuple[Term, ...]) -> Truth:
 
 def equal_scalars(left: Term, right: Term) -> Truth:
     """Equality of two scalars, which must be of one sort."""
-    if sort_name(left) != sort_name(right):
+    if not same_sort(left, right):
         raise Mismatch(f"a {sort_name(left)} is compared with a {sort_name(right)}")
     return equal_terms(left, right)
+
+
+def same_sort(left: Term, right: Term) -> bool:
+    """Whether two scalars are of one sort."""
+    if isinstance(left, bool) or isinstance(right, bool):
+        return sort_name(left) == sort_name(right)
+    return address(left.sort()) == address(right.sort())
 
 
 def sort_name(term: Term) -> str:
@@ -259,7 +266,7 @@ def choose(condition: Truth, yes: Value, no: Value) -> Value:
                 lambda *q: ite_(condition, yes.has(*q), no.has(*q)),
                 lambda *q: _choose_at_key(condition, yes.get(*q), no.get(*q)),
             )
-    if is_term(yes) and is_term(no) and sort_name(yes) == sort_name(no):
+    if is_term(yes) and is_term(no) and same_sort(yes, no):
         return ite_(condition, yes, no)
     raise Mismatch(f"{name_of(yes)} or {name_of(no)}: two branches of different types")
 

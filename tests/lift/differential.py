@@ -14,7 +14,7 @@ import z3
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
-from proofs.lift import FiniteScope, Lifter, Value, concretise, embed
+from proofs.lift import FiniteScope, Lifter, Named, Value, concretise, embed
 from proofs.lift.components import components
 from proofs.lift.kinds import Kind, OptionKind, RecordKind, kind_of_type
 from proofs.lift.scopes import Scope
@@ -96,9 +96,10 @@ class Symbols:
         lifter = Lifter(self.scope)
         self.lifted = lifter.call(function, *self.values)
         self.cases = lifter.cases(function, *self.values)
-        self.named, self.definitions = self.lifted, []
+        self.named = self.lifted
+        self.definitions: list[Named] = []
         if isinstance(self.lifted, Record):
-            old = self.values[0] if types_match(self.types[0], self.result) else None
+            old = self.values[0] if self.types and types_match(self.types[0], self.result) else None
             self.named, self.definitions = self.scope.name(self.lifted, "post", relative_to=old)
 
     def check(self, arguments: tuple[Any, ...], expected: Any) -> None:

@@ -12,6 +12,8 @@ from enum import Enum
 from types import MappingProxyType
 from typing import NamedTuple, NewType
 
+from kernel.maps import Map
+
 Berth = NewType("Berth", str)
 Ship = NewType("Ship", str)
 Tide = NewType("Tide", int)
@@ -53,12 +55,12 @@ class Harbour:
     quiet: bool
     closed: frozenset[Berth]
     stays: frozenset[tuple[Visit, Berth]]
-    moored: Mapping[Visit, frozenset[Berth]]
+    moored: Map[Visit, frozenset[Berth]]
     flags: Mapping[tuple[Ship, Berth], Flag]
-    marks: Mapping[Visit, Mapping[Berth, Flag]]
+    marks: Map[Visit, Map[Berth, Flag]]
     home: Mapping[Ship, Berth | None]
     weight: Mapping[Ship, int]
-    slots: Mapping[Berth, Slot]
+    slots: Map[Berth, Slot]
     route: Mapping[Ship, tuple[Berth, Flag]]
 
 
@@ -81,7 +83,7 @@ class Report:
 
 
 NONE_MOORED: frozenset[Berth] = frozenset()
-NO_MARKS: Mapping[Berth, Flag] = MappingProxyType({})
+NO_MARKS: Map[Berth, Flag] = MappingProxyType({})
 BRIGHT = frozenset({Flag.RED, Flag.WHITE})
 DEEP_MM = 2
 
@@ -342,11 +344,19 @@ def twins(harbour: Harbour) -> frozenset[tuple[Berth, Berth]]:
 
 
 def raised(harbour: Harbour, ship: Ship, berth: Berth) -> Mapping[tuple[Ship, Berth], Flag]:
-    return harbour.flags | {(ship, berth): Flag.WHITE}
+    return {**harbour.flags, (ship, berth): Flag.WHITE}
+
+
+def raised_twice(harbour: Harbour, ship: Ship, berth: Berth) -> Mapping[tuple[Ship, Berth], Flag]:
+    others = {(ship, other): Flag.GREEN for other in harbour.closed}
+    return {**harbour.flags, (ship, berth): Flag.WHITE, **others}
 
 
 def raised_everywhere(harbour: Harbour, ship: Ship) -> Mapping[tuple[Ship, Berth], Flag]:
-    return harbour.flags | {(ship, berth): Flag.GREEN for berth in harbour.closed if berth in harbour.slots}
+    return {
+        **harbour.flags,
+        **{(ship, berth): Flag.GREEN for berth in harbour.closed if berth in harbour.slots},
+    }
 
 
 def listed_twice(berth: Berth, other: Berth) -> Mapping[Berth, Flag]:
@@ -354,14 +364,14 @@ def listed_twice(berth: Berth, other: Berth) -> Mapping[Berth, Flag]:
 
 
 def moved_home(harbour: Harbour, ship: Ship, berth: Berth) -> Mapping[Ship, Berth | None]:
-    return harbour.home | {ship: None if berth in harbour.closed else berth}
+    return {**harbour.home, ship: None if berth in harbour.closed else berth}
 
 
-def removed(harbour: Harbour, visit: Visit) -> Mapping[Visit, frozenset[Berth]]:
+def removed(harbour: Harbour, visit: Visit) -> Map[Visit, frozenset[Berth]]:
     return {other: berths for other, berths in harbour.moored.items() if other != visit}
 
 
-def removed_marks(harbour: Harbour, visit: Visit) -> Mapping[Visit, Mapping[Berth, Flag]]:
+def removed_marks(harbour: Harbour, visit: Visit) -> Map[Visit, Map[Berth, Flag]]:
     return {other: harbour.marks[other] for other in harbour.marks if other != visit}
 
 
@@ -373,14 +383,14 @@ def one_entry_read(harbour: Harbour, visit: Visit, asked: Visit) -> frozenset[Be
     return {visit: harbour.closed}.get(asked, frozenset())
 
 
-def nested_removal(harbour: Harbour, berth: Berth) -> Mapping[Visit, Mapping[Berth, Flag]]:
+def nested_removal(harbour: Harbour, berth: Berth) -> Map[Visit, Map[Berth, Flag]]:
     return harbour.marks | {
         visit: {other: flag for other, flag in harbour.marks.get(visit, {}).items() if other != berth}
         for visit in harbour.moored
     }
 
 
-def changed_slots(harbour: Harbour, ship: Ship) -> Mapping[Berth, Slot]:
+def changed_slots(harbour: Harbour, ship: Ship) -> Map[Berth, Slot]:
     return harbour.slots | {
         berth: replace(slot, holder=ship, seen=slot.seen | {ship})
         for berth, slot in harbour.slots.items()
@@ -403,8 +413,8 @@ def any_closed(harbour: Harbour) -> bool:
     return any(True for _ in harbour.closed)
 
 
-def all_open(harbour: Harbour) -> bool:
-    return all(slot.is_open for slot in harbour.slots.values())
+def all_heavy(harbour: Harbour) -> bool:
+    return all(amount > 0 for amount in harbour.weight.values())
 
 
 def any_open_near(harbour: Harbour, ship: Ship) -> bool:

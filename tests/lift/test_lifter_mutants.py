@@ -113,11 +113,11 @@ def first_index(node: ast.Subscript) -> None:
 
 
 def keyword_order(frame: Frame, node: ast.Call, env: Any, function: Any) -> Any:
-    names = calls.parameters(frame.state, function)[0]
+    names = statements.parameters(frame.state, function)[0]
     every = [*node.args, *(keyword.value for keyword in node.keywords)]
     return dict(zip(names, [expressions.evaluate(frame, each, env) for each in every], strict=False)) | {
         "strict": False,
-        "flag": calls.parameters(frame.state, function)[2].get("flag"),
+        "flag": statements.parameters(frame.state, function)[2].get("flag"),
     }
 
 
@@ -161,7 +161,7 @@ MUTANTS: dict[str, tuple[Callable[..., Any], Callable[[], Mutant]]] = {
     "<= lifted as <": (harbour.not_later, lambda: reading(ast.Compare, strict_for_weak)),
     "chain cut after its first part": (harbour.between, lambda: reading(ast.Compare, last_comparison_lost)),
     "branches of a conditional swapped": (harbour.chosen, lambda: reading(ast.IfExp, branches_swapped)),
-    "operands of | and - swapped": (harbour.raised, lambda: reading(ast.BinOp, operands_swapped)),
+    "operands of | and - swapped": (harbour.changed_slots, lambda: reading(ast.BinOp, operands_swapped)),
     "& lifted as |": (harbour.common, lambda: reading(ast.BinOp, union_for_intersection)),
     "filter of a set comprehension lost": (
         harbour.kept_berths,
@@ -182,7 +182,7 @@ MUTANTS: dict[str, tuple[Callable[..., Any], Callable[[], Mutant]]] = {
         lambda: instead(calls, "quantified", lambda f, n, e, universal: _quantified(f, n, e, True)),
     ),
     "all lifted as any": (
-        harbour.all_open,
+        harbour.all_heavy,
         lambda: instead(calls, "quantified", lambda f, n, e, universal: _quantified(f, n, e, False)),
     ),
     "all without its range": (

@@ -29,7 +29,7 @@ def in_filter(harbour: Harbour) -> frozenset[Berth]:
 
 
 def in_conditional(harbour: Harbour, ship: Ship) -> int:
-    return harbour.weight[ship] if ship in harbour.weight else 0
+    return harbour.weight[ship] if ship in harbour.weight else 0  # noqa: SIM401
 
 
 def inner(harbour: Harbour, ship: Ship) -> int:
@@ -77,7 +77,6 @@ GUARDED = [
     harbour.marked,
     harbour.narrowed,
     harbour.divided,
-    harbour.changed_slots,
     harbour.leave,
 ]
 UNGUARDED = [

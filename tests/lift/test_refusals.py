@@ -12,7 +12,7 @@ from proofs.lift import FiniteScope, Lifter, OutsideSubset, UnboundedScope
 from proofs.lift.kinds import kind_of_type
 from proofs.lift.scopes import Scope
 from tests.lift import outside
-from tests.lift.harbour import UNIVERSE
+from tests.lift.harbour import UNIVERSE, Harbour
 
 
 def line_marked(function: Callable[..., Any]) -> int:
@@ -40,7 +40,7 @@ def test_refused_with_file_and_line(function: Callable[..., Any], scope: Scope) 
 def test_a_wrapped_function_is_refused() -> None:
     scope = UnboundedScope()
     with pytest.raises(OutsideSubset, match="wrapped by a decorator"):
-        Lifter(scope).call(outside.wrapped, scope.fresh(outside.Harbour, "harbour"))
+        Lifter(scope).call(outside.wrapped, scope.fresh(Harbour, "harbour"))
 
 
 def test_a_lambda_is_refused() -> None:
@@ -62,4 +62,4 @@ def test_a_refused_field_names_its_class() -> None:
 
 
 def test_kinds_are_read_once() -> None:
-    assert kind_of_type(outside.Harbour) is kind_of_type(outside.Harbour)
+    assert kind_of_type(Harbour) is kind_of_type(Harbour)

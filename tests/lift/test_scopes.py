@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -13,7 +14,7 @@ from hypothesis import given, settings
 from proofs.lift import FiniteScope, Lifter, Mismatch, UnboundedScope, concretise, conjuncts, embed
 from proofs.lift.scopes import Scope
 from tests.lift import harbour
-from tests.lift.harbour import UNIVERSE, Berth, Flag, Harbour, Port, Ship, Tide, Visit
+from tests.lift.harbour import UNIVERSE, Berth, Harbour, Port, Ship, Tide, Visit
 from tests.lift.strategies import states_of
 
 SIZES = {Berth: 2, Ship: 2, Tide: 3, Visit: 3}
@@ -120,10 +121,7 @@ def test_only_changed_components_are_named() -> None:
 def test_only_changed_fields_of_the_records_in_a_map_are_named() -> None:
     scope = UnboundedScope()
     pre, ship = scope.fresh(Harbour, "pre"), scope.constant(Ship, "ship")
-    lifter = Lifter(scope)
-    record = harbour.Report(port=None, moved=frozenset())  # type: ignore[arg-type]
-    assert record.flag is Flag.WHITE
-    post, definitions = scope.name(lifter.call(reslotted, pre, ship), "post", relative_to=pre)
+    post, definitions = scope.name(Lifter(scope).call(reslotted, pre, ship), "post", relative_to=pre)
     assert {definition.name for definition in definitions} == {
         "post.slots.holder.is_none",
         "post.slots.holder",
@@ -133,7 +131,7 @@ def test_only_changed_fields_of_the_records_in_a_map_are_named() -> None:
 
 
 def reslotted(state: Harbour, ship: Ship) -> Harbour:
-    return harbour.replace(state, slots=harbour.changed_slots(state, ship))
+    return replace(state, slots=harbour.changed_slots(state, ship))
 
 
 def test_named_and_unnamed_forms_are_equal() -> None:
@@ -175,7 +173,7 @@ def test_a_mutant_stands_for_a_function() -> None:
 
 
 def test_a_finite_scope_names_the_size_it_lacks() -> None:
-    with pytest.raises(Mismatch, match="Ship"):
+    with pytest.raises(Mismatch, match="Visit"):
         FiniteScope({Berth: 2}).fresh(Harbour, "pre")
 
 
