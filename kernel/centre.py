@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
+from kernel.maps import Map
 from kernel.names import (
     Block,
     Cause,
@@ -22,8 +22,8 @@ from kernel.names import (
 NO_RUNS: frozenset[Run] = frozenset()
 NO_BLOCKS: frozenset[Block] = frozenset()
 NO_POINTS: frozenset[Point] = frozenset()
-NO_LOCKS: Mapping[Run, Position] = {}
-NOTHING_ENDED: Mapping[Block, Cause] = {}
+NO_LOCKS: Map[Run, Position] = {}
+NOTHING_ENDED: Map[Block, Cause] = {}
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Grant:
     stage: Stage
     proved: frozenset[Point]
     cancelling: bool
-    ended: Mapping[Block, Cause]
+    ended: Map[Block, Cause]
 
 
 @dataclass(frozen=True)
@@ -69,12 +69,12 @@ class Centre:
 
     epoch: Epoch
     newest: Serial
-    accounted: Mapping[Train, UnitLife]
-    runs: Mapping[Run, Grant]
-    claimed: Mapping[Block, frozenset[Run]]
-    locked: Mapping[Point, Mapping[Run, Position]]
+    accounted: Map[Train, UnitLife]
+    runs: Map[Run, Grant]
+    claimed: Map[Block, frozenset[Run]]
+    locked: Map[Point, Map[Run, Position]]
     lost_blocks: frozenset[Block]
     lost_points: frozenset[Point]
-    terminal_life: Mapping[Point, TerminalLife]
+    terminal_life: Map[Point, TerminalLife]
     supervised: frozenset[Train]
-    statements: Mapping[Train, Statement]
+    statements: Map[Train, Statement]

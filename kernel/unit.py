@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
+from kernel.maps import Map
 from kernel.names import Block, Epoch, Read, Run, Tag, UnitLife
 
 
@@ -35,11 +35,11 @@ class Order:
     begun: bool
     stopped: bool
     expected: Tag | None
-    left: Mapping[Block, Evidence]
+    left: Map[Block, Evidence]
 
 
-NO_ORDERS: Mapping[Run, Order] = {}
-NO_EVIDENCE: Mapping[Block, Evidence] = {}
+NO_ORDERS: Map[Run, Order] = {}
+NO_EVIDENCE: Map[Block, Evidence] = {}
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Unit:
     life: UnitLife
     answered: Epoch | None
     standing_in: frozenset[Block]
-    orders: Mapping[Run, Order]
+    orders: Map[Run, Order]
     head_tag: Tag | None
     tail_read: Read | None
     occupied: frozenset[Block]

@@ -7,7 +7,7 @@ by ``heisoku prove``.  Neither the kernel nor the proof mentions any particular 
 from __future__ import annotations
 
 from kernel.layout import Layout
-from models.ground import Ground
+from models.ground import Ground, covers_flank, turns_away
 
 
 def a_route_claims_start_covers_and_overlap(layout: Layout, ground: Ground) -> bool:
@@ -85,14 +85,7 @@ def a_point_is_released_with_a_claimed_block(layout: Layout, ground: Ground) -> 
 def track_leads_along_the_way_or_is_turned(layout: Layout, ground: Ground) -> bool:
     """From a block with a way on, track leads along the way, or a held point turns the train from it (T9)."""
     return all(
-        target == layout.way[route][block]
-        or (
-            ground.turnout[route][block][target] in layout.needs[route]
-            and layout.stands_in[ground.turnout[route][block][target]] == block
-            and ground.turnout[route][block][target] in ground.opens[block][target]
-            and ground.opens[block][target][ground.turnout[route][block][target]]
-            != layout.needs[route][ground.turnout[route][block][target]]
-        )
+        target == layout.way[route][block] or turns_away(layout, ground, route, block, target)
         for route in layout.routes
         for block in layout.way[route]
         for target in ground.leads[route][block]
@@ -106,13 +99,7 @@ def a_flank_is_closed_or_held(layout: Layout, ground: Ground) -> bool:
         or block not in ground.opens
         or target not in ground.opens[block]
         or target in ground.held_by_authority.get(block, frozenset())
-        or (
-            ground.flank_point[route][block][target] in layout.needs[route]
-            and layout.released_with[route][ground.flank_point[route][block][target]] == target
-            and ground.flank_point[route][block][target] in ground.opens[block][target]
-            and ground.opens[block][target][ground.flank_point[route][block][target]]
-            != layout.needs[route][ground.flank_point[route][block][target]]
-        )
+        or covers_flank(layout, ground, route, block, target)
         for route in layout.routes
         for target in layout.claims[route]
         if target != layout.start[route]
@@ -152,7 +139,9 @@ def a_part_ends_on_its_route(layout: Layout, ground: Ground) -> bool:
 def tags_of_a_boundary_are_partners(layout: Layout, ground: Ground) -> bool:
     """Two tags lie at each boundary, one each side, each the other's partner (T2)."""
     return all(
-        layout.partner[layout.partner[tag]] == tag and layout.tag_in[layout.partner[tag]] != layout.tag_in[tag]
+        layout.partner[tag] in layout.partner
+        and layout.partner[layout.partner[tag]] == tag
+        and layout.tag_in[layout.partner[tag]] != layout.tag_in[tag]
         for tag in layout.partner
     )
 
@@ -179,6 +168,7 @@ def every_map_has_its_keys(layout: Layout, ground: Ground) -> bool:
             for point in layout.needs[route]
         )
         and all(block in layout.blocks for route in layout.routes for block in layout.claims[route])
+        and all(block in ground.leads[route] for route in layout.routes for block in layout.way[route])
         and all(point in layout.stands_in for point in layout.points)
         and all(point in layout.points for point in layout.stands_in)
         and all(

@@ -9,7 +9,7 @@ import networkx as nx
 
 from kernel.names import Block, Point, Route
 from models.diagram_plan import Node, Plan, plan, spread
-from models.layouts.results import Imported
+from models.layouts.results import BadInput, Imported
 from models.layouts.track import Cut, Joint, Stop, cut_into_segments
 
 COLUMN, WIDEST_COLUMN, LANE, WIDTH = 80, 190, 74, 1240
@@ -26,10 +26,13 @@ STYLE = (
 def draw_svg(imported: Imported, route: str | None = None) -> str:
     """The diagram of a layout, with a route highlighted if one is named.
 
-    :raises KeyError: the layout has no such route.
+    :raises BadInput: the layout has no such route.
     """
     if route is not None and route not in imported.layout.routes:
-        raise KeyError(f"there is no route '{route}' in {imported.name}")
+        some = ", ".join(f"'{name}'" for name in sorted(imported.layout.routes)[:5])
+        raise BadInput(
+            imported.name, f"route '{route}'", "there is no such route", f"name one of its routes, such as {some}"
+        )
     drawing = Drawing(imported, None if route is None else Route(route))
     return drawing.of_track() if imported.station is not None else drawing.of_blocks()
 

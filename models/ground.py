@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from kernel.layout import Layout
 from kernel.names import Block, Point, Position, Route, Tag
 
 
@@ -18,7 +19,8 @@ class Ground:
 
     ``leads``: for a route and a block it claims, every block that track leads to from there
     in the running direction of the route, for some position of the points (the block on the
-    route's way among them).
+    route's way among them), and how the points that this movement meets facing must lie for it
+    (the demands common to all ways from where the route comes in).
     ``neighbours``: for a block, every block that it shares a boundary with.
     ``opens``: track from the first block to the second is open only if these points lie so
     (points that the movement meets facing; the demands common to all ways from one to the other).
@@ -32,10 +34,34 @@ class Ground:
     left when its antenna has read both in this order (T2).
     """
 
-    leads: Mapping[Route, Mapping[Block, frozenset[Block]]]
+    leads: Mapping[Route, Mapping[Block, Mapping[Block, Mapping[Point, Position]]]]
     neighbours: Mapping[Block, frozenset[Block]]
     opens: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]
     turnout: Mapping[Route, Mapping[Block, Mapping[Block, Point]]]
     flank_point: Mapping[Route, Mapping[Block, Mapping[Block, Point]]]
     held_by_authority: Mapping[Block, frozenset[Block]]
     laid_leaves: Mapping[Tag, Mapping[Tag, frozenset[Block]]]
+
+
+def turns_away(layout: Layout, ground: Ground, route: Route, block: Block, target: Block) -> bool:
+    """Tell whether a route holds a point in ``block`` so that its train is not led into ``target`` (T9)."""
+    point = ground.turnout.get(route, {}).get(block, {}).get(target)
+    return (
+        point is not None
+        and point in layout.needs[route]
+        and layout.stands_in[point] == block
+        and point in ground.leads.get(route, {}).get(block, {}).get(target, {})
+        and ground.leads[route][block][target][point] != layout.needs[route][point]
+    )
+
+
+def covers_flank(layout: Layout, ground: Ground, route: Route, block: Block, target: Block) -> bool:
+    """Tell whether a route holds a point, as long as ``target``, so that nothing comes there from ``block`` (T9)."""
+    point = ground.flank_point.get(route, {}).get(block, {}).get(target)
+    return (
+        point is not None
+        and point in layout.needs[route]
+        and layout.released_with[route][point] == target
+        and point in ground.opens.get(block, {}).get(target, {})
+        and ground.opens[block][target][point] != layout.needs[route][point]
+    )

@@ -149,18 +149,21 @@ def _ground(
 ) -> Ground:
     """The track as it is; nothing is mislaid at import, so tags lie as planned."""
     movements = Movements(blocks)
-    leads: dict[Route, dict[Block, frozenset[Block]]] = {}
+    leads: dict[Route, dict[Block, dict[Block, dict[Point, Position]]]] = {}
     turnout: dict[Route, dict[Block, dict[Block, Point]]] = {}
     held: dict[Block, set[Block]] = {}
     for block, target in told.held or ():
         held.setdefault(block, set()).add(target)
     for route in granted:
         name = Route(route.name)
-        leads[name] = {block: movements.led_to(route.entries[block]) for block in route.way}
-        turnout[name] = {
-            block: movements.turned_from(route, block, leads[name][block] - {target})
-            for block, target in route.way.items()
+        leads[name] = {
+            block: {
+                target: movements.demanded(block, route.entries[block], target)
+                for target in movements.led_to(route.entries[block])
+            }
+            for block in route.way
         }
+        turnout[name] = {block: turned_from(route, leads[name][block], route.way[block]) for block in route.way}
         if told.held is None:
             for block, target in unshielded(route, neighbours, opens):
                 held.setdefault(block, set()).add(target)
@@ -190,19 +193,25 @@ class Movements:
             self.led[key] = frozenset(exits(self.blocks, entries))
         return self.led[key]
 
-    def turned_from(self, route: Granted, block: Block, targets: frozenset[Block]) -> dict[Block, Point]:
-        """For each block that a route is not to be led to, the point it holds that turns it away."""
-        found: dict[Block, Point] = {}
-        for target in sorted(targets):
-            key = (tuple(route.entries[block]), target)
-            if key not in self.demands:
-                goals = {heading for heading in self.blocks.ends[block] if self.blocks.beyond(heading) == target}
-                self.demands[key] = demanded(self.blocks, block, route.entries[block], goals)
-            demands = self.demands[key]
-            turning = [p for p in sorted(demands) if p in route.needs and route.needs[p] != demands[p]]
-            if turning:
-                found[target] = turning[0]
-        return found
+    def demanded(self, block: Block, entries: Sequence[Heading], target: Block) -> dict[Point, Position]:
+        """How points met facing must lie on every way from these entries of a block to a neighbour."""
+        key = (tuple(entries), target)
+        if key not in self.demands:
+            goals = {heading for heading in self.blocks.ends[block] if self.blocks.beyond(heading) == target}
+            self.demands[key] = demanded(self.blocks, block, entries, goals)
+        return self.demands[key]
+
+
+def turned_from(
+    route: Granted, leads: Mapping[Block, Mapping[Point, Position]], onward: Block
+) -> dict[Block, Point]:
+    """For each block that a route is not to be led to, the point it holds that turns it away."""
+    found: dict[Block, Point] = {}
+    for target in sorted(set(leads) - {onward}):
+        turning = [p for p in sorted(leads[target]) if p in route.needs and route.needs[p] != leads[target][p]]
+        if turning:
+            found[target] = turning[0]
+    return found
 
 
 def unshielded(route: Granted, neighbours: Neighbours, opens: Opens) -> Iterable[tuple[Block, Block]]:

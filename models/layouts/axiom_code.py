@@ -8,6 +8,8 @@ variables that make it fail.  A look-up of something absent is a failure of its 
 from __future__ import annotations
 
 import ast
+import builtins
+import copy
 import inspect
 import textwrap
 from collections.abc import Callable, Iterator, Mapping
@@ -23,16 +25,24 @@ Bindings = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
+class Binder:
+    """A variable's source: the expression it loops over, or (``loops`` false) is."""
+
+    source: str
+    loops: bool
+
+
+@dataclass(frozen=True)
 class Part:
     """One part of an axiom that cannot be taken further apart, and the loops it stands in.
 
-    ``terms``: its look-ups, innermost first, each compiled.  ``binders``: loop variable to the
-    expression it runs over.
+    ``terms``: its look-ups, innermost first, each compiled.  ``binders``: where each variable that
+    stands in it has its value from.
     """
 
     source: str
     terms: tuple[tuple[str, CodeType], ...]
-    binders: Mapping[str, str]
+    binders: Mapping[str, Binder]
 
 
 @dataclass(frozen=True)
@@ -81,7 +91,8 @@ def compile_axiom(axiom: Axiom) -> CompiledAxiom:
     function = ast.parse(source).body[0]
     assert isinstance(function, ast.FunctionDef)
     body = [statement for statement in function.body if not _is_docstring(statement)]
-    writer = _Writer()
+    namespace = dict(vars(inspect.getmodule(axiom)))
+    writer = _Writer(namespace)
     known_form = isinstance(body[-1], ast.Return) and all(_is_simple_assignment(s) for s in body[:-1])
     if known_form:
         assert isinstance(body[-1], ast.Return)
@@ -91,7 +102,6 @@ def compile_axiom(axiom: Axiom) -> CompiledAxiom:
         writer.search(body[-1].value)
     else:
         writer.search(ast.parse(f"{function.name}(layout, ground)", mode="eval").body)
-    namespace = dict(vars(inspect.getmodule(axiom)))
     exec(compile(writer.text(), f"<search for {function.name}>", "exec"), namespace)
     sentence = (inspect.getdoc(axiom) or function.name.replace("_", " ")).splitlines()[0]
     return CompiledAxiom(function.name, sentence, tuple(writer.parts), namespace["search"])
@@ -110,10 +120,11 @@ def _is_simple_assignment(statement: ast.stmt) -> bool:
 class _Writer:
     """Writes the source of a generator of failures, one construct at a time."""
 
-    def __init__(self) -> None:
+    def __init__(self, namespace: dict[str, Any]) -> None:
         self.lines: list[str] = []
         self.parts: list[Part] = []
-        self.binders: dict[str, str] = {}
+        self.binders: dict[str, Binder] = {}
+        self.namespace = namespace
         self.depth = 1
         self.names = 0
 
@@ -135,7 +146,7 @@ class _Writer:
             counter = failed or self.counter()
             for value in node.values:
                 self.search(value, counter)
-        elif isinstance(node, ast.BoolOp) and isinstance(node.values[-1], ast.BoolOp):
+        elif isinstance(node, ast.BoolOp) and self.opens(node.values[-1]):
             guard = ast.BoolOp(ast.Or(), node.values[:-1]) if len(node.values) > 2 else node.values[0]
             self.unless(guard, node, failed)
         elif isinstance(node, ast.IfExp):
@@ -144,8 +155,35 @@ class _Writer:
             assert isinstance(node, ast.Call)
             assert isinstance(node.args[0], ast.GeneratorExp)
             self.loop(node.args[0], failed)
+        elif (helper := _helper(node, self.namespace)) is not None:
+            assert isinstance(node, ast.Call)
+            self.inline(node, helper, failed)
         else:
             self.leaf(node, failed)
+
+    def inline(self, call: ast.Call, helper: ast.FunctionDef, failed: str | None) -> None:
+        """A call of a predicate of the known form: its parts are searched with the arguments put in."""
+        names = [argument.arg for argument in helper.args.args]
+        put: dict[str, ast.expr] = dict(zip(names, call.args, strict=True))
+        kept = dict(self.binders)
+        for statement in helper.body:
+            if isinstance(statement, ast.Assign):
+                target = statement.targets[0]
+                assert isinstance(target, ast.Name)
+                local = target.id if target.id not in self.binders else f"{target.id}_{len(self.binders)}"
+                value = _put(statement.value, put)
+                self.line(f"{local} = None")
+                self.attempt(f"{local} = {ast.unparse(value)}", value, failed)
+                self.binders[local] = Binder(ast.unparse(value), loops=False)
+                put[target.id] = ast.Name(local, ast.Load())
+            elif isinstance(statement, ast.Return):
+                assert statement.value is not None
+                self.search(_put(statement.value, put), failed)
+        self.binders = kept
+
+    def opens(self, node: ast.expr) -> bool:
+        """Whether an expression has parts to be searched."""
+        return isinstance(node, ast.BoolOp) or _is_all(node) or _helper(node, self.namespace) is not None
 
     def counter(self) -> str:
         name = self.fresh("failed")
@@ -181,7 +219,7 @@ class _Writer:
             self.depth += 1
             for name in ast.walk(clause.target):
                 if isinstance(name, ast.Name):
-                    self.binders[name.id] = source
+                    self.binders[name.id] = Binder(source, loops=True)
             for condition in clause.ifs:
                 flag = self.fresh("meant")
                 self.line(f"{flag} = False")
@@ -220,6 +258,38 @@ class _Writer:
         self.line(f"{indent}yield {len(self.parts) - 1}, {{{bound}}}, {missing}")
         if failed:
             self.line(f"{failed} += 1")
+
+
+def _helper(node: ast.expr, namespace: Mapping[str, Any]) -> ast.FunctionDef | None:
+    """The predicate that a call calls, if it is one of the project's own and of the known form."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or node.keywords:
+        return None
+    called = namespace.get(node.func.id)
+    if not inspect.isfunction(called) or called.__defaults__ or called.__kwdefaults__:
+        return None
+    function = ast.parse(textwrap.dedent(inspect.getsource(called))).body[0]
+    if not isinstance(function, ast.FunctionDef) or len(function.args.args) != len(node.args):
+        return None
+    *steps, last = [statement for statement in function.body if not _is_docstring(statement)]
+    if not isinstance(last, ast.Return) or last.value is None or not all(map(_is_simple_assignment, steps)):
+        return None
+    own = {argument.arg for argument in function.args.args}
+    named = {n.id for n in ast.walk(last) if isinstance(n, ast.Name)} - own - set(dir(builtins))
+    local = {n.id for step in steps for n in ast.walk(step) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    bound = {n.id for n in ast.walk(last) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    return function if named - local - bound <= set(namespace) else None
+
+
+def _put(node: ast.expr, put: Mapping[str, ast.expr]) -> ast.expr:
+    """An expression with names replaced."""
+
+    class Replacing(ast.NodeTransformer):
+        def visit_Name(self, name: ast.Name) -> ast.expr:
+            return put.get(name.id, name) if isinstance(name.ctx, ast.Load) else name
+
+    replaced = Replacing().visit(copy.deepcopy(node))
+    assert isinstance(replaced, ast.expr)
+    return replaced
 
 
 def _is_all(node: ast.expr) -> bool:

@@ -43,7 +43,7 @@ def explain(imported: Imported, axiom: CompiledAxiom, failure: Failure) -> Viola
     for name, value in failure.bindings.items():
         sort = sorts.of_variable(name, failure.part.binders)
         elements += sorts.elements(sort, value)
-        said.append(f"{_words(name)} '{value}'")
+        said.append(f"{_words(name)} '{value}'" if value is not None else f"no {_words(name)}")
     known: dict[str, Any] = {"layout": imported.layout, "ground": imported.ground, **failure.bindings}
     absent = None
     for text, code in failure.part.terms:

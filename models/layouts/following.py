@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NoReturn
 
 from kernel.names import Block, Point, Position
 from models.layouts.blocks import Blocks, opposite
@@ -99,6 +101,7 @@ class Follower:
     ) -> Heading | None:
         """Run on to ``goal``, noting blocks and detectors; the heading at it, or none after a violation."""
         seen: set[int] = set()
+        start = heading
         while True:
             if heading[0] in seen:
                 track = self.blocks.segments.segments[heading[0]].track
@@ -107,6 +110,9 @@ class Follower:
             end = self.blocks.segments.at[heading]
             if isinstance(end, Joint):
                 onward = self._over(path, end, into[-1])
+                if onward is None and not self._reaches(start, goal):
+                    self.findings.violations.pop()
+                    self._lost(path, goal, "track does not lead there, however the points lie")
                 if onward is None:
                     return None
                 heading = onward
@@ -122,8 +128,25 @@ class Follower:
             crossed.append((end.mark, heading))
             into.append(self.blocks.of[heading[0]])
 
-    def _lost(self, path: Path, goal: str, why: str) -> None:
-        """The exit is never reached: the file contradicts itself."""
+    def _reaches(self, start: Heading, goal: str) -> bool:
+        """Whether some position of the points leads to a mark."""
+        met, todo = {start}, deque([start])
+        while todo:
+            end = self.blocks.segments.at[todo.popleft()]
+            if not isinstance(end, Joint) and end.mark == goal:
+                return True
+            onward = [end.beyond] if isinstance(end, Cut) else []
+            if isinstance(end, Joint):
+                onward = [heading for _, _, heading in self.blocks.segments.onward(end)]
+            todo += [heading for heading in onward if heading not in met]
+            met.update(onward)
+        return False
+
+    def _lost(self, path: Path, goal: str, why: str) -> NoReturn:
+        """The exit is never reached: the file contradicts itself.
+
+        A position that is closed or missing is a violation only where another would lead to the exit.
+        """
         passed = self._passed(path)
         over = f" over {self.findings.point_word} {passed}" if passed else ""
         what = f"route '{path.wanted.name}'{over} never reaches '{goal}': {why}"

@@ -38,7 +38,12 @@ def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     reader = NativeReader(file, data)
     station = reader.station()
     segments = cut_into_segments(station)
-    blocks = find_blocks(segments, reader.block_names(segments))
+    names = reader.block_names(segments)
+    blocks = find_blocks(segments, names)
+    for segment, block_name in names.items():
+        if blocks.of[segment] != block_name:
+            what = f"names the block that is '{blocks.of[segment]}' already: no boundary lies between them"
+            raise BadInput(file, f"blocks.{block_name}", what, "name each block once")
     findings = Findings("point")
     follower = Follower(blocks, file, findings)
     paths = [path for wanted in reader.routes(station) if (path := follower.follow(wanted)) is not None]
@@ -155,6 +160,9 @@ class NativeReader:
             if len(inside) != 1:
                 where = "is at a boundary" if inside else "is beyond the end of the track"
                 raise self.bad(f"blocks.{name}", f"{place['at_mm']} mm {where}", "give a place inside the block")
+            if inside[0] in given:
+                what = f"names the block that is '{given[inside[0]]}' already: no boundary lies between them"
+                raise self.bad(f"blocks.{name}", what, "name each block once")
             given[inside[0]] = name
         return given
 

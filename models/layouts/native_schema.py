@@ -94,7 +94,7 @@ SCHEMA: dict[str, Any] = {
             "routes": _table("Routes.", ROUTE),
             "fouling": _pairs("Pairs of blocks, a train in either of which obstructs the other."),
             "held_by_authority": {
-                "description": "Pairs (from, into) kept apart by train protection alone; 'rest': all that no point does.",
+                "description": "Pairs (from, into) kept apart by train protection alone; 'rest': all such pairs.",
                 "anyOf": [{"const": "rest"}, _pairs("Pairs of blocks.")],
             },
         },

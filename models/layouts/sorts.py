@@ -11,6 +11,7 @@ from typing import Any
 from kernel.layout import Layout
 from kernel.names import Block, Point, Route, Tag
 from models.ground import Ground
+from models.layouts.axiom_code import Binder
 from models.layouts.results import Imported
 
 Sort = Any
@@ -55,18 +56,19 @@ class Sorts:
             Tag: places.tags,
         }
 
-    def of_variable(self, name: str, binders: Mapping[str, str]) -> Sort:
+    def of_variable(self, name: str, binders: Mapping[str, Binder]) -> Sort:
         """The sort of a loop variable."""
         return self._variables(binders).get(name)
 
-    def of_expression(self, text: str, binders: Mapping[str, str]) -> Sort:
+    def of_expression(self, text: str, binders: Mapping[str, Binder]) -> Sort:
         """The sort of an expression."""
         return sort_of(ast.parse(text, mode="eval").body, self._variables(binders))
 
-    def _variables(self, binders: Mapping[str, str]) -> dict[str, Sort]:
+    def _variables(self, binders: Mapping[str, Binder]) -> dict[str, Sort]:
         variables: dict[str, Sort] = {}
-        for name, source in binders.items():
-            variables[name] = member_of(sort_of(ast.parse(source, mode="eval").body, variables))
+        for name, binder in binders.items():
+            sort = sort_of(ast.parse(binder.source, mode="eval").body, variables)
+            variables[name] = member_of(sort) if binder.loops else sort
         return variables
 
     def elements(self, sort: Sort, value: object) -> tuple[str, ...]:

@@ -253,8 +253,14 @@ class Track:
         for (block, behind), needs in self.lies.items():
             standing = [{p: at for p, at in need.items() if layout.stands_in[p] == block} for need in needs]
             opens[block][behind] = dict(set.intersection(*(set(demands.items()) for demands in standing)))
-        leads = {Route(row.route.name): self.leads(row) for row in rows}
-        turnout = {Route(row.route.name): _turnouts(row, leads[Route(row.route.name)], opens) for row in rows}
+        leads = {
+            Route(row.route.name): {
+                block: {target: opens[block].get(target, {}) for target in targets}
+                for block, targets in self.leads(row).items()
+            }
+            for row in rows
+        }
+        turnout = {Route(row.route.name): _turnouts(row, leads[Route(row.route.name)]) for row in rows}
         held: dict[Block, set[Block]] = defaultdict(set)
         for row in rows:
             for target in row.covers:
@@ -267,14 +273,12 @@ class Track:
         return Ground(leads, dict(self.neighbours), dict(opens), turnout, flank, shut, laid)
 
 
-def _turnouts(
-    row: Row, leads: Mapping[Block, frozenset[Block]], opens: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]
-) -> dict[Block, dict[Block, Point]]:
+def _turnouts(row: Row, leads: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]) -> dict[Block, dict[Block, Point]]:
     """The points of a route that turn its train from where it is not to go."""
     found: dict[Block, dict[Block, Point]] = {block: {} for block in leads}
     for block, following in pairwise(row.chain):
-        for target in leads[block] - {following}:
-            demands = opens[block].get(target, {})
+        for target in sorted(set(leads[block]) - {following}):
+            demands = leads[block][target]
             turning = [p for p in sorted(demands) if row.needs.get(p, demands[p]) != demands[p]]
             if turning:
                 found[block][target] = turning[0]

@@ -7,7 +7,7 @@ permits an event; what the kernel is then told is only the event.
 from __future__ import annotations
 
 from kernel.authority import may_leave
-from kernel.names import Antenna, Block, Car, Epoch, Point, Position, Read, Run, Train, UnitLife
+from kernel.names import Antenna, Block, Car, Epoch, Point, Position, Read, Route, Run, Train, UnitLife
 from models.world.state import NO_CARS, Site, System
 
 
@@ -33,13 +33,26 @@ def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Blo
 
 
 def track_is_open(site: Site, system: System, block: Block, target: Block) -> bool:
-    """A car passes from one block to the next only where rails lead: every facing point lies so."""
+    """Rails lead from one block to the next: every point that all ways there meet facing lies so."""
     return (
         block in site.ground.opens
         and target in site.ground.opens[block]
         and all(
             system.track.lies.get(point) == site.ground.opens[block][target][point]
             for point in site.ground.opens[block][target]
+        )
+    )
+
+
+def rails_lead(site: Site, system: System, route: Route, block: Block, target: Block) -> bool:
+    """A car running in the direction of a route gets from one block to the next only as its points lie."""
+    return (
+        route in site.ground.leads
+        and block in site.ground.leads[route]
+        and target in site.ground.leads[route][block]
+        and all(
+            system.track.lies.get(point) == site.ground.leads[route][block][target][point]
+            for point in site.ground.leads[route][block][target]
         )
     )
 

@@ -9,7 +9,7 @@ from kernel.names import Block, Car, Epoch, Run, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
-    track_is_open,
+    rails_lead,
     two_persons_do_not_err_alike,
 )
 from models.world.state import Site, System
@@ -53,9 +53,7 @@ def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, targ
     """
     if site.formation.train_of.get(car) != run.train or block not in system.track.at.get(car, frozenset()):
         return system
-    if run.route not in site.ground.leads or target not in site.ground.leads[run.route].get(block, frozenset()):
-        return system
-    if not track_is_open(site, system, block, target):
+    if not rails_lead(site, system, run.route, block, target):
         return system
     if not a_train_obeys_its_authority(site, system, run, block):
         return system

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from kernel.centre import Centre
 from kernel.layout import Layout, TagRecords
+from kernel.maps import Map
 from kernel.names import (
     Block,
     Car,
@@ -35,9 +35,9 @@ class Formation:
     ``ahead``: for a run and a car, the cars ahead of it.
     """
 
-    train_of: Mapping[Car, Train]
-    last: Mapping[Run, Car]
-    ahead: Mapping[Run, Mapping[Car, frozenset[Car]]]
+    train_of: Map[Car, Train]
+    last: Map[Run, Car]
+    ahead: Map[Run, Map[Car, frozenset[Car]]]
 
 
 @dataclass(frozen=True)
@@ -78,10 +78,10 @@ class Radio:
     tail_reports: frozenset[tuple[Run, Block, Read, Read]]
     stops: frozenset[Run]
     challenges: frozenset[Epoch]
-    standings: Mapping[tuple[Train, UnitLife, Epoch], frozenset[Block]]
+    standings: Map[tuple[Train, UnitLife, Epoch], frozenset[Block]]
     standing_runs: frozenset[Run]
     terminal_lives: frozenset[tuple[Point, TerminalLife]]
-    statements: Mapping[tuple[Train, UnitLife, Epoch], frozenset[Block]]
+    statements: Map[tuple[Train, UnitLife, Epoch], frozenset[Block]]
     confirmed_statements: frozenset[tuple[Train, UnitLife, Epoch]]
 
 
@@ -99,13 +99,13 @@ class Track:
     ``parted``: trains that have lost some of their cars.
     """
 
-    at: Mapping[Car, frozenset[Block]]
-    under: Mapping[Car, Mapping[Block, Run]]
+    at: Map[Car, frozenset[Block]]
+    under: Map[Car, Map[Block, Run]]
     run_into: frozenset[Run]
     behind: frozenset[tuple[Run, Block]]
     rolling: frozenset[Run]
     slipping: frozenset[Run]
-    lies: Mapping[Point, Position]
+    lies: Map[Point, Position]
     parted: frozenset[Train]
 
 
@@ -114,7 +114,7 @@ class System:
     """One moment of the whole system."""
 
     centre: Centre
-    units: Mapping[Train, Unit]
-    terminals: Mapping[Point, Terminal]
+    units: Map[Train, Unit]
+    terminals: Map[Point, Terminal]
     radio: Radio
     track: Track

@@ -136,7 +136,7 @@ def move_off_track(data: Data, chance: random.Random) -> Corruption | None:
 
 def move_behind_entry(data: Data, chance: random.Random) -> Corruption | None:
     """A route's exit moved onto the entry's track, behind the entry."""
-    name, route = chance.choice(sorted(data["routes"].items()))
+    _, route = chance.choice(sorted(data["routes"].items()))
     entry = _entry_track(data, route)
     home = next((t for t, e in data["tracks"].items() if route["to"] in e.get("boundaries", {})), None)
     if entry is None or home is None:
@@ -145,9 +145,12 @@ def move_behind_entry(data: Data, chance: random.Random) -> Corruption | None:
     del data["tracks"][home]["boundaries"][route["to"]]
     length_mm, marks = data["tracks"][track]["length_mm"], data["tracks"][track]["boundaries"]
     low, high = (0, at_mm) if route["direction"] == "forward" else (at_mm, length_mm)
-    marks[route["to"]] = next(mm for mm in iter(lambda: chance.randrange(low + 1, high), None) if mm not in marks.values())
+    marks[route["to"]] = next(
+        mm for mm in iter(lambda: chance.randrange(low + 1, high), None) if mm not in marks.values()
+    )
     why = "the route runs away from where its exit lies now, and there are no rings"
-    return Corruption(f"{route['to']} moved behind {route['from']}", why, data, tuple(_ending_at(data, route["to"])))
+    named = (*_ending_at(data, route["to"]), *(b for b, at in data.get("blocks", {}).items() if at["track"] == home))
+    return Corruption(f"{route['to']} moved behind {route['from']}", why, data, named)
 
 
 def _ending_at(data: Data, mark: str) -> Iterator[str]:

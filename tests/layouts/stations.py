@@ -94,7 +94,7 @@ def plain_station() -> Data:
     }
     routes = {
         "a-d": route("a", "forward", "d", {"P": "normal"}, ["b", "c"]),
-        "a-f": route("a", "forward", "f", {"P": "reverse"}, ["c"][:0] + ["b", "e"]),
+        "a-f": route("a", "forward", "f", {"P": "reverse"}, ["b", "e"]),
         "d-h": route("d", "forward", "h", {"Q": "normal"}, ["g"]),
         "f-h": route("f", "forward", "h", {"Q": "reverse"}, []),
         "h-c": route("h", "backward", "c", {"Q": "normal"}, ["g", "d"]),

@@ -34,7 +34,7 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
         needs[route] = {point_of[end]: lies[platform]}
         released_with[route] = {point_of[end]: end}
         others = {P, Q} - {platform}
-        leads[route] = {a: frozenset({P, Q}) if a == end else frozenset({end})}
+        leads[route] = {a: {p: {point_of[end]: lies[p]} for p in (P, Q)} if a == end else {end: {}}}
         turnout[route] = {a: {other: point_of[end] for other in others}} if a == end else {a: {}}
     tags = [tag(name, block) for (a, b), name in ends.items() for block in (a, b)]
     partner = {}
