@@ -13,11 +13,8 @@ import z3
 from models.world.state import Site, System
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
+from proofs.scripts import START
 from proofs.transitions import event_types
-
-START = "init"
-"""The name of the first row of the matrix."""
-
 
 @dataclass(frozen=True)
 class Way:

@@ -102,7 +102,8 @@ def a_confirmed_point_stays(site: Site, system: System) -> bool:
         or (
             point in system.centre.lost_points
             and at_stage(system, run, Stage.STANDING)
-            and run in system.centre.claimed.get(site.layout.stands_in.get(point), frozenset())
+            and point in site.layout.stands_in
+            and run in system.centre.claimed.get(site.layout.stands_in[point], frozenset())
         )
     )
 

@@ -1,0 +1,139 @@
+"""Proves the suite: every row of the matrix, by the solvers asked for, on as many processes as wanted."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import re
+import time
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import cache
+from multiprocessing import get_context
+from pathlib import Path
+
+from proofs import lookups, scripts, smtlib, solvers
+from proofs.catalogue import INVARIANTS, STEPS
+from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READ, READING
+from proofs.records import Obligation, Report, Source, Verdict
+from proofs.scripts import ROWS
+from proofs.workbench import Part, Workbench
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Task:
+    """A few obligations of one row, for one process."""
+
+    row: str
+    columns: tuple[str, ...]
+    solvers: tuple[str, ...]
+    seeds: int
+
+
+@cache
+def bench() -> Workbench:
+    """The workbench of this process; lifted once."""
+    return Workbench()
+
+
+def columns(row: str) -> list[str]:
+    """Give the columns of a row, in order."""
+    if row == READING:
+        return list(READ)
+    return [*INVARIANTS, EVERY_LOOKUP_IS_DEFINED] if row in STEPS else list(INVARIANTS)
+
+
+def parts(row: str, column: str) -> list[Part]:
+    """Lay out one obligation with the hypotheses of its script."""
+    names = scripts.hypotheses(row, column)
+    if row == READING:
+        return lookups.parts(bench(), column, names)
+    if column == EVERY_LOOKUP_IS_DEFINED:
+        return lookups.parts(bench(), row, names)
+    return bench().parts(row, column, names)
+
+
+@cache
+def source(row: str, column: str) -> Source:
+    """Tell where the claim of an obligation stands: the predicate's lines, or the transition's."""
+    function = STEPS[row] if column == EVERY_LOOKUP_IS_DEFINED else READ[column]
+    lines, first = inspect.getsourcelines(function)
+    path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
+    return {"file": str(path), "lines": (first, first + len(lines) - 1)}
+
+
+def settle(row: str, column: str, solver: str, seed: int, laid_out: list[Part], digest: str) -> Obligation:
+    """Ask one solver for every part of one obligation; any answer but ``unsat`` leaves it unproved."""
+    replies = [solvers.ask(solver, part, seed) for part in laid_out]
+    answers = {reply.answer for reply in replies}
+    verdict: Verdict = "refuted" if "sat" in answers else "undecided" if "unknown" in answers else "proved"
+    return {
+        "transition": row,
+        "invariant": column,
+        "hypotheses": scripts.hypotheses(row, column),
+        "verdict": verdict,
+        "solver": solver,
+        "solver_version": solvers.version(solver),
+        "seed": seed,
+        "rlimit": solvers.BUDGET[solver],
+        "rlimit_spent": max((reply.spent for reply in replies), default=0),
+        "seconds": round(sum(reply.seconds for reply in replies), 4),
+        "smt2_sha256": digest,
+        "source": source(row, column),
+    }
+
+
+def work(task: Task) -> tuple[list[Obligation], float]:
+    """Settle a task; tell the lifting time that it took apart."""
+    before = bench().seconds
+    found = []
+    for column in task.columns:
+        laid_out = parts(task.row, column)
+        text = "".join(smtlib.script(part) for part in laid_out)
+        digest = hashlib.sha256(text.encode()).hexdigest()
+        found += [
+            settle(task.row, column, solver, seed, laid_out, digest)
+            for solver in task.solvers
+            for seed in range(task.seeds)
+        ]
+    return found, bench().seconds - before
+
+
+def tasks(asked: tuple[str, ...], seeds: int, only: str | None) -> Iterator[Task]:
+    """Cut the matrix into tasks, whole rows in a few pieces so that every process stays busy."""
+    pattern = re.compile(only or "")
+    for row in (*ROWS, READING):
+        chosen = [column for column in columns(row) if pattern.search(f"{row} {column}")]
+        for start in range(0, len(chosen), 20):
+            yield Task(row, tuple(chosen[start : start + 20]), asked, seeds)
+
+
+def prove_all(
+    *,
+    solver: str = "z3",
+    jobs: int = 2,
+    seeds: int = 1,
+    only: str | None = None,
+    progress: Callable[[int, int, str], object] = lambda done, total, what: None,
+) -> Report:
+    """Prove every obligation whose row and column match ``only``; nothing matched gives an empty report."""
+    began = time.perf_counter()
+    todo = list(tasks(("z3", "cvc5") if solver == "both" else (solver,), seeds, only))
+    obligations: list[Obligation] = []
+    lifting = 0.0
+    for done, (found, seconds) in enumerate(_results(todo, jobs), 1):
+        obligations += found
+        lifting += seconds
+        progress(done, len(todo), todo[done - 1].row)
+    return Report(obligations, lifting, time.perf_counter() - began)
+
+
+def _results(todo: list[Task], jobs: int) -> Iterable[tuple[list[Obligation], float]]:
+    if jobs <= 1 or len(todo) <= 1:
+        yield from map(work, todo)
+        return
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        yield from pool.map(work, todo)

@@ -1,0 +1,119 @@
+"""Finds proof scripts: ``python -m proofs.search [PATTERN]``.
+
+Every hypothesis there is goes in, the unsat core comes out and is thinned until no name can be
+dropped.  What it writes is checked by the prover like any script written by hand.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+
+import z3
+
+from proofs import lookups, scripts
+from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READING
+from proofs.run import columns
+from proofs.scripts import ROWS
+from proofs.workbench import Part, Workbench
+
+WIDE, NARROW = 20_000_000, 4_000_000
+"""Budgets in rlimit: with every hypothesis, and with few."""
+
+
+@cache
+def bench() -> Workbench:
+    """The workbench of this process."""
+    return Workbench()
+
+
+def core(part: Part, names: list[str] | None, rlimit: int, seed: int = 0) -> list[str] | None:
+    """Give the hypotheses of an unsat core among ``names``, or None if the part is not refuted."""
+    solver = z3.Solver()
+    solver.set("rlimit", rlimit)
+    solver.set("random_seed", seed)
+    for name, formula in part.hypotheses.items():
+        if names is None or name in names:
+            solver.assert_and_track(formula, z3.Bool(f"use.{name}"))
+    solver.add(*part.given)
+    solver.add(z3.Not(part.goal))
+    if solver.check() != z3.unsat:
+        return None
+    return [str(mark)[len("use.") :] for mark in solver.unsat_core()]
+
+
+def thin(part: Part, names: list[str]) -> list[str]:
+    """Drop names one by one while the part is still refuted within the narrow budget."""
+    for name in list(names):
+        if name in names:
+            rest = [other for other in names if other != name]
+            smaller = core(part, rest, NARROW // 4)
+            if smaller is not None:
+                names = [other for other in rest if other in smaller]
+    return names
+
+
+def layout(transition: str, column: str) -> list[Part]:
+    """Lay out one obligation with every hypothesis there is."""
+    if transition == READING:
+        return lookups.parts(bench(), column, None)
+    if column == EVERY_LOOKUP_IS_DEFINED:
+        return lookups.parts(bench(), transition, None)
+    return bench().parts(transition, column, None)
+
+
+def find(transition: str, invariant: str) -> list[str] | None:
+    """Find the hypotheses of one obligation, sorted; None if a part of it stays open."""
+    found: set[str] = set()
+    orders = {named.name for named in bench().scope.axioms()}
+    for part in layout(transition, invariant):
+        names = core(part, sorted(orders), NARROW // 4)
+        if names is None:
+            names = core(part, sorted({*orders, invariant}), NARROW // 4)
+        if names is None:
+            old = scripts.script(transition).get(invariant)
+            names = core(part, [*old, *orders], NARROW) if old is not None else None
+        for seed in range(4):
+            if names is None:
+                names = core(part, None, WIDE, seed)
+        if names is None:
+            return None
+        found |= set(thin(part, names)) - orders
+    return sorted(found)
+
+
+def find_row(task: tuple[str, list[str]]) -> tuple[str, dict[str, list[str] | None]]:
+    """Find a part of one transition's script."""
+    transition, invariants = task
+    return transition, {invariant: find(transition, invariant) for invariant in invariants}
+
+
+def main(pattern: str = "") -> int:
+    """Search every obligation that matches and write the scripts."""
+    tasks = [
+        (row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")])
+        for row in (*ROWS, READING)
+    ]
+    missing = 0
+    with ProcessPoolExecutor(2) as pool:
+        for transition, found in pool.map(find_row, [task for task in tasks if task[1]]):
+            known = {
+                invariant: names
+                for invariant, names in scripts.script(transition).items()
+                if invariant in columns(transition)
+            }
+            for invariant, names in found.items():
+                if names is None:
+                    missing += 1
+                    print(f"open: {transition} {invariant}", flush=True)
+                else:
+                    known[invariant] = names
+            scripts.write(transition, known)
+            print(f"{transition}: {len(found)} searched", flush=True)
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(*sys.argv[1:]))

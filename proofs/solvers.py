@@ -1,0 +1,87 @@
+"""Asks one solver one question, from nothing, within a budget that does not depend on the machine."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from typing import Literal
+
+import cvc5
+import z3
+
+from proofs import smtlib
+from proofs.workbench import Part
+
+Answer = Literal["unsat", "sat", "unknown"]
+
+BUDGET = {"z3": 40_000_000, "cvc5": 40_000_000}
+"""What a solver may spend on one question, each in its own units."""
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What a solver said and what it spent; ``seconds`` of wall time are told, never decided on."""
+
+    answer: Answer
+    spent: int
+    seconds: float
+
+
+def version(solver: str) -> str:
+    """Give the version of a solver."""
+    return metadata.version({"z3": "z3-solver"}.get(solver, solver))
+
+
+def ask(solver: str, part: Part, seed: int) -> Reply:
+    """Ask whether the part's hypotheses and the negation of its goal can hold together."""
+    began = time.perf_counter()
+    answer, spent = ask_z3(part, seed) if solver == "z3" else ask_cvc5(smtlib.script(part), seed)
+    return Reply(answer, spent, time.perf_counter() - began)
+
+
+@cache
+def _spent_before() -> list[int]:
+    """What z3 has counted in this process so far; it counts on from question to question."""
+    return [0]
+
+
+def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
+    """Ask Z3 with a fresh solver."""
+    solver = z3.Solver()
+    solver.set("rlimit", BUDGET["z3"])
+    solver.set("random_seed", seed)
+    for name in sorted(part.hypotheses):
+        solver.add(part.hypotheses[name])
+    solver.add(*part.given)
+    solver.add(z3.Not(part.goal))
+    before = _spent_before()
+    verdict = solver.check()
+    statistics = solver.statistics()
+    count = statistics.get_key_value("rlimit count") if "rlimit count" in statistics.keys() else before[0]
+    spent = count - before[0]
+    before[0] = count
+    if verdict == z3.unsat:
+        return "unsat", spent
+    return ("sat", spent) if verdict == z3.sat else ("unknown", spent)
+
+
+def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
+    """Ask cvc5, by the text, with its default options."""
+    solver = cvc5.Solver()
+    solver.setOption("rlimit", str(BUDGET["cvc5"]))
+    solver.setOption("seed", str(seed))
+    parser = cvc5.InputParser(solver)
+    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, text, "obligation")
+    symbols = parser.getSymbolManager()
+    said = ""
+    while True:
+        command = parser.nextCommand()
+        if command.isNull():
+            break
+        said = command.invoke(solver, symbols).strip() or said
+    spent = next(value["value"] for name, value in solver.getStatistics() if name == "resource::resourceUnitsUsed")
+    if said == "unsat":
+        return "unsat", int(spent)
+    return ("sat", int(spent)) if said == "sat" else ("unknown", int(spent))
