@@ -13,8 +13,12 @@ def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
     """Store the tag list of a run; from now on the unit echoes it (first loop; T4).
 
     A list that comes again changes nothing: what the run has gone through must not be forgotten.
+    The first order of a life is the one under which the train stands, so that its tail's
+    evidence is noted for that one too.
     """
     if run.life != unit.life or run in unit.orders:
+        return unit
+    if not any(True for _ in unit.orders):
         return unit
     return replace(
         unit,

@@ -22,6 +22,8 @@ Train = NewType("Train", str)
 """A formation with one on-board unit."""
 Car = NewType("Car", str)
 """A vehicle; the cars of a train may part."""
+Cab = NewType("Cab", str)
+"""One end of a train with the antenna below it; which end is head depends on the direction (T2)."""
 Tag = NewType("Tag", str)
 """The UID of an IC tag, its only key; T1."""
 Record = NewType("Record", str)

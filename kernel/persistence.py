@@ -38,7 +38,9 @@ UNIT: Mapping[str, tuple[Memory, str]] = {
     "standing_in": (Memory.LOST, "frozenset()"),
     "orders": (Memory.LOST, "{}"),
     "head_tag": (Memory.LOST, "None"),
+    "head_cab": (Memory.LOST, "None"),
     "tail_read": (Memory.LOST, "None"),
+    "tail_cab": (Memory.LOST, "None"),
     "occupied": (Memory.LOST, "frozenset()"),
 }
 """The on-board unit: without orders it has no authority, so it stands."""

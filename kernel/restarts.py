@@ -34,7 +34,9 @@ def restart_unit(unit: Unit, life: UnitLife) -> Unit:
         standing_in=frozenset(),
         orders={},
         head_tag=None,
+        head_cab=None,
         tail_read=None,
+        tail_cab=None,
         occupied=frozenset(),
     )
 

@@ -58,16 +58,15 @@ def conflict(layout: Layout, centre: Centre, run: Run) -> Refusal | None:
 def request(layout: Layout, centre: Centre, run: Run, base: Run) -> Centre:
     """Reserve a run: its blocks are claimed and its points locked before any point moves (T4, T9).
 
-    A point of the start block that the run below already holds lies right under a lock of the
-    same train: it counts as proved, and no order is sent to a point the train may stand on.
+    A point that the run below already holds lies right under a lock of the same train: it
+    counts as proved, and no order is sent to a point the train may stand on.
     """
     if request_refusal(layout, centre, run, base) is not None:
         return centre
     held_below = frozenset(
         point
         for point in layout.needs[run.route]
-        if layout.released_with[run.route][point] == layout.start[run.route]
-        and base in centre.locked.get(point, NO_LOCKS)
+        if base in centre.locked.get(point, NO_LOCKS)
     )
     return replace(
         centre,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.layout import Layout
-from kernel.names import Tag
+from kernel.names import Cab, Tag
 from kernel.unit import Unit
 
 
@@ -19,13 +19,14 @@ def is_expected(unit: Unit, tag: Tag) -> bool:
     return any(order.permitted and order.expected == tag for _, order in unit.orders.items())
 
 
-def note_head_read(layout: Layout, unit: Unit, tag: Tag, in_window: bool) -> Unit:
+def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bool) -> Unit:
     """Compare what the head read with the lists of the first loop, in order (T2, T5).
 
     ``in_window``: the running distance since the last tag lies within what the tags allow, so
-    the tag is neither early nor late.  The same tag read again at once is one reading.
+    the tag is neither early nor late.  The same tag read again at once by the same cab is one
+    reading; after a change of ends the other cab reads it anew.
     """
-    if unit.head_tag == tag:
+    if unit.head_tag == tag and unit.head_cab == cab:
         return unit
     if not in_window or not is_expected(unit, tag):
         return open_loops(unit)
@@ -33,6 +34,7 @@ def note_head_read(layout: Layout, unit: Unit, tag: Tag, in_window: bool) -> Uni
     return replace(
         unit,
         head_tag=tag,
+        head_cab=cab,
         occupied=unit.occupied if entered is None else unit.occupied | {entered},
         orders={
             run: replace(

@@ -22,7 +22,9 @@ def answer(unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], a
         standing_in=blocks,
         orders=NO_ORDERS,
         head_tag=None,
+        head_cab=None,
         tail_read=None,
+        tail_cab=None,
         occupied=blocks,
     )
 

@@ -5,29 +5,31 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.layout import Layout
-from kernel.names import Antenna, Block, Read, Run
+from kernel.names import Antenna, Block, Cab, Read, Run
 from kernel.unit import Evidence, Unit
 
 
-def note_tail_read(layout: Layout, unit: Unit, antenna: Antenna, healthy: bool, read: Read) -> Unit:
+def note_tail_read(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
     ``healthy``: the through line reaches the tail, so that the antenna is the train's last (T2, T3).
-    A partial or reversed pair, another antenna or a broken line prove nothing.
+    A partial or reversed pair, another antenna or a broken line prove nothing; nor do two reads
+    of which a change of ends lies between, so that two cabs made them.
     """
     if antenna != Antenna.TAIL:
         return unit
     if not healthy:
         return replace(unit, tail_read=None)
     before = unit.tail_read
-    if before is None or layout.partner.get(before.tag) != read.tag:
-        return replace(unit, tail_read=read)
+    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read, tail_cab=cab)
     block = layout.tag_in.get(before.tag)
     if block is None:
-        return replace(unit, tail_read=read)
+        return replace(unit, tail_read=read, tail_cab=cab)
     return replace(
         unit,
         tail_read=read,
+        tail_cab=cab,
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.maps import Map
-from kernel.names import Block, Epoch, Read, Run, Tag, UnitLife
+from kernel.names import Block, Cab, Epoch, Read, Run, Tag, UnitLife
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,9 @@ class Unit:
     ``answered``: the epoch of the centre whose challenge this life has answered.
     ``standing_in``: what it answered, the blocks it stood in.
     ``orders``: the runs told to this life.
-    ``head_tag``: the tag the head read last (T5).
-    ``tail_read``: what the tail read last, while the through line was healthy (T2).
+    ``head_tag``, ``head_cab``: the tag the head read last, and which cab was the head (T5).
+    ``tail_read``, ``tail_cab``: what the tail read last over a healthy through line, and which
+    cab was the tail (T2).
     ``occupied``: the blocks the train is in, by its own tags (T2).
     """
 
@@ -59,5 +60,7 @@ class Unit:
     standing_in: frozenset[Block]
     orders: Map[Run, Order]
     head_tag: Tag | None
+    head_cab: Cab | None
     tail_read: Read | None
+    tail_cab: Cab | None
     occupied: frozenset[Block]

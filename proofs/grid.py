@@ -5,7 +5,6 @@ What is left are truth values and enumerations, which a SAT solver takes as they
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import product
 from typing import Any
 
@@ -13,7 +12,9 @@ import z3
 
 from proofs.lift import FiniteScope
 from proofs.lift.components import Function
-from proofs.lift.terms import Term, and_, equal_terms, is_constant, ite_, same, to_z3
+from proofs.lift.terms import Term, equal_terms, is_constant, ite_
+
+Marks = tuple[Any, ...]
 
 
 class GridScope(FiniteScope):
@@ -23,43 +24,43 @@ class GridScope(FiniteScope):
         if not keys:
             constant = z3.Const(path, result)
             return lambda: constant
-        choices = [self.values(self._scalars[str(key)]) or () for key in keys]
-        table = {tuple(_mark(term) for term in terms): z3.Const(_cell(path, terms), result)
-                 for terms in product(*choices)}
-        return _lookup(table, choices)
+        choices = [tuple(self.values(self._scalars[str(key)]) or ()) for key in keys]
+        return Table(path, choices, result).look_up
 
 
-def _cell(path: str, terms: tuple[Term, ...]) -> str:
-    return f"{path}[{', '.join(str(term) for term in terms)}]"
+class Table:
+    """A function of logic, written out."""
+
+    def __init__(self, path: str, choices: list[tuple[Term, ...]], result: Any) -> None:
+        self._choices = choices
+        self._cells = {
+            tuple(map(_mark, terms)): z3.Const(f"{path}[{', '.join(map(str, terms))}]", result)
+            for terms in product(*choices)
+        }
+        self._known: dict[Marks, tuple[tuple[Term, ...], Term]] = {}
+
+    def look_up(self, *terms: Term) -> Term:
+        """The value at these terms; what was asked before is remembered, and kept alive with its terms."""
+        marks = tuple(map(_mark, terms))
+        if marks in self._cells:
+            return self._cells[marks]
+        if marks not in self._known:
+            self._known[marks] = (terms, self._choice((), terms))
+        return self._known[marks][1]
+
+    def _choice(self, met: Marks, terms: tuple[Term, ...]) -> Term:
+        """Choose among the cells by the terms that are not known values."""
+        if not terms:
+            return self._cells[met]
+        first, rest = terms[0], terms[1:]
+        if is_constant(first):
+            return self._choice((*met, _mark(first)), rest)
+        found: Term = None
+        for value in reversed(self._choices[len(met)]):
+            here = self._choice((*met, _mark(value)), rest)
+            found = here if found is None else ite_(equal_terms(first, value), here, found)
+        return found
 
 
 def _mark(term: Term) -> Any:
     return term if isinstance(term, bool) else term.get_id()
-
-
-def _lookup(table: dict[tuple[Any, ...], Any], choices: list[Any]) -> Callable[..., Term]:
-    """Give the function that looks a table up, and remembers what it was asked."""
-    known: dict[tuple[Any, ...], Term] = {}
-    kept: list[Any] = []
-
-    def at(marks: tuple[Any, ...], terms: tuple[Term, ...]) -> Term:
-        if not terms:
-            return table[marks]
-        first, rest = terms[0], terms[1:]
-        values = choices[len(marks)]
-        if isinstance(first, bool) or is_constant(first):
-            return at((*marks, _mark(first)), rest)
-        found: Term = None
-        for value in reversed(values):
-            here = at((*marks, _mark(value)), rest)
-            found = here if found is None else ite_(equal_terms(first, value), here, found)
-        return found
-
-    def look_up(*terms: Term) -> Term:
-        key = tuple(_mark(term) for term in terms)
-        if key not in known:
-            known[key] = at((), terms)
-            kept.append(terms)
-        return known[key]
-
-    return look_up

@@ -64,6 +64,6 @@ def parts(bench: Workbench, name: str, hypotheses: list[str] | None) -> list[Par
     available = dict(bench.assumed)
     if name in STEPS or name in INVARIANTS:
         available |= bench.invariants
-    always = {named.name: named.formula for named in bench.scope.axioms()}
     chosen = available if hypotheses is None else {each: available[each] for each in hypotheses}
-    return [Part(always | chosen, [], claim) for claim in lookups(bench, name)]
+    claims = lookups(bench, name)
+    return [Part({**bench.always(), **bench.split(chosen)}, [], claim) for claim in claims]

@@ -32,16 +32,19 @@ def bench() -> Workbench:
 def core(part: Part, names: list[str] | None, rlimit: int, seed: int = 0) -> list[str] | None:
     """Give the hypotheses of an unsat core among ``names``, or None if the part is not refuted."""
     solver = z3.Solver()
+    marks: list[z3.BoolRef] = []
     solver.set("rlimit", rlimit)
     solver.set("random_seed", seed)
-    for name, formula in part.hypotheses.items():
+    for name, formulas in part.hypotheses.items():
         if names is None or name in names:
-            solver.assert_and_track(formula, z3.Bool(f"use.{name}"))
+            mark = z3.Bool(f"use.{name}")
+            solver.add(*(z3.Implies(mark, formula) for formula in formulas))
+            marks.append(mark)
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
-    if solver.check() != z3.unsat:
+    if solver.check(*marks) != z3.unsat:
         return None
-    return [str(mark)[len("use.") :] for mark in solver.unsat_core()]
+    return [mark.decl().name()[len("use.") :] for mark in solver.unsat_core()]
 
 
 def thin(part: Part, names: list[str]) -> list[str]:
@@ -67,8 +70,9 @@ def layout(transition: str, column: str) -> list[Part]:
 def find(transition: str, invariant: str) -> list[str] | None:
     """Find the hypotheses of one obligation, sorted; None if a part of it stays open."""
     found: set[str] = set()
-    orders = {named.name for named in bench().scope.axioms()}
-    for part in layout(transition, invariant):
+    laid_out = layout(transition, invariant)
+    orders = set(bench().always())
+    for part in laid_out:
         names = core(part, sorted(orders), NARROW // 4)
         if names is None:
             names = core(part, sorted({*orders, invariant}), NARROW // 4)

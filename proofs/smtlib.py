@@ -81,7 +81,11 @@ def symbol(name: str) -> str:
 
 def script(part: Part) -> str:
     """Give the whole text of one solver call; unsatisfiable means proved."""
-    named = {name: text_of(formula) for name, formula in part.hypotheses.items()}
+    named = {
+        f"{name}.{number}": text_of(formula)
+        for name, formulas in part.hypotheses.items()
+        for number, formula in enumerate(formulas, 1)
+    }
     given = [text_of(formula) for formula in part.given]
     goal = text_of(part.goal)
     everything = [*named.values(), *given, goal]

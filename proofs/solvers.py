@@ -53,7 +53,7 @@ def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
     solver.set("rlimit", BUDGET["z3"])
     solver.set("random_seed", seed)
     for name in sorted(part.hypotheses):
-        solver.add(part.hypotheses[name])
+        solver.add(*part.hypotheses[name])
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
     before = _spent_before()

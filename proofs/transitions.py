@@ -66,6 +66,7 @@ TRANSITIONS: tuple[Transition, ...] = (
     nature.overrun,
     nature.come_to_rest,
     nature.car_moves,
+    nature.car_follows,
     nature.car_leaves,
     nature.part,
     nature.take_over,

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
-
-import z3
 
 from models.world.state import Site, System
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
@@ -27,9 +25,9 @@ class Way:
 
 @dataclass(frozen=True)
 class Part:
-    """One solver call: named hypotheses, the way taken, and the conjunct that is to follow."""
+    """One solver call: named hypotheses by their conjuncts, the way taken, and the conjunct that is to follow."""
 
-    hypotheses: Mapping[str, Any]
+    hypotheses: Mapping[str, Sequence[Any]]
     given: list[Any]
     goal: Any
 
@@ -54,6 +52,7 @@ class Workbench:
         self.before = self.scope.fresh(System, "pre")
         self._ways: dict[str, list[Way]] = {}
         self._claims: dict[tuple[int, str], list[Any]] = {}
+        self._conjuncts: dict[str, Sequence[Any]] = {}
         self.seconds += time.perf_counter() - began
 
     @cached_property
@@ -111,13 +110,25 @@ class Workbench:
             self.seconds += time.perf_counter() - began
         return self._claims[key]
 
+    def always(self) -> Mapping[str, Sequence[Any]]:
+        """What is always assumed: identifiers are ordered, and a missing key has nothing below it."""
+        return {named.name: [named.formula] for named in self.scope.axioms()}
+
+    def split(self, formulas: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
+        """Split hypotheses into conjuncts, each of them once."""
+        began = time.perf_counter()
+        for name, formula in formulas.items():
+            if name not in self._conjuncts:
+                self._conjuncts[name] = conjuncts(formula)
+        self.seconds += time.perf_counter() - began
+        return {name: self._conjuncts[name] for name in formulas}
+
     def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
         """Lay out one obligation; ``None`` means every hypothesis there is."""
         available = dict(self.assumed)
         available |= self.initial if transition == START else self.invariants
         chosen = available if hypotheses is None else {name: available[name] for name in hypotheses}
-        order = {named.name: named.formula for named in self.scope.axioms()}
-        chosen = order | chosen
+        chosen = {**self.always(), **self.split(chosen)}
         if transition == START:
             return [Part(chosen, [], goal) for goal in self.claim(self.before, invariant)]
         return [
@@ -126,14 +137,3 @@ class Workbench:
             for goal in self.claim(way.after, invariant)
         ]
 
-
-def as_solver(part: Part, seed: int, rlimit: int) -> z3.Solver:
-    """Give a fresh solver that is asked to refute the part."""
-    solver = z3.Solver()
-    solver.set("rlimit", rlimit)
-    solver.set("random_seed", seed)
-    for formula in part.hypotheses.values():
-        solver.add(formula)
-    solver.add(*part.given)
-    solver.add(z3.Not(part.goal))
-    return solver

@@ -63,7 +63,7 @@ def a_pair_read_in_order_proves_the_exit(
     """Both tags of a boundary read in order by one antenna: its car, and all ahead of it, have left the block.
 
     A tag lies at least rear overhang, read window and error beyond the boundary, and cars keep
-    their order.  Only genuine records are bound by this: a foreign, copied or corrupted tag may
+    their order.  Reads of two antennas prove nothing together.  Only genuine records are bound by this: a foreign, copied or corrupted tag may
     be read anywhere.
     """
     if site.records.record.get(before.tag) != before.record or site.records.record.get(read.tag) != read.record:

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from kernel.layout import Layout
 from kernel.maps import Map
-from kernel.names import Block, Car, Route, Run, Train
+from kernel.names import Block, Cab, Car, Route, Run, Train
 from models.ground import Ground
 from models.world.state import Formation
 
@@ -69,6 +69,7 @@ def formation(trains: Mapping[Train, Sequence[Car]], along: Callable[[Route], bo
         train_of={car: train for train, cars in trains.items() for car in cars},
         last=ByRun(known, lambda run: order(run)[-1]),
         ahead=ByRun(known, ahead),
+        cab={car: Cab(f"cab of {car}") for cars in trains.values() for car in cars},
     )
 
 

@@ -10,6 +10,7 @@ from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
     rails_lead,
+    track_is_open,
     two_persons_do_not_err_alike,
 )
 from models.world.state import Site, System
@@ -64,6 +65,31 @@ def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, targ
             at=system.track.at | {car: system.track.at.get(car, frozenset()) | {target}},
             under=system.track.under | {car: system.track.under.get(car, {}) | {target: run}},
             run_into=system.track.run_into | {run},
+        ),
+    )
+
+
+def car_follows(site: Site, system: System, car: Car, other: Car, block: Block, target: Block) -> System:
+    """A car follows a car of its train that is ahead of it, on rails that are open between their blocks.
+
+    It is pulled or pushed by a train that rolls, and comes under the run of the car it follows.
+    """
+    train = site.formation.train_of.get(car)
+    if train is None or site.formation.train_of.get(other) != train:
+        return system
+    if all(run.train != train for run in system.track.rolling):
+        return system
+    if block not in system.track.at.get(car, frozenset()) or target not in system.track.at.get(other, frozenset()):
+        return system
+    run_ahead = system.track.under.get(other, {}).get(target)
+    if run_ahead is None or not track_is_open(site, system, block, target):
+        return system
+    return replace(
+        system,
+        track=replace(
+            system.track,
+            at=system.track.at | {car: system.track.at.get(car, frozenset()) | {target}},
+            under=system.track.under | {car: system.track.under.get(car, {}) | {target: run_ahead}},
         ),
     )
 

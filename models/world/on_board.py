@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel import authority, first_loop, second_loop, standing, tail_evidence
-from kernel.names import Antenna, Block, Car, Epoch, Read, Run, Tag, Train, UnitLife
+from kernel.names import Antenna, Block, Cab, Car, Epoch, Read, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from kernel.unit import Unit
 from models.world.assumptions import (
@@ -53,12 +53,12 @@ def take_standing(site: Site, system: System, run: Run) -> System:
     return with_unit(system, run.train, first_loop.take_standing(system.units[run.train], run))
 
 
-def head_reads(site: Site, system: System, train: Train, tag: Tag, in_window: bool) -> System:
+def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_window: bool) -> System:
     """The head antenna reads something, anywhere: right, foreign, repeated, early or late (T5)."""
     if train not in system.units:
         return system
     return with_unit(
-        system, train, second_loop.note_head_read(site.layout, system.units[train], tag, in_window)
+        system, train, second_loop.note_head_read(site.layout, system.units[train], cab, tag, in_window)
     )
 
 
@@ -70,17 +70,23 @@ def window_passes(site: Site, system: System, train: Train) -> System:
 
 
 def tail_reads(
-    site: Site, system: System, run: Run, car: Car, antenna: Antenna, healthy: bool, read: Read
+    site: Site, system: System, run: Run, car: Car, antenna: Antenna, cab: Cab, healthy: bool, read: Read
 ) -> System:
-    """An antenna on ``car`` reads something while the train runs as in ``run`` (T2, T6)."""
+    """The antenna of a cab on ``car`` reads something while the train runs as in ``run`` (T2, T6)."""
     if run.train not in system.units or run not in site.formation.ahead:
+        return system
+    if site.formation.cab.get(car) != cab:
         return system
     if not a_healthy_line_reaches_the_tail(site, system, run, car, antenna, healthy):
         return system
     before = system.units[run.train].tail_read
-    if before is not None and not a_pair_read_in_order_proves_the_exit(site, system, run, car, before, read):
+    if (
+        before is not None
+        and system.units[run.train].tail_cab == cab
+        and not a_pair_read_in_order_proves_the_exit(site, system, run, car, before, read)
+    ):
         return system
-    unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], antenna, healthy, read)
+    unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], antenna, cab, healthy, read)
     behind = system.track.behind | frozenset(
         (other, block) for other, order in unit.orders.items() for block in order.left
     )

@@ -47,7 +47,9 @@ def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, P
         standing_in=frozenset(),
         orders=NO_ORDERS,
         head_tag=None,
+        head_cab=None,
         tail_read=None,
+        tail_cab=None,
         occupied=frozenset(),
     )
     terminal = Terminal(life=TerminalLife(0), holds=None, wanted=None, unlocked=False)

@@ -9,6 +9,7 @@ from kernel.layout import Layout, TagRecords
 from kernel.maps import Map
 from kernel.names import (
     Block,
+    Cab,
     Car,
     Epoch,
     Point,
@@ -33,11 +34,13 @@ class Formation:
     ``train_of``: the train a car belongs to, whether or not it still hangs on it.
     ``last``: the last car in the direction of a run.
     ``ahead``: for a run and a car, the cars ahead of it.
+    ``cab``: the cab that a car carries; no two cars of a train carry the same.
     """
 
     train_of: Map[Car, Train]
     last: Map[Run, Car]
     ahead: Map[Run, Map[Car, frozenset[Car]]]
+    cab: Map[Car, Cab]
 
 
 @dataclass(frozen=True)

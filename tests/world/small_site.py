@@ -6,7 +6,7 @@ West W (point pw facing P and Q), platforms P and Q, east E (point pe facing P a
 from __future__ import annotations
 
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Car, Point, Position, Record, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.names import Block, Cab, Car, Point, Position, Record, Route, Run, Serial, Tag, Train, UnitLife
 from models.ground import Ground
 from models.world.state import Formation, Site, System
 from models.world.start import start
@@ -97,7 +97,7 @@ def small_site(serials: int = 8, lives: int = 4) -> Site:
         order = cars if run.route.endswith("W") or run.route[0] == "E" else list(reversed(cars))
         last[run] = order[-1]
         ahead[run] = {c: frozenset(order[:i]) for i, c in enumerate(order)}
-    return Site(layout=layout, records=records, ground=ground, formation=Formation(train_of=train_of, last=last, ahead=ahead))
+    return Site(layout=layout, records=records, ground=ground, formation=Formation(train_of=train_of, last=last, ahead=ahead, cab={c: Cab(f'cab of {c}') for c in train_of}))
 
 
 def small_start(site: Site) -> System:
