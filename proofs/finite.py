@@ -15,6 +15,7 @@ import z3
 
 from kernel.names import (
     Block,
+    Cab,
     Car,
     Epoch,
     Point,
@@ -40,23 +41,18 @@ from proofs.transitions import event_types
 
 Sizes = Mapping[Any, int]
 
-SMALL: Sizes = {
-    Block: 4,
-    Route: 3,
-    Point: 2,
-    Position: 2,
-    Train: 2,
-    Car: 3,
-    Tag: 4,
-    Record: 2,
-    Serial: 4,
-    UnitLife: 3,
-    TerminalLife: 2,
-    Epoch: 2,
-    Run: 4,
-    Read: 3,
-}
-"""How many there are of each: enough for two trains, a route each and one that stands, and a release in parts."""
+def _sizes(blocks: int, routes: int, points: int, cars: int, tags: int, runs: int, lives: int) -> Sizes:
+    return {
+        **{Block: blocks, Route: routes, Point: points, Position: 2, Train: 2, Car: cars, Cab: cars},
+        **{Tag: tags, Record: 2, Read: tags - tags // 4, Run: runs, Serial: runs, UnitLife: lives},
+        **{TerminalLife: 2, Epoch: 2},
+    }
+
+
+SMALL: Sizes = _sizes(blocks=3, routes=2, points=1, cars=2, tags=2, runs=3, lives=2)
+"""Two trains of one car, a run each and one that stands: enough for most, and quick."""
+LARGER: Sizes = _sizes(blocks=4, routes=3, points=2, cars=3, tags=4, runs=4, lives=3)
+"""A train of two cars, a route with a part, a third life."""
 
 TACTICS = ("simplify", "elim-term-ite", "dt2bv", "simplify", "solve-eqs", "bit-blast", "sat")
 """Enumerations become bits, and the question goes to the SAT solver."""
@@ -82,7 +78,7 @@ class Question:
 class World:
     """A finite scope with its site and the state before, lifted once; axioms left out on request."""
 
-    def __init__(self, sizes: Sizes = SMALL, without: frozenset[str] = frozenset()) -> None:
+    def __init__(self, sizes: Sizes = LARGER, without: frozenset[str] = frozenset()) -> None:
         self.scope = GridScope(sizes)
         self.lifter = Lifter(self.scope)
         self.site = self.scope.fresh(Site, "site")

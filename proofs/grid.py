@@ -11,8 +11,9 @@ from typing import Any
 import z3
 
 from proofs.lift import FiniteScope
-from proofs.lift.components import Function
-from proofs.lift.terms import Term, equal_terms, is_constant, ite_
+from proofs.lift.components import Function, Keys
+from proofs.lift.kinds import Scalar
+from proofs.lift.terms import Term, address, equal_terms, is_constant, ite_
 
 Marks = tuple[Any, ...]
 
@@ -20,12 +21,13 @@ Marks = tuple[Any, ...]
 class GridScope(FiniteScope):
     """Each function of logic is a table of constants; looking it up at a term is a choice among them."""
 
-    def _declared(self, path: str, keys: list[Any], result: Any) -> Function:
-        if not keys:
-            constant = z3.Const(path, result)
-            return lambda: constant
-        choices = [tuple(self.values(self._scalars[str(key)]) or ()) for key in keys]
-        return Table(path, choices, result).look_up
+    def declare(self, path: str, keys: Keys, result: Scalar) -> Function:
+        """Return the table of this name and these sorts."""
+        place = (path, keys, result)
+        if keys and place not in self._functions:
+            choices = [tuple(self.values(key) or ()) for key in keys]
+            self._functions[place] = Table(path, choices, self.sort(result)).look_up
+        return super().declare(path, keys, result)
 
 
 class Table:
@@ -63,4 +65,4 @@ class Table:
 
 
 def _mark(term: Term) -> Any:
-    return term if isinstance(term, bool) else term.get_id()
+    return term if isinstance(term, bool) else address(term)

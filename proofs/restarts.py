@@ -52,7 +52,7 @@ def source() -> str:
             "centre",
             Centre,
             "layout: Layout, centre: Centre, epoch: Epoch",
-            "Begin a new epoch: every block and point is lost, nobody is accounted for.",
+            "Begin a new epoch: every block and point is lost, nobody is accounted for (T8).",
             persistence.CENTRE,
         ),
         restart_source(
@@ -60,7 +60,7 @@ def source() -> str:
             "unit",
             Unit,
             "unit: Unit, life: UnitLife",
-            "Begin a new life: no authority, and no memory of where the train is.",
+            "Begin a new life: no authority, and no memory of where the train is (T8).",
             persistence.UNIT,
         ),
         restart_source(
@@ -68,7 +68,7 @@ def source() -> str:
             "terminal",
             Terminal,
             "terminal: Terminal, life: TerminalLife",
-            "Begin a new life: the lock stays as it is, the lock id is gone.",
+            "Begin a new life: the lock stays as it is, the lock id is gone (T8, T10).",
             persistence.TERMINAL,
         ),
     ]

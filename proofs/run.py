@@ -69,7 +69,7 @@ def settle(row: str, column: str, solver: str, seed: int, laid_out: list[Part], 
     """Ask one solver for every part of one obligation; any answer but ``unsat`` leaves it unproved."""
     replies = [solvers.ask(solver, part, seed) for part in laid_out]
     answers = {reply.answer for reply in replies}
-    verdict: Verdict = "refuted" if "sat" in answers else "undecided" if "unknown" in answers else "proved"
+    verdict: Verdict = "refuted" if "sat" in answers else "proved" if answers <= {"unsat"} else "undecided"
     return {
         "transition": row,
         "invariant": column,

@@ -58,27 +58,46 @@ def changes(before: Any, after: Any) -> Changes:
 
 def difference(old: Any, new: Any) -> Any:
     """How one value became another, which is not the same."""
-    if isinstance(old, frozenset) and isinstance(new, frozenset):
-        if old < new:
-            return Came(new - old)
-        if new < old:
-            return Went(old - new)
-        return new
-    mapped = isinstance(old, Mapping) and isinstance(new, Mapping)
-    if mapped or (is_dataclass(old) and type(old) is type(new) and old is not GONE):
+    if isinstance(new, frozenset) and (is_empty(old) or old < new):
+        return Came(new - old if isinstance(old, frozenset) else new)
+    if isinstance(old, frozenset) and (is_empty(new) or new < old):
+        return Went(old - new if isinstance(new, frozenset) else old)
+    if isinstance(old, Mapping) and (isinstance(new, Mapping) or new is GONE):
+        return changes(old, {} if new is GONE else new)
+    if old is GONE and isinstance(new, Mapping):
+        return changes({}, new)
+    if is_dataclass(old) and type(old) is type(new):
         return changes(old, new)
     return new
+
+
+def still_to_come(before: Any, effect: Changes) -> Changes:
+    """What of a stated effect is not so already, in the form of :func:`changes`."""
+    found: dict[Any, Any] = {}
+    for name, stated in effect.items():
+        old = before.get(name, GONE) if isinstance(before, Mapping) else getattr(before, name, GONE)
+        if isinstance(stated, Mapping):
+            if rest := still_to_come({} if old is GONE else old, stated):
+                found[name] = rest
+        elif isinstance(stated, Came | Went):
+            there = old if isinstance(old, frozenset) else frozenset()
+            members = stated.members - there if isinstance(stated, Came) else stated.members & there
+            if members:
+                found[name] = type(stated)(members)
+        elif not same(old, stated):
+            found[name] = difference(old, stated)
+    return found
 
 
 def same(old: Any, new: Any) -> bool:
     """Whether nothing changed, an absent value being an empty one."""
     if old is new or old == new:
         return True
-    if isinstance(old, Mapping) and isinstance(new, Mapping):
+    if (isinstance(old, Mapping) and isinstance(new, Mapping)) or (is_dataclass(old) and type(old) is type(new)):
         return not changes(old, new)
     return is_empty(old) and is_empty(new)
 
 
 def is_empty(value: Any) -> bool:
     """Whether this is no value, or an empty set or map."""
-    return value == GONE or (isinstance(value, frozenset | Mapping) and not value)
+    return value is GONE or (isinstance(value, frozenset | Mapping) and not value)

@@ -15,7 +15,7 @@ from kernel import recovery, release, route_setting, supervision
 from kernel.refusal import Refusal
 from models.world.state import Site, System
 from proofs import catalogue
-from proofs.witnesses.changes import Changes, changes
+from proofs.witnesses.changes import Changes, changes, still_to_come
 
 Steps = Mapping[str, Callable[..., Any]]
 """Transitions by name, and the kernel functions that say why a transition is refused."""
@@ -75,13 +75,13 @@ class Scenario:
         self._watch(START, {})
 
     def does(self, step: str, effect: Changes | None = None, /, **event: Any) -> None:
-        """Take a step that must be accepted; ``effect``, where given, is all that it may change."""
+        """Take a step that must be accepted; ``effect``, where given, is all that it changes, and how."""
         after = self.steps[step](self.site, self.system, **event)
         changed = changes(self.system, after)
         if not changed:
             raise WitnessFailed(f"{self._told(step, event)} changed nothing")
-        if effect is not None and changed != effect:
-            raise WitnessFailed(f"{self._told(step, event)} changed\n  {changed}\nand should change\n  {effect}")
+        if effect is not None and changed != (stated := still_to_come(self.system, effect)):
+            raise WitnessFailed(f"{self._told(step, event)} changed\n  {changed}\nand should change\n  {stated}")
         self.system = after
         self.taken.append(Taken(step, event, True, effect is not None, None, after))
         self._watch(step, event)

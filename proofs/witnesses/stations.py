@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from kernel.names import Block, Car, Point, Position, Route, Train
+from models.layouts.continuation import with_continuations
 from models.layouts.loading import load_text
 from models.layouts.results import Imported
 from models.world.formations import directions, formation
@@ -119,15 +120,13 @@ from = "B2"
 direction = "backward"
 to = "west end"
 points = { P1 = "reverse" }
-# On from the turnouts, for a train that restarted there.
-[routes."throat to one"]
-from = "B1"
+# Through, released as one part up to the outlet's end.
+[routes."west to east"]
+from = "A"
 direction = "forward"
-to = "C1"
-[routes."throat to two"]
-from = "B2"
-direction = "forward"
-to = "C2"
+to = "east end"
+points = { P1 = "normal", P2 = "normal" }
+release_at = ["D"]
 [routes."yard out"]
 from = "Y1"
 direction = "forward"
@@ -208,9 +207,11 @@ WEST_TO_TWO_SHIELDED = Route("west to two, shielded")
 EAST_TO_ONE, EAST_TO_TWO = Route("east to one"), Route("east to two")
 ONE_TO_EAST, TWO_TO_EAST = Route("one to east"), Route("two to east")
 ONE_TO_WEST, TWO_TO_WEST = Route("one to west"), Route("two to west")
-THROAT_TO_ONE = Route("throat to one")
+WEST_TO_ONE_ON = Route("west to one from throat")
+"""For a train that restarted in the throat."""
+WEST_TO_EAST = Route("west to east")
 YARD_OUT = Route("yard out")
-ARRIVE_1, DEPART_1 = Route("arrive 1"), Route("depart 1")
+ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depart 2")
 NO_ROUTE = Route("standing")
 """What a run names that stands for a train at rest."""
 
@@ -226,12 +227,13 @@ def imported(text: str) -> Imported:
 def site_of(text: str) -> Site:
     """The station with its two trains."""
     station = imported(text)
-    along = directions(station.layout, station.ground)
+    layout, ground = with_continuations(station.layout, station.ground)
+    along = directions(layout, ground)
     leading = along[Route("arrive 1" if text is TERMINUS else "west to one")]
     return Site(
-        layout=station.layout,
+        layout=layout,
         records=station.records,
-        ground=station.ground,
+        ground=ground,
         formation=formation(CARS, lambda route: along.get(route, leading) == leading),
     )
 

@@ -1,0 +1,204 @@
+"""Every single drop in a function: a guard, an operand, a condition, an update.
+
+A mutant is named by its function and by the text that it drops, so that its name stays as long
+as that text does.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+import inspect
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+from proofs.lift.sources import Code, definition_of
+from proofs.mutated import Sources
+
+Place = tuple[tuple[str, int | None], ...]
+"""The way from a function's tree down to a node: field by field, with the index in a list."""
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One drop: where, what kind, the text that goes, and what stands there instead (None: nothing does)."""
+
+    place: Place
+    kind: str
+    text: str
+    instead: ast.AST | None
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A function with one drop."""
+
+    function: Code
+    kind: str
+    text: str
+    tree: ast.FunctionDef
+
+    @property
+    def home(self) -> str:
+        """The function, by module and name."""
+        return f"{self.function.__module__}.{self.function.__name__}"
+
+    @property
+    def name(self) -> str:
+        """What identifies the mutant from one commit to the next."""
+        return f"{self.home}: {self.kind} {self.text}"
+
+    @property
+    def sources(self) -> Sources:
+        """The mutant, for the lifter and for CPython."""
+        return {self.function: self.tree}
+
+
+def functions_of(*modules: ModuleType) -> list[Code]:
+    """The functions that modules define, in their order."""
+    return [
+        value
+        for module in modules
+        for value in vars(module).values()
+        if inspect.isfunction(value) and value.__module__ == module.__name__
+    ]
+
+
+def mutants_of(function: Code) -> list[Mutant]:
+    """Every mutant of a function; two edits to the same text are one, a repeated name gets a number."""
+    own = definition_of(function)
+    known = {normal(own)}
+    found: list[Mutant] = []
+    names: dict[str, int] = {}
+    for edit in edits(own):
+        tree = edited(own, edit)
+        if normal(tree) in known:
+            continue
+        known.add(normal(tree))
+        key = f"{edit.kind} {edit.text}"
+        names[key] = names.get(key, 0) + 1
+        text = edit.text if names[key] == 1 else f"{edit.text} ({names[key]})"
+        found.append(Mutant(function, edit.kind, text, tree))
+    return found
+
+
+def edited(tree: ast.FunctionDef, edit: Edit) -> ast.FunctionDef:
+    """A copy of the tree with one edit."""
+    changed = copy.deepcopy(tree)
+    node: Any = changed
+    for field, index in edit.place[:-1]:
+        node = getattr(node, field) if index is None else getattr(node, field)[index]
+    field, index = edit.place[-1]
+    if index is None:
+        setattr(node, field, copy.deepcopy(edit.instead))
+    elif edit.instead is None:
+        getattr(node, field).pop(index)
+    else:
+        getattr(node, field)[index] = copy.deepcopy(edit.instead)
+    return ast.fix_missing_locations(changed)
+
+
+def normal(tree: ast.FunctionDef) -> str:
+    """The text of a function, an update of a field to its own value left out."""
+    return ast.unparse(_WithoutIdleUpdates().visit(copy.deepcopy(tree)))
+
+
+class _WithoutIdleUpdates(ast.NodeTransformer):
+    def visit_Call(self, node: ast.Call) -> ast.AST:  # noqa: N802
+        self.generic_visit(node)
+        if isinstance(node.func, ast.Name) and node.func.id == "replace":
+            record = ast.unparse(node.args[0])
+            node.keywords = [word for word in node.keywords if ast.unparse(word.value) != f"{record}.{word.arg}"]
+            return node if node.keywords else node.args[0]
+        return node
+
+
+def edits(tree: ast.FunctionDef) -> Iterator[Edit]:
+    """Every edit of a function, from its first line to its last."""
+    for place, node in places(tree):
+        for find in FINDERS:
+            yield from find(place, node)
+
+
+def places(node: ast.AST, place: Place = ()) -> Iterator[tuple[Place, ast.AST]]:
+    """Every node below a function's head, with the way to it."""
+    yield place, node
+    for field, value in ast.iter_fields(node):
+        if field in ("args", "returns", "decorator_list") and not place:
+            continue
+        below: Sequence[Any] = value if isinstance(value, list) else [value]
+        for index, child in enumerate(below):
+            if isinstance(child, ast.AST):
+                yield from places(child, (*place, (field, index if isinstance(value, list) else None)))
+
+
+def guards(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """``if …: return …`` dropped."""
+    if isinstance(node, ast.If) and isinstance(node.body[-1], ast.Return) and not node.orelse:
+        outcome = ast.unparse(node.body[-1]).removeprefix("return ")
+        yield Edit(place, "guard", f"if {ast.unparse(node.test)}: {outcome}", None)
+
+
+def operands(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """One operand of ``and`` or ``or`` dropped."""
+    if isinstance(node, ast.BoolOp):
+        word = "and" if isinstance(node.op, ast.And) else "or"
+        for index, operand in enumerate(node.values):
+            rest = [other for other in node.values if other is not operand]
+            instead = rest[0] if len(rest) == 1 else ast.BoolOp(node.op, rest)
+            yield Edit((*place,), f"{word}-operand", ast.unparse(operand), instead)
+            assert index < len(node.values)
+
+
+def conditions(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """A condition that a function returns, or that chooses, dropped: as if it always held."""
+    if isinstance(node, ast.Return) and _is_condition(node.value):
+        yield Edit((*place, ("value", None)), "condition", ast.unparse(node.value), ast.Constant(True))
+    if isinstance(node, ast.IfExp):
+        yield Edit(place, "choice", f"{ast.unparse(node.test)} (always)", node.body)
+        yield Edit(place, "choice", f"{ast.unparse(node.test)} (never)", node.orelse)
+
+
+def filters(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """The ``if`` of a comprehension dropped."""
+    if isinstance(node, ast.comprehension):
+        for index, test in enumerate(node.ifs):
+            yield Edit((*place, ("ifs", index)), "filter", ast.unparse(test), None)
+
+
+def updates(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """One keyword of ``replace`` dropped; in a construction, a truth turned round or the old value kept."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name):
+        return
+    for index, keyword in enumerate(node.keywords):
+        at = (*place, ("keywords", index))
+        text = ast.unparse(keyword)
+        if node.func.id == "replace":
+            yield Edit(at, "update", text, None)
+        elif isinstance(keyword.value, ast.Constant) and isinstance(keyword.value.value, bool):
+            yield Edit((*at, ("value", None)), "update", text, ast.Constant(not keyword.value.value))
+        elif node.func.id in KEEPING and keyword.arg is not None:
+            kept = ast.Attribute(ast.Name(KEEPING[node.func.id]), keyword.arg)
+            yield Edit((*at, ("value", None)), "update", text, kept)
+
+
+def unions(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """One operand of a union of sets or maps dropped, or what a difference takes away."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.BitOr, ast.Sub)):
+        yield Edit(place, "union" if isinstance(node.op, ast.BitOr) else "difference", ast.unparse(node.right), node.left)
+        if isinstance(node.op, ast.BitOr):
+            yield Edit(place, "union", ast.unparse(node.left), node.right)
+
+
+KEEPING = {"Centre": "centre", "Unit": "unit", "Terminal": "terminal"}
+"""States that are made anew by a restart, and what the state before is called there."""
+
+FINDERS = (guards, operands, conditions, filters, updates, unions)
+
+
+def _is_condition(node: ast.expr | None) -> bool:
+    if isinstance(node, (ast.BoolOp, ast.Compare)) or (isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)):
+        return True
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("any", "all")

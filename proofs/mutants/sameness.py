@@ -1,0 +1,94 @@
+"""Whether a drop changes anything at all: in a small world by search, on every layout by proof."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import z3
+
+from models.world.state import Site, System
+from proofs.catalogue import STEPS
+from proofs.counterexample import Answer, stepped, unmet
+from proofs.finite import World
+from proofs.lift import Lifter, concretise, conjuncts
+from proofs.lift.terms import same, to_z3
+from proofs.mutated import Sources
+from proofs.transitions import event_types
+from proofs.workbench import Workbench
+
+
+def is_the_same(one: System, other: System) -> bool:
+    """Two states are equal."""
+    return one == other
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A state in which all invariants hold and an event that a function and its mutant take differently."""
+
+    transition: str
+    site: Site
+    before: System
+    event: dict[str, Any]
+    after: System | None
+    instead: System | None
+
+
+def difference(world: World, transition: str, sources: Sources, milliseconds: int = 20_000) -> Difference | str:
+    """Search a small world for a state in which the mutant does otherwise; say ``none`` or ``unknown``."""
+    kinds = event_types(STEPS[transition])
+    event = {name: (kind, world.scope.constant(kind, f"event.{name}")) for name, kind in kinds.items()}
+    values = [value for _, value in event.values()]
+    one = world.lifter.call(STEPS[transition], world.site, world.before, *values)
+    other = Lifter(world.scope, sources).call(STEPS[transition], world.site, world.before, *values)
+    equal = to_z3(world.lifter.formula(is_the_same, one, other))
+    solver = world.solver(milliseconds)
+    solver.add(z3.Not(equal), *world.pinned(event))
+    answer = solver.check()
+    if answer != z3.sat:
+        return "none" if answer == z3.unsat else "unknown"
+    model = solver.model()
+    site = concretise(model, world.scope, world.site, Site)
+    before = concretise(model, world.scope, world.before, System)
+    given = {name: concretise(model, world.scope, value, kind) for name, (kind, value) in event.items()}
+    assert not unmet(site, before)
+    after = stepped(transition, site, before, given, {}).after
+    instead = stepped(transition, site, before, given, sources).after
+    return Difference(transition, site, before, given, after, instead)
+
+
+@dataclass(frozen=True)
+class Sameness:
+    """What is left to prove that a mutant does just what the function does, on every layout."""
+
+    transition: str
+    goals: list[Any]
+
+
+def sameness(bench: Workbench, transition: str, sources: Sources) -> Sameness:
+    """Lay out the claim that both versions of a transition come to the same state, conjunct by conjunct."""
+    step = STEPS[transition]
+    event = [bench.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()]
+    one = bench.lifter.call(step, bench.site, bench.before, *event)
+    other = Lifter(bench.scope, sources).call(step, bench.site, bench.before, *event)
+    if same(one, other):
+        return Sameness(transition, [])
+    return Sameness(transition, conjuncts(bench.lifter.formula(is_the_same, one, other)))
+
+
+def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int = 8_000_000) -> bool:
+    """Prove it from the axioms and invariants named."""
+    available = {**bench.assumed, **bench.invariants}
+    order = [formula for formulas in bench.always().values() for formula in formulas]
+    given = [available[name] for name in hypotheses]
+    for goal in claim.goals:
+        solver = z3.Solver()
+        solver.set("rlimit", rlimit)
+        solver.add(*order, *given, z3.Not(goal))
+        if solver.check() != z3.unsat:
+            return False
+    return True
+
+
+__all__ = ["Answer", "Difference", "Sameness", "difference", "is_the_same", "proved", "sameness"]

@@ -1,0 +1,222 @@
+"""Functions of the kernel with one thing left out; :mod:`proofs.planted.weakenings` says what."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.centre import NO_LOCKS, NO_RUNS, Centre
+from kernel.claims import end_claims
+from kernel.layout import Layout, TagRecords
+from kernel.names import Antenna, Block, Cab, Cause, Epoch, Read, Run, Stage, TerminalLife, UnitLife
+from kernel.refusal import Refusal
+from kernel.release import release_refusal
+from kernel.route_setting import conflict
+from kernel.terminal import Terminal
+from kernel.unit import NO_EVIDENCE, Evidence, Order, Unit
+
+
+def request_by_runs_known(layout: Layout, centre: Centre, run: Run, base: Run) -> Refusal | None:
+    """Take a number for new if no run known now has it: after a restart none has."""
+    if run.route not in layout.routes:
+        return Refusal.UNKNOWN_ROUTE
+    if any(run.serial == other.serial for other in centre.runs):
+        return Refusal.SERIAL_NOT_NEW
+    if run.serial >= layout.last_serial:
+        return Refusal.SERIALS_EXHAUSTED
+    if centre.accounted.get(run.train) != run.life:
+        return Refusal.TRAIN_NOT_ACCOUNTED_FOR
+    secured = centre.runs.get(base)
+    if secured is None or (secured.stage != Stage.SET and secured.stage != Stage.STANDING):
+        return Refusal.START_NOT_SECURED
+    if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
+        return Refusal.START_NOT_HELD
+    return conflict(layout, centre, run)
+
+
+def terminal_keeps_its_life(terminal: Terminal, life: TerminalLife) -> Terminal:
+    """Restart without a new life."""
+    return Terminal(life=terminal.life, holds=None, wanted=None, unlocked=terminal.unlocked)
+
+
+def unit_keeps_its_life(unit: Unit, life: UnitLife) -> Unit:
+    """Restart without a new life."""
+    return Unit(
+        life=unit.life,
+        answered=None,
+        standing_in=frozenset(),
+        orders={},
+        head_tag=None,
+        head_cab=None,
+        tail_read=None,
+        tail_cab=None,
+        occupied=frozenset(),
+    )
+
+
+def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
+    """Store a tag list whatever life it names, so that it is echoed and given back for another."""
+    if run in unit.orders:
+        return unit
+    return replace(
+        unit,
+        orders=unit.orders
+        | {
+            run: Order(
+                permitted=False,
+                given_back=False,
+                loop_closed=True,
+                begun=False,
+                stopped=False,
+                expected=layout.first_tag.get(run.route),
+                left=NO_EVIDENCE,
+            )
+        },
+    )
+
+
+def give_back_at_once(unit: Unit, run: Run, stands_short: bool) -> Unit:
+    """Give a run back wherever the train is."""
+    order = unit.orders.get(run)
+    if order is None or order.begun:
+        return unit
+    return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
+
+
+def any_antenna(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
+    """Count the reads of every antenna, over every line."""
+    before = unit.tail_read
+    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    block = layout.tag_in.get(before.tag)
+    if block is None:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    return replace(
+        unit,
+        tail_read=read,
+        tail_cab=cab,
+        occupied=unit.occupied - {block},
+        orders={
+            run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
+            if order.begun and order.loop_closed
+            else order
+            for run, order in unit.orders.items()
+        },
+    )
+
+
+def tail_over_a_broken_line(
+    layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read
+) -> Unit:
+    """Count the reads of the tail antenna even when the through line does not reach the tail."""
+    if antenna != Antenna.TAIL:
+        return unit
+    before = unit.tail_read
+    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    block = layout.tag_in.get(before.tag)
+    if block is None:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    return replace(
+        unit,
+        tail_read=read,
+        tail_cab=cab,
+        occupied=unit.occupied - {block},
+        orders={
+            run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
+            if order.begun and order.loop_closed
+            else order
+            for run, order in unit.orders.items()
+        },
+    )
+
+
+def two_cabs_make_a_pair(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
+    """Take two reads for a pair although the ends were changed between them."""
+    if antenna != Antenna.TAIL:
+        return unit
+    if not healthy:
+        return replace(unit, tail_read=None)
+    before = unit.tail_read
+    if before is None or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    block = layout.tag_in.get(before.tag)
+    if block is None:
+        return replace(unit, tail_read=read, tail_cab=cab)
+    return replace(
+        unit,
+        tail_read=read,
+        tail_cab=cab,
+        occupied=unit.occupied - {block},
+        orders={
+            run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
+            if order.begun and order.loop_closed
+            else order
+            for run, order in unit.orders.items()
+        },
+    )
+
+
+def all_free_again(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
+    """Begin a new epoch with every block unoccupied."""
+    return Centre(
+        epoch=epoch,
+        newest=centre.newest,
+        accounted={},
+        runs={},
+        claimed={},
+        locked={},
+        lost_blocks=frozenset(),
+        lost_points=layout.points,
+        terminal_life={},
+        supervised=frozenset(),
+        statements={},
+    )
+
+
+def nobody_is_missing(layout: Layout, centre: Centre) -> bool:
+    """Find everything again without asking for the whole fleet."""
+    return False
+
+
+def all_at_the_first_report(
+    layout: Layout, records: TagRecords, centre: Centre, run: Run, block: Block, left: Read, entered: Read
+) -> Centre:
+    """Free the whole route on the evidence of one block."""
+    grant = centre.runs.get(run)
+    if grant is None or release_refusal(layout, records, centre, run, block, left, entered) is not None:
+        return centre
+    if grant.stage == Stage.STANDING:
+        return centre
+    return end_claims(
+        layout,
+        centre,
+        run,
+        grant,
+        layout.claims[run.route],
+        frozenset(point for point in layout.needs[run.route]),
+        grant.stage,
+        Cause.TAIL_EVIDENCE,
+    )
+
+
+def stopped_wherever_it_is(unit: Unit, run: Run, within_destination: bool) -> Unit:
+    """Tell that the train has stopped though it can still slip."""
+    order = unit.orders.get(run)
+    if order is None or not order.permitted or order.given_back:
+        return unit
+    return replace(unit, orders=unit.orders | {run: replace(order, stopped=True)})
+
+
+def conflict_without_fouling(layout: Layout, centre: Centre, run: Run) -> Refusal | None:
+    """Look at the blocks of the route, not at those beside them."""
+    blocks = layout.claims[run.route]
+    if any(block in centre.lost_blocks for block in blocks):
+        return Refusal.BLOCK_LOST
+    if any(other.train != run.train for block in blocks for other in centre.claimed.get(block, NO_RUNS)):
+        return Refusal.BLOCK_HELD_FOR_ANOTHER
+    needs = layout.needs[run.route]
+    if any(point in centre.lost_points for point in needs):
+        return Refusal.POINT_LOST
+    if any(lies != needs[point] for point in needs for _, lies in centre.locked.get(point, NO_LOCKS).items()):
+        return Refusal.POINT_LOCKED_OTHERWISE
+    return None

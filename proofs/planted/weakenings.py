@@ -1,0 +1,100 @@
+"""Fifteen weakenings of the protocol, each with the one-line story of what goes wrong."""
+
+from __future__ import annotations
+
+from kernel import authority, first_loop, recovery, release, restarts, route_setting, tail_evidence
+from proofs.planted import weakened
+from proofs.planted.fault import Fault
+
+WEAKENINGS: tuple[Fault, ...] = (
+    Fault(
+        "the centre forgets the run counter",
+        "After a restart a number is granted a second time, and old messages speak for the new run.",
+        "request",
+        {route_setting.request_refusal: weakened.request_by_runs_known},
+    ),
+    Fault(
+        "a terminal keeps its life over a restart",
+        "It has forgotten which run it held, and an old order that comes late is still addressed to it.",
+        "restart_terminal",
+        {restarts.restart_terminal: weakened.terminal_keeps_its_life},
+    ),
+    Fault(
+        "a unit keeps its life over a restart",
+        "It has forgotten what it gave back and what its tail left; the old permit comes again.",
+        "restart_unit",
+        {restarts.restart_unit: weakened.unit_keeps_its_life},
+    ),
+    Fault(
+        "a tag list is taken in any life",
+        "A unit that has restarted takes up a run of its former life, which the centre may have ended.",
+        "take_offer",
+        {first_loop.take_offer: weakened.offer_to_any_life},
+    ),
+    Fault(
+        "no approach locking",
+        "The train gives a run back while it rolls towards it, and comes into blocks that are another's by then.",
+        "give_back",
+        {first_loop.give_back: weakened.give_back_at_once},
+    ),
+    Fault(
+        "an antenna on any car counts",
+        "The head antenna reads the pair, and the block is reported left with the rest of the train in it.",
+        "tail_reads",
+        {tail_evidence.note_tail_read: weakened.any_antenna},
+    ),
+    Fault(
+        "cars need not keep their order",
+        "A car of the train is behind the one that carries the tail antenna, and stays in the block reported left.",
+        "tail_reads",
+        without=frozenset({"the_last_car_is_behind_all_others"}),
+    ),
+    Fault(
+        "blocks come back unoccupied after a restart",
+        "Trains stand where the restarted centre sees free track.",
+        "restart_centre",
+        {restarts.restart_centre: weakened.all_free_again},
+    ),
+    Fault(
+        "a block is found again before every train has answered",
+        "The train that did not answer stands in it.",
+        "recover_block",
+        {recovery.train_missing: weakened.nobody_is_missing},
+    ),
+    Fault(
+        "the whole route is released on the evidence of one block",
+        "The tail has left the first block, and the blocks the train is in are freed as well.",
+        "release_block",
+        {release.release: weakened.all_at_the_first_report},
+    ),
+    Fault(
+        "a facing point on the way need not be held",
+        "Where track leads off the way no point turns the train back to it, so it runs into a block not its own.",
+        "car_moves",
+        without=frozenset({"track_leads_along_the_way_or_is_turned"}),
+    ),
+    Fault(
+        "a point on the way need not be needed",
+        "A point in a block of the route is not locked for it, and drifts under the train.",
+        "car_moves",
+        without=frozenset({"every_point_in_a_route_is_needed"}),
+    ),
+    Fault(
+        "the overlap is freed while the train can still slip",
+        "The train tells that it stands while it slips, and comes into an overlap that is another's by then.",
+        "note_stopped",
+        {authority.note_stopped: weakened.stopped_wherever_it_is},
+    ),
+    Fault(
+        "fouling blocks are not looked at",
+        "Two trains are sent into blocks whose loading gauges touch.",
+        "request",
+        {route_setting.conflict: weakened.conflict_without_fouling},
+    ),
+    Fault(
+        "a pair of reads may be two cabs' reads",
+        "The train goes back between the two reads: one cab read the first tag, the other the second.",
+        "tail_reads",
+        {tail_evidence.note_tail_read: weakened.two_cabs_make_a_pair},
+    ),
+)

@@ -1,0 +1,59 @@
+"""Which proof uses what: read off the proof scripts, never written by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from proofs import scripts
+from proofs.catalogue import SAFETY
+from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READING
+from proofs.run import columns
+from proofs.scripts import ROWS
+
+Cell = tuple[str, str]
+"""An obligation by its row and column."""
+
+Book = Mapping[Cell, Sequence[str]]
+"""The names of the hypotheses of every obligation."""
+
+
+def cells() -> Iterator[Cell]:
+    """Give every obligation of the matrix, in order."""
+    for row in (*ROWS, READING):
+        for column in columns(row):
+            yield row, column
+
+
+def book() -> Book:
+    """Give the hypotheses of every obligation, as the scripts have them."""
+    return {(row, column): scripts.hypotheses(row, column) for row, column in cells()}
+
+
+def users(found: Book) -> Mapping[str, list[Cell]]:
+    """Give, for each name, the obligations of other columns that name it as a hypothesis."""
+    using: dict[str, list[Cell]] = {}
+    for (row, column), names in found.items():
+        for name in names:
+            if name != column:
+                using.setdefault(name, []).append((row, column))
+    return using
+
+
+def needed(found: Book) -> frozenset[str]:
+    """Give every name that a claim of the safety case, or a lookup in a transition, rests on at last.
+
+    A lemma that only serves a lemma that serves nothing is not needed; nor is one that is only
+    read to make sense of itself.
+    """
+    below: dict[str, set[str]] = {}
+    for (row, column), names in found.items():
+        if row != READING:
+            below.setdefault(column, set()).update(names)
+    reached: set[str] = set()
+    todo = [*SAFETY, EVERY_LOOKUP_IS_DEFINED]
+    while todo:
+        name = todo.pop()
+        if name not in reached:
+            reached.add(name)
+            todo.extend(below.get(name, ()))
+    return frozenset(reached)

@@ -1,0 +1,212 @@
+"""Running a train along its route: what it does, what its antennas read, and what it reports (T2, T5, T6, T7)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import pairwise
+from typing import Any
+
+from kernel.layout import Layout
+from kernel.names import Antenna, Block, Cab, Car, Cause, Point, Read, Run, Stage, Tag, Train
+from kernel.unit import Evidence
+from proofs.witnesses.changes import GONE, Changes, came, went
+from proofs.witnesses.scenario import Scenario
+from proofs.witnesses.telling import blocks_of
+
+
+def run_through(scenario: Scenario, run: Run, *blocks: Block) -> None:
+    """A whole train runs through the blocks given, the first being where it stands, and comes to rest."""
+    roll(scenario, run)
+    pass_through(scenario, run, *blocks)
+    rest(scenario, run)
+
+
+def pass_through(scenario: Scenario, run: Run, *blocks: Block) -> None:
+    """A whole train passes the boundaries between the blocks given."""
+    for block, target in pairwise(blocks):
+        pass_boundary(scenario, run, block, target)
+
+
+def roll(scenario: Scenario, run: Run) -> None:
+    """The train begins to roll."""
+    scenario.does("start_rolling", {"track": {"rolling": came(run)}}, run=run)
+
+
+def rest(scenario: Scenario, run: Run) -> None:
+    """The train comes to rest."""
+    scenario.does("come_to_rest", {"track": {"rolling": went(run), "slipping": went(run)}}, run=run)
+
+
+def pass_boundary(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
+    """A whole train passes a boundary: head reads, cars go over one after the other, tail reads."""
+    head_passes(scenario, run, block, target)
+    for car in in_order(scenario, run):
+        crosses(scenario, run, car, block, target)
+    tail_passes(scenario, run, block, target)
+
+
+def crosses(scenario: Scenario, run: Run, car: Car, block: Block, target: Block) -> None:
+    """A car passes a boundary from end to end."""
+    enters(scenario, run, car, block, target)
+    leaves(scenario, car, block)
+
+
+def enters(scenario: Scenario, run: Run, car: Car, block: Block, target: Block) -> None:
+    """The first axle of a car reaches the next block."""
+    effect = {"track": {"at": {car: came(target)}, "under": {car: {target: run}}, "run_into": came(run)}}
+    scenario.does("car_moves", effect, run=run, car=car, block=block, target=target)
+
+
+def follows(scenario: Scenario, car: Car, other: Car, block: Block, target: Block) -> None:
+    """The first axle of a car reaches a block that a car ahead of it is in."""
+    effect = {
+        "track": {"at": {car: came(target)}, "under": {car: {target: scenario.system.track.under[other][target]}}}
+    }
+    scenario.does("car_follows", effect, car=car, other=other, block=block, target=target)
+
+
+def leaves(scenario: Scenario, car: Car, block: Block) -> None:
+    """The last axle of a car leaves a block."""
+    scenario.does("car_leaves", {"track": {"at": {car: went(block)}}}, car=car, block=block)
+
+
+def in_order(scenario: Scenario, run: Run) -> list[Car]:
+    """The cars of a train in the order in which they go."""
+    ahead = scenario.site.formation.ahead[run]
+    return sorted(ahead, key=lambda car: len(ahead[car]))
+
+
+def head_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
+    """The head reads both tags of a boundary, in order and in their windows."""
+    for tag in pair(scenario.site.layout, block, target):
+        head_reads(scenario, run, tag)
+
+
+def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
+    """The head reads the tag it must read next."""
+    layout, cab = scenario.site.layout, head_cab(scenario, run)
+    order: dict[str, Any] = {"expected": layout.tag_after[run.route].get(tag)}
+    if tag != layout.first_tag[run.route]:
+        order["begun"] = True
+    read = {"head_tag": tag, "head_cab": cab, "occupied": came(layout.tag_in[tag]), "orders": {run: order}}
+    scenario.does("head_reads", {"units": {run.train: read}}, train=run.train, cab=cab, tag=tag, in_window=True)
+
+
+def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
+    """The tail reads both tags of a boundary, in order; the block is noted as left in every run the train is on."""
+    first, second = pair(scenario.site.layout, block, target)
+    tail_reads_first(scenario, run, first)
+    event = tail_read(scenario, run, second)
+    evidence = Evidence(genuine(scenario, first), event["read"])
+    orders = scenario.system.units[run.train].orders
+    noted = [other for other, order in orders.items() if order.begun and order.loop_closed]
+    effect = {
+        "units": {
+            run.train: {
+                "tail_read": event["read"],
+                "occupied": went(block),
+                "orders": {other: {"left": {block: evidence}} for other in noted},
+            }
+        },
+        "track": {"behind": came(*((other, block) for other in noted))},
+    }
+    scenario.does("tail_reads", effect, **event)
+
+
+def tail_reads_first(scenario: Scenario, run: Run, tag: Tag) -> None:
+    """The tail antenna reads a tag that alone proves nothing."""
+    event = tail_read(scenario, run, tag)
+    effect = {"units": {run.train: {"tail_read": event["read"], "tail_cab": event["cab"]}}}
+    scenario.does("tail_reads", effect, **event)
+
+
+def tail_read(scenario: Scenario, run: Run, tag: Tag) -> dict[str, Any]:
+    """The event that the tail antenna, on the last car, reads a tag as it was laid."""
+    last = scenario.site.formation.last[run]
+    cab, read = scenario.site.formation.cab[last], genuine(scenario, tag)
+    return {"run": run, "car": last, "antenna": Antenna.TAIL, "cab": cab, "healthy": True, "read": read}
+
+
+def head_cab(scenario: Scenario, run: Run) -> Cab:
+    """The cab that leads in a run."""
+    return scenario.site.formation.cab[in_order(scenario, run)[0]]
+
+
+def report(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
+    """The third loop: the report that the tail has left a block reaches the centre, which frees it."""
+    event = reported(scenario, run, block, target)
+    word = (run, block, event["left"], event["entered"])
+    scenario.does("send_tail_report", {"radio": {"tail_reports": came(word)}}, **event)
+    scenario.does("release_block", released(scenario, run, block), **event)
+
+
+def reported(scenario: Scenario, run: Run, block: Block, target: Block) -> dict[str, Any]:
+    """The event of a genuine tail report."""
+    left, entered = (genuine(scenario, tag) for tag in pair(scenario.site.layout, block, target))
+    return {"run": run, "block": block, "left": left, "entered": entered}
+
+
+def released(scenario: Scenario, run: Run, block: Block) -> Changes:
+    """What changes when a block is released on tail evidence: its claim ends, and its points go with it."""
+    centre, layout = scenario.system.centre, scenario.site.layout
+    points: Iterable[Point] = layout.points_in[block]
+    if run.route in layout.routes:
+        points = [point for point, place in layout.released_with[run.route].items() if place == block]
+    return {
+        "centre": {
+            "runs": {run: {"ended": {block: Cause.TAIL_EVIDENCE}}},
+            "claimed": {block: went(run)},
+            "locked": {point: {run: GONE} for point in points if run in centre.locked.get(point, {})},
+        }
+    }
+
+
+def stop(scenario: Scenario, run: Run) -> None:
+    """The train tells that it stands in its destination, and the overlap is freed (T9)."""
+    layout = scenario.site.layout
+    effect = {"units": {run.train: {"orders": {run: {"stopped": True}}}}}
+    scenario.does("note_stopped", effect, run=run, within_destination=True)
+    scenario.does("send_stop", {"radio": {"stops": came(run)}}, run=run)
+    overlap = layout.overlap[run.route]
+    points = [point for point, place in layout.released_with[run.route].items() if place in overlap]
+    freed: Mapping[str, Any] = {
+        "runs": {run: {"ended": dict.fromkeys(overlap, Cause.STANDSTILL)}},
+        "claimed": {block: went(run) for block in overlap},
+        "locked": {point: {run: GONE} for point in points},
+    }
+    scenario.does("release_overlap", {"centre": freed}, run=run)
+
+
+def genuine(scenario: Scenario, tag: Tag) -> Read:
+    """What an antenna gets from a tag as it was laid."""
+    return Read(tag, scenario.site.records.record[tag])
+
+
+def pair(layout: Layout, block: Block, target: Block) -> tuple[Tag, Tag]:
+    """Both tags of the boundary between two blocks, in running order."""
+    first = next(
+        tag for tag, place in layout.tag_in.items() if place == block and layout.tag_in[layout.partner[tag]] == target
+    )
+    return first, layout.partner[first]
+
+
+def stands_in(scenario: Scenario, train: Train, *blocks: Block) -> None:
+    """Say that the cars of a train are in just these blocks."""
+    there = blocks_of(scenario, train)
+    scenario.must(there == frozenset(blocks), f"{train} is in {blocks}: {there}")
+
+
+def everything_is_free(scenario: Scenario) -> None:
+    """Say that nothing is held but for trains that stand, where they stand, and nothing is lost but points below."""
+    centre, layout = scenario.system.centre, scenario.site.layout
+    held = {block: holders for block, holders in centre.claimed.items() if holders}
+    at = {train: blocks_of(scenario, train) for train in layout.fleet}
+    scenario.must(
+        all(block in at[run.train] for block, holders in held.items() for run in holders),
+        f"blocks are held only where their trains stand: {held}",
+    )
+    scenario.must(not centre.lost_blocks, f"no block is lost: {centre.lost_blocks}")
+    scenario.must(
+        all(grant.stage in (Stage.SET, Stage.STANDING) for _, grant in centre.runs.items()),
+        "no run is open but those that trains stand under",
+    )
