@@ -1,0 +1,150 @@
+"""What an importer made of a layout, put beside the enumeration."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from kernel.layout import Layout
+from kernel.names import Block
+from kernel.names import Route as RouteName
+from models.layouts import CheckResult, Imported
+from tests.independent.files import Enumerated, facts_of, network_of
+from tests.independent.raw_graph import Network, leads
+from tests.independent.raw_graph import Route as Walked
+
+
+def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
+    """Of an imported route, what :func:`tests.independent.files.facts_of` gives of an enumerated one."""
+    name = RouteName(route)
+    return {
+        "start": layout.start[name],
+        "covers": sorted(layout.covers[name]),
+        "overlap": sorted(layout.overlap[name]),
+        "claims": sorted(layout.claims[name]),
+        "way": dict(layout.way[name]),
+        "destination": layout.destination[name],
+        "needs": dict(sorted(layout.needs[name].items())),
+        "released_after": {
+            block: layout.released_after[name][block] for block in sorted({layout.start[name], *layout.covers[name]})
+        },
+    }
+
+
+Listed = tuple[str, tuple[str, ...]]
+"""Rule, and elements in order of name."""
+OF_A_PATH = ("a release detector lies within its route", "a route's positions are of its points")
+
+
+def differing_routes(imported: Imported, found: Enumerated) -> dict[str, list[str]]:
+    """Route -> what differs, both values beside each other; routes that only one side has are listed too."""
+    differing: dict[str, list[str]] = {}
+    both = {*imported.layout.routes, *found.routes}
+    for name in sorted(both):
+        if name not in found.routes or RouteName(name) not in imported.layout.routes:
+            differing[name] = ["imported" if name not in found.routes else "enumerated only"]
+            continue
+        ours, theirs = facts_of(found.routes[name]), imported_facts(imported.layout, name)
+        unlike = [f"{fact}: {theirs[fact]} is not {ours[fact]}" for fact in ours if ours[fact] != theirs[fact]]
+        if unlike:
+            differing[name] = unlike
+    return differing
+
+
+def enumerated_spans(network: Network) -> dict[str, set[tuple[str, int, int]]]:
+    """Block -> track, from and to in mm."""
+    return {
+        block: {(track, *network.sides((track, index))) for track, index in pieces}
+        for block, pieces in network.blocks.items()
+    }
+
+
+def imported_spans(imported: Imported) -> dict[str, set[tuple[str, int, int]]]:
+    return {str(block): set(spans) for block, spans in imported.places.spans.items()}
+
+
+def differing_ground(imported: Imported, found: Enumerated) -> list[str]:
+    """Neighbours, open track, where a route's track leads, and where points stand, as far as they differ."""
+    network, ground, layout = network_of(found), imported.ground, imported.layout
+    if network is None:
+        return []
+    differing: list[str] = []
+    for block in sorted(network.blocks):
+        name = Block(block)
+        near = ground.neighbours.get(name, frozenset()) - {name}
+        if near != network.neighbours[block]:
+            differing.append(f"neighbours of {block}")
+        opens = {into: network.demands(block, into) for into in sorted(network.neighbours[block])}
+        ours = {into: demands for into, demands in opens.items() if demands is not None}
+        theirs = {into: dict(demands) for into, demands in ground.opens.get(name, {}).items() if into != name}
+        if ours != theirs:
+            differing.append(f"opens from {block}: {theirs} is not {ours}")
+        if layout.points_in.get(name, frozenset()) != set(network.points_in.get(block, ())):
+            differing.append(f"points in {block}")
+    for route in found.routes.values():
+        assert isinstance(route, Walked)
+        for block in route.claims[:-1]:
+            ours_led = leads(network, route, block)
+            led = ground.leads[RouteName(route.name)][Block(block)]
+            if {into: dict(demands) for into, demands in led.items()} != ours_led:
+                differing.append(f"{route.name} leads from {block}: {led} is not {ours_led}")
+    return differing
+
+
+def listed_violations(result: CheckResult) -> Counter[Listed]:
+    """Rule and elements of every violation; the order of elements says nothing."""
+    return Counter((violation.axiom, tuple(sorted(set(violation.elements)))) for violation in result.violations)
+
+
+def left_out(found: Enumerated) -> set[str]:
+    """Routes that are not imported; of them the importer tells why, and no more."""
+    out = {remark.elements[0] for remark in found.remarks if remark.rule == "grants nothing"}
+    return out | {fault.elements[0] for fault in found.violations if fault.rule == "a route passes a block once"}
+
+
+def to_be_told(found: Enumerated) -> set[Listed]:
+    """The enumerated violations that an importer has to tell: see ``test_faults_of_a_route_left_out_are_told``."""
+    out = left_out(found)
+    return {
+        (violation.rule, tuple(sorted(set(violation.elements))))
+        for violation in found.violations
+        if violation.rule not in OF_A_PATH or violation.elements[0] not in out
+    }
+
+
+def disagreements(imported: Imported, result: CheckResult, found: Enumerated) -> list[str]:
+    """All that the importer and the enumeration see differently; how often a fault is told says nothing."""
+    ours, theirs = to_be_told(found), set(listed_violations(result))
+    differing = [
+        f"only enumerated: {one}" for one in sorted(ours) if not any(alike(one, other, found) for other in theirs)
+    ]
+    differing += [
+        f"only imported: {other}" for other in sorted(theirs) if not any(alike(one, other, found) for one in ours)
+    ]
+    for route, facts in differing_routes(imported, found).items():
+        differing += [f"{route}: {fact}" for fact in facts]
+    return differing or differing_ground(imported, found)
+
+
+def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:
+    """Whether two violations are of the same rule and elements.
+
+    The importer adds the points passed before one that is wrong, the other ends of a block whose boundary is, and
+    a point that it took for turning a train away.
+    """
+    rule, elements = ours
+    if rule != theirs[0]:
+        return False
+    more = set(theirs[1]) - set(elements)
+    if rule in ("a route is led over its points", "tags_of_a_boundary_are_partners"):
+        return set(elements) <= set(theirs[1])
+    network = network_of(found)
+    if rule == "track_leads_along_the_way_or_is_turned" and network is not None:
+        return not (more | (set(elements) - set(theirs[1]))) - set(network.junctions)
+    return elements == theirs[1]
+
+
+def listed_remarks(result: CheckResult, found: Enumerated) -> Counter[tuple[str, ...]]:
+    """Elements of every remark about routes or what belongs to them."""
+    known = {*(remark.elements[0] for remark in found.remarks), *found.routes}
+    return Counter(tuple(sorted(set(remark.elements))) for remark in result.remarks if remark.elements[0] in known)

@@ -1,0 +1,232 @@
+"""An interlocking table read with ``yaml`` alone, and its routes followed from row to row.
+
+A table knows track only by the segments that its rows list.  Which segments a section is made of, and
+on which one a point stands, is not written in it; both follow from the rows, because a section's own
+segments are those listed by exactly the rows that list the section, and so for points.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from tests.independent.raw_graph import Finding
+
+
+@dataclass
+class Row:
+    """One route as the table has it."""
+
+    name: str
+    source: str
+    destination: str
+    orientation: str
+    segments: list[str]
+    sections: list[str]
+    points: dict[str, str]
+    conflicts: set[str]
+
+
+@dataclass
+class TableRoute:
+    """What follows for one route.  A block is a section, or a segment that no section has."""
+
+    name: str
+    start: str
+    covers: list[str]
+    needs: dict[str, str]
+    released_after: dict[str, str]
+    overlap: list[str] = field(default_factory=list)
+    """None: a table has no overlaps."""
+
+    @property
+    def destination(self) -> str:
+        return self.covers[-1]
+
+    @property
+    def claims(self) -> list[str]:
+        return [self.start, *self.covers]
+
+
+@dataclass
+class Enumerated:
+    """What the walk over one file finds."""
+
+    rows: dict[str, Row]
+    block_of: dict[str, str]
+    """Segment -> section, or itself."""
+    stands_in: dict[str, str]
+    """Point -> block."""
+    routes: dict[str, TableRoute] = field(default_factory=dict)
+    violations: list[Finding] = field(default_factory=list)
+    remarks: list[Finding] = field(default_factory=list)
+
+
+def _ids(items: list[dict[str, Any]]) -> list[str]:
+    return [str(item["id"]) for item in items]
+
+
+def rows_of(data: dict[str, Any]) -> dict[str, Row]:
+    """Route -> its row; signals are taken out of the path."""
+    table = data["interlocking-table"]
+    signals = {signal for row in table for signal in _ids(row["signals"])}
+    return {
+        str(row["id"]): Row(
+            str(row["id"]),
+            row["source"],
+            row["destination"],
+            row["orientation"],
+            [item for item in _ids(row["path"]) if item not in signals],
+            _ids(row["sections"]),
+            {str(point["id"]): point["position"] for point in row["points"]},
+            set(_ids(row["conflicts"])),
+        )
+        for row in table
+    }
+
+
+def enumerate_file(path: Path) -> Enumerated:
+    return enumerate_data(yaml.safe_load(path.read_text(encoding="utf-8")))
+
+
+def enumerate_data(data: dict[str, Any]) -> Enumerated:
+    rows = rows_of(data)
+    listed = {segment: _listing(rows, "segments", segment) for row in rows.values() for segment in row.segments}
+    of_section = {section: _listing(rows, "sections", section) for row in rows.values() for section in row.sections}
+    of_point = {point: _listing(rows, "points", point) for row in rows.values() for point in row.points}
+    block_of: dict[str, str] = {}
+    for segment, by in listed.items():
+        sections = [section for section, names in of_section.items() if names == by]
+        block_of[segment] = sections[0] if len(sections) == 1 else segment
+    bare = [segment for segment in listed if block_of[segment] == segment]
+    stands_in: dict[str, str] = {}
+    for point, by in of_point.items():
+        under = [segment for segment in bare if by <= listed[segment]]
+        stands_in[point] = min(under, key=lambda segment: len(listed[segment]))
+    found = Enumerated(rows, block_of, stands_in)
+    for row in rows.values():
+        _follow(found, row)
+    for row in rows.values():
+        _look_astray(found, row)
+    _compare_positions(found)
+    _compare_conflicts(found)
+    return found
+
+
+def _listing(rows: dict[str, Row], what: str, item: str) -> frozenset[str]:
+    """The rows that list an item."""
+    return frozenset(name for name, row in rows.items() if item in getattr(row, what))
+
+
+def _blocks(found: Enumerated, row: Row) -> list[str]:
+    """The blocks of a row's path, in order; passed twice is listed twice."""
+    blocks: list[str] = []
+    for segment in row.segments:
+        if not blocks or blocks[-1] != found.block_of[segment]:
+            blocks.append(found.block_of[segment])
+    return blocks
+
+
+def _start(found: Enumerated, row: Row) -> str:
+    """The last block of the rows of its orientation that end at its source."""
+    before = {
+        _blocks(found, other)[-1]
+        for other in found.rows.values()
+        if other.destination == row.source and other.orientation == row.orientation
+    }
+    if len(before) > 1:
+        found.violations.append(Finding("a signal stands at one section", (row.source, *sorted(before))))
+    return min(before, default=f"before {row.source}")
+
+
+def _follow(found: Enumerated, row: Row) -> None:
+    blocks = _blocks(found, row)
+    sections = [block for block in blocks if block in {s for r in found.rows.values() for s in r.sections}]
+    if sections != row.sections:
+        found.violations.append(Finding("sections are those of the path", (row.name,)))
+    for block in dict.fromkeys(blocks):
+        if blocks.count(block) > 1:
+            found.violations.append(Finding("a route passes a block once", (row.name, block)))
+    start = _start(found, row)
+    if start in blocks:
+        found.violations.append(Finding("a_route_claims_start_covers_and_overlap", (row.name, start)))
+    released = {start: start, blocks[-1]: blocks[-1]} | dict.fromkeys(blocks[:-1], blocks[-2] if blocks[1:] else "")
+    found.routes[row.name] = TableRoute(row.name, start, blocks, dict(row.points), released)
+    standing = {point for point, block in found.stands_in.items() if block in blocks}
+    for point in sorted(standing - set(row.points)):
+        found.violations.append(Finding("a route is led over its points", (row.name, point)))
+        found.violations.append(Finding("every_point_in_a_route_is_needed", (row.name, point, found.stands_in[point])))
+    for point in sorted(set(row.points) - standing):
+        found.violations.append(Finding("a route's positions are of its points", (row.name, point)))
+
+
+def onwards(found: Enumerated, orientation: str) -> dict[tuple[str, str], dict[str, str]]:
+    """Block and next block, as rows of an orientation have them -> what all these rows want of the first's points."""
+    wanted: dict[tuple[str, str], dict[str, str]] = {}
+    for route in found.routes.values():
+        row = found.rows[route.name]
+        if row.orientation != orientation:
+            continue
+        way = [route.start, *route.covers]
+        for block, following in pairwise(way):
+            here = {point: position for point, position in row.points.items() if found.stands_in[point] == block}
+            known = wanted.setdefault((block, following), here)
+            wanted[block, following] = {point: at for point, at in known.items() if here.get(point) == at}
+    return wanted
+
+
+def _look_astray(found: Enumerated, row: Row) -> None:
+    """Blocks that other rows of the orientation go on to, and no held point turns this one away from."""
+    route = found.routes[row.name]
+    every = onwards(found, row.orientation)
+    way = [route.start, *route.covers]
+    for block, following in pairwise(way):
+        for (of, into), wanted in sorted(every.items()):
+            astray = of == block and into != following
+            if astray and not any(route.needs.get(point, at) != at for point, at in wanted.items()):
+                found.violations.append(Finding("track_leads_along_the_way_or_is_turned", (row.name, block, into)))
+
+
+def _compare_positions(found: Enumerated) -> None:
+    """Rows that run between the same two blocks over a point want it alike; the odd ones out are named."""
+    wanted: dict[tuple[str, frozenset[str]], dict[str, set[str]]] = {}
+    for route in found.routes.values():
+        way = [route.start, *route.covers]
+        for before, block, after in zip(way, way[1:], way[2:], strict=False):
+            for point, position in found.rows[route.name].points.items():
+                if found.stands_in[point] == block:
+                    by = wanted.setdefault((point, frozenset((before, after))), {})
+                    by.setdefault(position, set()).add(route.name)
+    odd: set[tuple[str, str]] = set()
+    for (point, _), by in wanted.items():
+        most = max(by, key=lambda position: (len(by[position]), position))
+        odd |= {(route, point) for position, routes in by.items() if position != most for route in routes}
+    found.violations += [Finding("a point lies one way between two blocks", one) for one in sorted(odd)]
+
+
+def shared(found: Enumerated, one: str, other: str) -> tuple[list[str], list[str], list[str]]:
+    """What two routes share: points wanted in different positions, sections or, sharing none, track outside them."""
+    first, second = found.rows[one], found.rows[other]
+    points = sorted(p for p in first.points if second.points.get(p, first.points[p]) != first.points[p])
+    sections = sorted(set(first.sections) & set(second.sections))
+    track = set(first.segments) & set(second.segments)
+    bare = sorted(segment for segment in track if found.block_of[segment] == segment)
+    return points, sections, bare if not sections else []
+
+
+def _compare_conflicts(found: Enumerated) -> None:
+    names = list(found.rows)
+    for place, one in enumerate(names):
+        for other in names[place + 1 :]:
+            points, sections, track = shared(found, one, other)
+            declared = (other in found.rows[one].conflicts, one in found.rows[other].conflicts)
+            if (points or sections or track) and not all(declared):
+                found.violations.append(Finding("conflicts are declared", (one, other, *points, *sections, *track)))
+            elif not (points or sections or track) and any(declared):
+                found.remarks.append(Finding("needless conflict", (one, other)))
+                if not all(declared):
+                    found.remarks.append(Finding("conflict declared by one only", (one, other)))
