@@ -19,9 +19,7 @@ def note_confirmation(site: Site, system: System, run: Run, point: Point, positi
     """A point's confirmation arrives (T10)."""
     if (run, point, position) not in system.radio.confirmations:
         return system
-    return replace(
-        system, centre=route_setting.note_confirmation(site.layout, system.centre, run, point, position)
-    )
+    return replace(system, centre=route_setting.note_confirmation(site.layout, system.centre, run, point, position))
 
 
 def open_first_loop(site: Site, system: System, run: Run) -> System:
@@ -40,9 +38,7 @@ def release_block(site: Site, system: System, run: Run, block: Block, left: Read
     """A tail report arrives (T6, T7)."""
     if (run, block, left, entered) not in system.radio.tail_reports:
         return system
-    return replace(
-        system, centre=release.release(site.layout, site.records, system.centre, run, block, left, entered)
-    )
+    return replace(system, centre=release.release(site.layout, site.records, system.centre, run, block, left, entered))
 
 
 def release_overlap(site: Site, system: System, run: Run) -> System:
@@ -86,9 +82,9 @@ def note_standing(site: Site, system: System, train: Train, life: UnitLife, epoc
     blocks = system.radio.standings.get((train, life, epoch))
     if blocks is None:
         return system
-    if recovery.standing_refusal(site.layout, system.centre, train, life, epoch, run) is not None:
-        return system
     centre = recovery.note_standing(site.layout, system.centre, train, life, epoch, blocks, run)
+    if centre.newest == system.centre.newest:
+        return replace(system, centre=centre)
     return replace(system, centre=centre, track=accounted_for(site, system, run))
 
 
@@ -126,9 +122,7 @@ def note_statement(site: Site, system: System, train: Train, life: UnitLife, epo
     blocks = system.radio.statements.get((train, life, epoch))
     if blocks is None:
         return system
-    return replace(
-        system, centre=supervision.note_statement(system.centre, train, life, epoch, blocks)
-    )
+    return replace(system, centre=supervision.note_statement(system.centre, train, life, epoch, blocks))
 
 
 def note_statement_confirmed(
@@ -137,9 +131,9 @@ def note_statement_confirmed(
     """The second person's confirmation arrives (T8)."""
     if (train, life, epoch) not in system.radio.confirmed_statements:
         return system
-    if supervision.supervised_refusal(site.layout, system.centre, train, life, epoch, run) is not None:
-        return system
     centre = supervision.note_statement_confirmed(site.layout, system.centre, train, life, epoch, run)
+    if centre.newest == system.centre.newest:
+        return replace(system, centre=centre)
     return replace(system, centre=centre, track=accounted_for(site, system, run))
 
 
