@@ -102,7 +102,7 @@ def a_route_is_set_step_by_step(steps: Steps) -> Scenario:
 
 
 def a_point_that_lies_right_is_only_relabelled(steps: Steps) -> Scenario:
-    """A newer order for a point that lies right, locked for another run, takes the lock id and unlocks nothing (T10)."""
+    """A newer order for a point that lies right takes the lock id over and unlocks nothing (T10)."""
     scenario, runs = recovered(steps, OPPOSITE)
     first = reserve(scenario, T1, WEST_TO_TWO_SHIELDED, runs[T1])
     prove_all(scenario, first)

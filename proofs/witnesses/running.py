@@ -83,12 +83,15 @@ def head_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
 
 
 def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
-    """The head reads the tag it must read next."""
+    """The head reads the tag it must read next, in every run that is permitted and expects it."""
     layout, cab = scenario.site.layout, head_cab(scenario, run)
-    order: dict[str, Any] = {"expected": layout.tag_after[run.route].get(tag)}
-    if tag != layout.first_tag[run.route]:
-        order["begun"] = True
-    read = {"head_tag": tag, "head_cab": cab, "occupied": came(layout.tag_in[tag]), "orders": {run: order}}
+    orders: dict[Run, dict[str, Any]] = {}
+    for other, known in scenario.system.units[run.train].orders.items():
+        if known.permitted and known.expected == tag:
+            orders[other] = {"expected": layout.tag_after[other.route].get(tag)}
+            if tag != layout.first_tag[other.route]:
+                orders[other]["begun"] = True
+    read = {"head_tag": tag, "head_cab": cab, "occupied": came(layout.tag_in[tag]), "orders": orders}
     scenario.does("head_reads", {"units": {run.train: read}}, train=run.train, cab=cab, tag=tag, in_window=True)
 
 

@@ -207,8 +207,8 @@ WEST_TO_TWO_SHIELDED = Route("west to two, shielded")
 EAST_TO_ONE, EAST_TO_TWO = Route("east to one"), Route("east to two")
 ONE_TO_EAST, TWO_TO_EAST = Route("one to east"), Route("two to east")
 ONE_TO_WEST, TWO_TO_WEST = Route("one to west"), Route("two to west")
-WEST_TO_ONE_ON = Route("west to one from throat")
-"""For a train that restarted in the throat."""
+WEST_TO_ONE_ON, TWO_TO_WEST_ON = Route("west to one from throat"), Route("two to west from throat")
+"""For trains that restarted in the throat."""
 WEST_TO_EAST = Route("west to east")
 YARD_OUT = Route("yard out")
 ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depart 2")

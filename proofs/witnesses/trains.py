@@ -1,4 +1,4 @@
-"""Witnesses of running: second loop, tail evidence, release in parts, overlap, length, parting, reversal (T2, T5-T9)."""
+"""Witnesses of running: second loop, tail evidence, release, overlap, length, parting, reversal (T2, T5 to T9)."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def the_home_track_is_released_first(steps: Steps) -> Scenario:
 
 
 def a_part_is_reported_as_a_whole(steps: Steps) -> Scenario:
-    """Blocks released together are reported once the tail has left the last of them; another train then follows (T7)."""
+    """Blocks released together are reported once the tail has left the last of them (T7)."""
     scenario, runs = recovered(steps, FACING_EAST)
     run = set_route(scenario, T1, WEST_TO_EAST, runs[T1])
     roll(scenario, run)
@@ -157,7 +157,7 @@ def the_tail_cuts_the_corner(steps: Steps) -> Scenario:
 
 
 def the_overlap_is_freed_at_a_standstill(steps: Steps) -> Scenario:
-    """Once the train tells that it stands in its destination the overlap is free for another, and it stays there (T9)."""
+    """Once a train tells that it stands in its destination, its overlap is free for another, closed to it (T9)."""
     scenario, runs = recovered(steps, {**FACING_EAST, B1: frozenset({EAST})})
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     scenario.refuses("note_stopped", run=run, within_destination=False)
@@ -323,7 +323,6 @@ def a_train_reverses_at_the_terminus(steps: Steps) -> Scenario:
     for old in (runs[T1], run):
         report(scenario, old, LINE, THROAT)
     report(scenario, run, THROAT, PLATFORM_1)
-    stop(scenario, run) if scenario.site.layout.overlap[ARRIVE_1] else None
     back = set_route(scenario, T1, DEPART_1, run)
     run_through(scenario, back, PLATFORM_1, THROAT, LINE)
     for old in (run, back):
@@ -336,8 +335,10 @@ def a_train_reverses_at_the_terminus(steps: Steps) -> Scenario:
 
 
 def a_read_from_before_the_reversal_pairs_with_nothing(steps: Steps) -> Scenario:
-    """The tail read one tag on the way in and missed the other; after the reversal the new tail's read of
-    it, while the train is back over the points, releases nothing (T2).
+    """A read on the way in pairs with none on the way out, made by the other cab: nothing is released (T2).
+
+    The tail read one tag of the pair and missed the other; after the reversal the new tail reads
+    that other one, while the train stands over the points again.
     """
     scenario, runs = recovered(steps, ON_THE_LINE, station=TERMINUS)
     run = set_route(scenario, T1, ARRIVE_1, runs[T1])
