@@ -7,6 +7,7 @@ Findings go to standard output; progress and complaints to standard error.
 from __future__ import annotations
 
 import os
+import re
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -65,7 +66,7 @@ def prove(
     seeds: Annotated[int, typer.Option(metavar="N", min=1, help="Seeds to repeat every obligation with.")] = 1,
     only: Annotated[
         str | None,
-        typer.Option(metavar="PATTERN", help="Only transitions or invariants of this name.", show_default=False),
+        typer.Option(metavar="PATTERN", help='Only obligations, as "row column", that match.', show_default=False),
     ] = None,
 ) -> None:
     """Prove the kernel: every transition keeps every invariant, on every layout.
@@ -74,13 +75,17 @@ def prove(
 
     * `heisoku prove`
     * `heisoku prove --solver both --json out/prove.json --junit out/prove.xml`
-    * `heisoku prove --only "reserve*" --seeds 10`
+    * `heisoku prove --only "^request " --seeds 10`
     """
     from proofs.junit import write_junit
     from proofs.matrix import print_matrix
     from proofs.run import prove_all
 
     writable(json, junit)
+    try:
+        re.compile(only or "")
+    except re.error as error:
+        raise Refused(f"--only {only}: not a pattern ({error}); give a part of a name") from error
     with progress("proving") as step:
         report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step)
     if not report.obligations:
@@ -141,14 +146,16 @@ def check(layouts: Layouts, json: Json = None) -> None:
 def draw(
     layout: Layout,
     output: Annotated[Path, typer.Option("--output", "-o", metavar="F.svg", help="The drawing.", show_default=False)],
-    route: Annotated[str | None, typer.Option(metavar="R", help="Highlight this route.", show_default=False)] = None,
+    route: Annotated[str | None, typer.Option(metavar="R", help="Highlight it.", show_default="the longest")] = None,
 ) -> None:
     """Draw the track diagram of a layout: blocks, points, tags, and one route highlighted.
+
+    Without --route it is the longest: the one that claims most blocks.
 
     Examples:
 
     * `heisoku draw layouts/passing_station.toml -o out/station.svg`
-    * `heisoku draw layouts/passing_station.toml -o out/station.svg --route A-1`
+    * `heisoku draw layouts/passing_station.toml -o out/station.svg --route "W to 1"`
     """
     from models.layouts import BadInput, load
     from models.layouts import draw as draw_layout
@@ -156,14 +163,15 @@ def draw(
     writable(output)
     try:
         imported = load(layout)
-        picture = draw_layout(imported, route)
+        shown = imported.longest_route if route is None else route
+        picture = draw_layout(imported, shown)
     except BadInput as bad:
         raise Refused(str(bad)) from bad
     write_whole(output, picture.encode())
     drawn = imported.layout
-    print_line(
-        console(), f"{output}: {len(drawn.blocks)} blocks, {len(drawn.points)} points, {len(drawn.tag_in)} tags drawn"
-    )
+    counts = f"{len(drawn.blocks)} blocks, {len(drawn.points)} points, {len(drawn.tag_in)} tags drawn"
+    which = "no route" if shown is None else f"{'route' if route is not None else 'longest route'} '{shown}'"
+    print_line(console(), f"{output}: {counts}, {which} highlighted")
 
 
 def print_check(out: Console, path: Path, result: CheckResult) -> None:

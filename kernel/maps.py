@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import ItemsView, Iterator
-from typing import Protocol, TypeVar, overload
+from typing import Any, Protocol, TypeVar, overload
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -20,7 +20,7 @@ class Map(Protocol[K, V]):
         """Give the value of a key that is present."""
         ...
 
-    def __contains__(self, key: object, /) -> bool:
+    def __contains__(self, key: Any, /) -> bool:
         """Tell whether the key is present."""
         ...
 

@@ -206,7 +206,18 @@ def test_a_sample_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     drawing = tmp_path / "new" / "station.svg"
     assert heisoku.run(["draw", str(SAMPLES[0]), "-o", str(drawing)]) == 0
     assert b"<svg" in drawing.read_bytes()
-    assert " 0 blocks" not in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert " 0 blocks" not in said
+    longest = said.partition("longest route '")[2].partition("'")[0]
+    assert f"route {longest}<".encode() in drawing.read_bytes()
+
+
+def test_the_route_of_the_help_example_is_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    drawing = tmp_path / "station.svg"
+    station = next(path for path in SAMPLES if path.stem == "passing_station")
+    assert heisoku.run(["draw", str(station), "-o", str(drawing), "--route", "W to 1"]) == 0
+    assert "route 'W to 1' highlighted" in capsys.readouterr().out
+    assert b"route W to 1<" in drawing.read_bytes()
 
 
 def test_a_route_that_is_not_there_cannot_be_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

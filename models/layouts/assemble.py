@@ -202,9 +202,7 @@ class Movements:
         return self.demands[key]
 
 
-def turned_from(
-    route: Granted, leads: Mapping[Block, Mapping[Point, Position]], onward: Block
-) -> dict[Block, Point]:
+def turned_from(route: Granted, leads: Mapping[Block, Mapping[Point, Position]], onward: Block) -> dict[Block, Point]:
     """For each block that a route is not to be led to, the point it holds that turns it away."""
     found: dict[Block, Point] = {}
     for target in sorted(set(leads) - {onward}):

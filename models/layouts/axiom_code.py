@@ -34,8 +34,9 @@ class Binder:
 
 @dataclass(frozen=True)
 class Part:
-    """One part of an axiom that cannot be taken further apart, and the loops it stands in.
+    """One part of an axiom that is not taken further apart, and the loops it stands in.
 
+    A call of a predicate is such a part; the names that it gives to what it looks at are bound with it.
     ``terms``: its look-ups, innermost first, each compiled.  ``binders``: where each variable that
     stands in it has its value from.
     """
@@ -117,6 +118,14 @@ def _is_simple_assignment(statement: ast.stmt) -> bool:
     return isinstance(statement.targets[0], ast.Name)
 
 
+@dataclass(frozen=True)
+class Within:
+    """What a called predicate looks at: the values it names, and its look-ups."""
+
+    steps: Mapping[str, ast.expr]
+    terms: tuple[tuple[str, CodeType], ...]
+
+
 class _Writer:
     """Writes the source of a generator of failures, one construct at a time."""
 
@@ -157,29 +166,28 @@ class _Writer:
             self.loop(node.args[0], failed)
         elif (helper := _helper(node, self.namespace)) is not None:
             assert isinstance(node, ast.Call)
-            self.inline(node, helper, failed)
+            self.call(node, helper, failed)
         else:
             self.leaf(node, failed)
 
-    def inline(self, call: ast.Call, helper: ast.FunctionDef, failed: str | None) -> None:
-        """A call of a predicate of the known form: its parts are searched with the arguments put in."""
+    def call(self, call: ast.Call, helper: ast.FunctionDef, failed: str | None) -> None:
+        """A call of a predicate of the known form: one part, told with the names and look-ups within it."""
         names = [argument.arg for argument in helper.args.args]
         put: dict[str, ast.expr] = dict(zip(names, call.args, strict=True))
-        kept = dict(self.binders)
+        steps: dict[str, ast.expr] = {}
+        looked_up: list[ast.AST] = []
         for statement in helper.body:
             if isinstance(statement, ast.Assign):
                 target = statement.targets[0]
                 assert isinstance(target, ast.Name)
                 local = target.id if target.id not in self.binders else f"{target.id}_{len(self.binders)}"
-                value = _put(statement.value, put)
-                self.line(f"{local} = None")
-                self.attempt(f"{local} = {ast.unparse(value)}", value, failed)
-                self.binders[local] = Binder(ast.unparse(value), loops=False)
+                steps[local] = _put(statement.value, put)
                 put[target.id] = ast.Name(local, ast.Load())
+                looked_up.append(steps[local])
             elif isinstance(statement, ast.Return):
                 assert statement.value is not None
-                self.search(_put(statement.value, put), failed)
-        self.binders = kept
+                looked_up.append(_put(statement.value, put))
+        self.leaf(call, failed, Within(steps, _terms(*looked_up)))
 
     def opens(self, node: ast.expr) -> bool:
         """Whether an expression has parts to be searched."""
@@ -234,23 +242,28 @@ class _Writer:
         write()
         self.depth -= 1
 
-    def attempt(self, statement: str, node: ast.expr, failed: str | None) -> None:
+    def attempt(self, statement: str, node: ast.expr, failed: str | None, within: Within | None = None) -> None:
         """A statement whose look-ups may find nothing; that is a failure unless a part before failed."""
         self.line(f"try:\n    {statement}\nexcept LookupError:")
-        self.inside(lambda: self.report(node, True, failed))
+        self.inside(lambda: self.report(node, True, failed, within))
 
-    def leaf(self, node: ast.expr, failed: str | None) -> None:
+    def leaf(self, node: ast.expr, failed: str | None, within: Within | None = None) -> None:
         """A part that is not taken further apart."""
         flag = self.fresh("holds")
         self.line(f"{flag} = True")
-        self.attempt(f"{flag} = {ast.unparse(node)}", node, failed)
+        self.attempt(f"{flag} = {ast.unparse(node)}", node, failed, within)
         self.line(f"if not {flag}:")
-        self.inside(lambda: self.report(node, False, failed))
+        self.inside(lambda: self.report(node, False, failed, within))
 
-    def report(self, node: ast.expr, missing: bool, failed: str | None) -> None:
+    def report(self, node: ast.expr, missing: bool, failed: str | None, within: Within | None = None) -> None:
         """Yield a failure with the loop variables that stand; an absent look-up only if it is the first."""
-        bound = ", ".join(f"{name!r}: {name}" for name in self.binders)
-        self.parts.append(Part(ast.unparse(node), _terms(node), dict(self.binders)))
+        inside = within or Within({}, _terms(node))
+        for name, value in inside.steps.items():
+            self.line(f"{name} = None\ntry:\n    {name} = {ast.unparse(value)}\nexcept LookupError:\n    pass")
+        named = {name: Binder(ast.unparse(value), loops=False) for name, value in inside.steps.items()}
+        binders = self.binders | named
+        bound = ", ".join(f"{name!r}: {name}" for name in binders)
+        self.parts.append(Part(ast.unparse(node), inside.terms, binders))
         indent = ""
         if missing and failed:
             self.line(f"if not {failed}:")
@@ -302,8 +315,8 @@ def _is_all(node: ast.expr) -> bool:
     )
 
 
-def _terms(node: ast.expr) -> tuple[tuple[str, CodeType], ...]:
-    """The look-ups in an expression, innermost first, outside of inner loops."""
+def _terms(*nodes: ast.AST) -> tuple[tuple[str, CodeType], ...]:
+    """The look-ups in expressions, innermost first, outside of inner loops."""
     found: dict[str, CodeType] = {}
 
     def visit(inner: ast.AST) -> None:
@@ -315,5 +328,6 @@ def _terms(node: ast.expr) -> tuple[tuple[str, CodeType], ...]:
             text = ast.unparse(inner)
             found.setdefault(text, compile(text, "<term>", "eval"))
 
-    visit(node)
+    for node in nodes:
+        visit(node)
     return tuple(found.items())

@@ -6,13 +6,14 @@ looked up that the axiom does not name.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache
 from types import ModuleType
 from typing import Any
 
 import models.axioms
-from models.layouts.axiom_code import CompiledAxiom, Failure, axioms_of, compile_axiom
+from kernel.names import Block, Point, Position, Tag
+from models.layouts.axiom_code import Bindings, CompiledAxiom, Failure, axioms_of, compile_axiom
 from models.layouts.results import CheckResult, Imported, Verdict, Violation
 from models.layouts.sorts import Sorts
 
@@ -40,9 +41,9 @@ def explain(imported: Imported, axiom: CompiledAxiom, failure: Failure) -> Viola
     sorts = Sorts(imported)
     elements: list[str] = []
     said: list[str] = []
+    sort_of = {name: sorts.of_variable(name, failure.part.binders) for name in failure.bindings}
     for name, value in failure.bindings.items():
-        sort = sorts.of_variable(name, failure.part.binders)
-        elements += sorts.elements(sort, value)
+        elements += sorts.elements(sort_of[name], value)
         said.append(f"{_words(name)} '{value}'" if value is not None else f"no {_words(name)}")
     known: dict[str, Any] = {"layout": imported.layout, "ground": imported.ground, **failure.bindings}
     absent = None
@@ -53,12 +54,27 @@ def explain(imported: Imported, axiom: CompiledAxiom, failure: Failure) -> Viola
             absent = text
             break
         if isinstance(value, str):
-            elements += sorts.elements(sorts.of_expression(text, failure.part.binders), value)
+            sort = sorts.of_expression(text, failure.part.binders)
+            if sort != Block or Tag not in sort_of.values():  # a block has other boundaries than the tag's
+                elements += sorts.elements(sort, value)
             said.append(f"{text} = '{value}'")
+    for point, position in _leading_there(imported, failure.bindings):
+        elements += sorts.elements(Point, point)
+        said.append(f"led there by point '{point}' in '{position}'")
     fault = f"{absent} is missing" if failure.missing and absent else f"'{failure.part.source}' fails"
     where = ", ".join(said) or "the layout"
     text = f"{axiom.sentence} Not so for {where}: {fault}."
     return Violation(axiom.name, tuple(dict.fromkeys(elements)), text)
+
+
+def _leading_there(imported: Imported, bindings: Bindings) -> Iterable[tuple[Point, Position]]:
+    """The points of a route that lead its train from a block of it to a target it is not to be led to."""
+    if not {"route", "block", "target"} <= set(bindings):
+        return []
+    route, block, target = (bindings[name] for name in ("route", "block", "target"))
+    demands = imported.ground.leads.get(route, {}).get(block, {}).get(target, {})
+    needs = imported.layout.needs.get(route, {})
+    return [(point, demands[point]) for point in sorted(demands) if needs.get(point) == demands[point]]
 
 
 def _words(name: str) -> str:

@@ -147,7 +147,7 @@ class Follower:
 
         A position that is closed or missing is a violation only where another would lead to the exit.
         """
-        passed = self._passed(path)
+        passed = _listed({point: at for points in path.points.values() for point, at in points.items()})
         over = f" over {self.findings.point_word} {passed}" if passed else ""
         what = f"route '{path.wanted.name}'{over} never reaches '{goal}': {why}"
         raise BadInput(self.file, path.wanted.place, what, "correct its point positions, direction or exit")
@@ -159,7 +159,7 @@ class Follower:
         ways = list(self.blocks.segments.onward(joint))
         path.junctions.add(joint.junction)
         if position is None and junction.is_point:
-            self._wrong(path, joint.junction, "passes it but gives no position for it")
+            self._misled(path, joint.junction, "passes it but gives no position for it")
             return None
         if position is not None and position not in junction.kind.positions:
             known = ", ".join(sorted(junction.kind.positions))
@@ -167,7 +167,7 @@ class Follower:
             return None
         led = [onward for _, positions, onward in ways if position is None or position in positions]
         if not led:
-            self._wrong(path, joint.junction, f"arrives at its port {joint.port}, closed by '{position}'")
+            self._misled(path, joint.junction, f"arrives at its port {joint.port}, closed by '{position}'")
             return None
         assert len(led) == 1, "a position joins a port to one other"
         if junction.is_point:
@@ -178,12 +178,54 @@ class Follower:
     def _pass(self, path: Path, point: Point, position: Position, block: Block) -> None:
         path.points.setdefault(block, {})[point] = position
 
-    def _wrong(self, path: Path, junction: str, text: str) -> None:
-        name = path.wanted.name
-        before = [point for points in path.points.values() for point in points]
-        over = f", having passed {self._passed(path)}" if before else ""
+    def _misled(self, path: Path, junction: str, text: str) -> None:
+        """A route comes to a point that does not lead it on; the fault may lie with one that it passed before.
+
+        It lies with those of which another position alone leads the route to its end; all if there are none such.
+        """
+        passed = {point: at for points in path.points.values() for point, at in points.items()}
+        mending = [point for point in {**passed, Point(junction): None} if self._mends(path.wanted, point)]
+        self._wrong(path, junction, text, {p: at for p, at in passed.items() if p in mending or not mending})
+
+    def _wrong(self, path: Path, junction: str, text: str, doubted: Mapping[Point, Position] | None = None) -> None:
+        """Note a wrong position, and those passed before that may be wrong in its stead."""
+        name, before = path.wanted.name, [point for point in doubted or () if point != junction]
+        over = f", having passed {_listed({p: (doubted or {})[p] for p in before})}" if before else ""
         full = f"{self.findings.point_word} '{junction}': route '{name}' {text}{over}"
         self.findings.violation("a route is led over its points", (name, junction, *before), full)
 
-    def _passed(self, path: Path) -> str:
-        return ", ".join(f"'{p}' {position}" for points in path.points.values() for p, position in points.items())
+    def _mends(self, wanted: Wanted, point: str) -> bool:
+        """Whether a route comes to its end if one of its points lies otherwise."""
+        others = self.blocks.segments.station.junctions[point].kind.positions
+        given = wanted.positions.get(point)
+        return any(self._arrives(wanted, {**wanted.positions, point: at}) for at in others if at != given)
+
+    def _arrives(self, wanted: Wanted, positions: Mapping[str, str]) -> bool:
+        """Whether a route comes to its end over points in these positions."""
+        at = self.blocks.segments.at
+        goals = [wanted.exit, *([wanted.overlap] if wanted.overlap is not None else [])]
+        heading: Heading | None = self.blocks.segments.beside[wanted.entry][wanted.side]
+        seen: set[Heading] = set()
+        while heading is not None and heading not in seen:
+            seen.add(heading)
+            end = at[heading]
+            if not isinstance(end, Joint) and end.mark == goals[0]:
+                seen.clear()
+                del goals[0]
+                if not goals:
+                    return True
+            heading = end.beyond if isinstance(end, Cut) else None
+            if isinstance(end, Joint):
+                heading = self._onward(end, positions)
+        return False
+
+    def _onward(self, joint: Joint, positions: Mapping[str, str]) -> Heading | None:
+        """The heading behind a junction in these positions; none where it is closed or no position is given."""
+        is_point = self.blocks.segments.station.junctions[joint.junction].is_point
+        given = None if not is_point else positions.get(joint.junction, "")
+        led = [onward for _, lies, onward in self.blocks.segments.onward(joint) if given is None or given in lies]
+        return led[0] if led else None
+
+
+def _listed(passed: Mapping[Point, Position]) -> str:
+    return ", ".join(f"'{point}' {position}" for point, position in passed.items())

@@ -48,6 +48,8 @@ class Granted:
 def grant(blocks: Blocks, path: Path, findings: Findings) -> Granted | None:
     """The route as granted; none, with a remark or a violation, where there is nothing to grant."""
     name, chain = path.wanted.name, [*path.blocks, *path.overlap]
+    _say_what_does_not_release(path, findings)
+    _say_what_is_off_the_path(path, findings)
     if len(path.blocks) < 2:
         findings.remark((name,), f"route '{name}' ends in the block it starts in: it grants nothing and is left out")
         return None
@@ -67,8 +69,7 @@ def grant(blocks: Blocks, path: Path, findings: Findings) -> Granted | None:
             passed = path.points.get(block, {}).get(point)
             granted.needs[point] = passed if passed is not None else spare_position(blocks, point)
             granted.released_with[point] = block
-    _release(path, granted, findings)
-    _say_what_is_off_the_path(path, findings)
+    _release(path, granted)
     return granted
 
 
@@ -103,35 +104,28 @@ def _out_of_start(blocks: Blocks, path: Path) -> Heading:
 def _start_demands(blocks: Blocks, granted: Granted, goal: Heading, findings: Findings) -> dict[Point, Position]:
     """The points that a train in the start block meets facing before the entry, as they must lie.
 
-    A point all of whose ways lead to the entry lies as if it were not passed.
+    Each lies so that it leads there from every leg that it is met at: the first such position by name.
     """
-    choices: dict[tuple[str, str], set[tuple[str, ...]]] = {}
+    leading: dict[Point, dict[str, set[str]]] = {}
     for (junction, port, _), positions in towards(blocks.segments, granted.entries[granted.start], goal).items():
-        choices.setdefault((junction, port), set()).add(positions)
+        leading.setdefault(Point(junction), {}).setdefault(port, set()).update(positions)
     found: dict[Point, Position] = {}
-    for (junction, _), ways in sorted(choices.items()):
-        point = Point(junction)
-        position = Position(min(ways)[0]) if len(ways) == 1 else spare_position(blocks, point)
-        if found.setdefault(point, position) != position:
+    for point, by_port in sorted(leading.items()):
+        agreed = set.intersection(*by_port.values())
+        found[point] = Position(min(agreed or set.union(*by_port.values())))
+        if not agreed:
+            wanted = ", ".join(f"from {port} '{min(positions)}'" for port, positions in sorted(by_port.items()))
             text = (
-                f"route '{granted.name}': from its start block '{granted.start}' one way to the entry wants "
-                f"{findings.point_word} '{point}' in '{found[point]}', another in '{position}'"
+                f"route '{granted.name}': no position of {findings.point_word} '{point}' leads out of its start block "
+                f"'{granted.start}' from every side: {wanted}"
             )
             findings.violation("a start block leads out one way", (granted.name, point), text)
     return found
 
 
-def _release(path: Path, granted: Granted, findings: Findings) -> None:
+def _release(path: Path, granted: Granted) -> None:
     """Up to where each block is released: in parts at release detectors, the rest on arrival."""
-    inner = [mark for mark, _, _ in granted.boundaries[0 if path.from_stop else 1 : len(granted.covers)]]
-    name, listed = path.wanted.name, set(path.wanted.release)
-    for mark in sorted(listed - set(inner)):
-        if mark == path.wanted.exit:
-            findings.remark((name, mark), f"route '{name}' lists its exit '{mark}' as a release detector: needless")
-        else:
-            where = "is its entry" if mark == path.wanted.entry else "does not lie on its path"
-            text = f"route '{name}': release detector '{mark}' {where}"
-            findings.violation("a release detector lies within its route", (name, mark), text)
+    listed = set(path.wanted.release)
     ends = [mark for mark, _, _ in granted.boundaries[1 : len(granted.covers)]]
     until = granted.covers[-2] if len(granted.covers) > 1 else granted.covers[-1]
     for block, mark in reversed(list(zip(granted.covers[:-1], ends, strict=True))):
@@ -139,6 +133,19 @@ def _release(path: Path, granted: Granted, findings: Findings) -> None:
         granted.released_after[block] = until
     for alone in (granted.start, granted.covers[-1], *granted.overlap):
         granted.released_after[alone] = alone
+
+
+def _say_what_does_not_release(path: Path, findings: Findings) -> None:
+    """A release detector that the route does not pass between its entry and its exit."""
+    name = path.wanted.name
+    inner = {mark for mark, _ in path.crossed[0 if path.from_stop else 1 :]}
+    for mark in sorted(set(path.wanted.release) - inner):
+        if mark == path.wanted.exit:
+            findings.remark((name, mark), f"route '{name}' lists its exit '{mark}' as a release detector: needless")
+        else:
+            where = "is its entry" if mark == path.wanted.entry else "does not lie on its path"
+            text = f"route '{name}': release detector '{mark}' {where}"
+            findings.violation("a release detector lies within its route", (name, mark), text)
 
 
 def _say_what_is_off_the_path(path: Path, findings: Findings) -> None:

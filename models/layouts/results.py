@@ -88,6 +88,12 @@ class Imported:
     violations: tuple[Violation, ...]
     station: Station | None = None
 
+    @property
+    def longest_route(self) -> Route | None:
+        """The route that claims most blocks, of these the first by name; none if every route was left out."""
+        claims = self.layout.claims
+        return min(self.layout.routes, key=lambda route: (-len(claims[route]), route), default=None)
+
 
 @dataclass(frozen=True)
 class CheckResult:

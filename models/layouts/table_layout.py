@@ -160,7 +160,7 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
         sides = dict(zip(row.chain[1:], zip(row.chain, row.chain[2:], strict=False), strict=False))
         for point, position in row.needs.items():
             before, behind = sides.get(stands_in[point], (None, None))
-            if before is not None and behind is not None and not before.startswith("before "):
+            if before is not None and behind is not None:
                 lies[point, frozenset((before, behind))][position].append(row.route.name)
     for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
         most = max(map(len, by_position.values()))
@@ -273,7 +273,9 @@ class Track:
         return Ground(leads, dict(self.neighbours), dict(opens), turnout, flank, shut, laid)
 
 
-def _turnouts(row: Row, leads: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]) -> dict[Block, dict[Block, Point]]:
+def _turnouts(
+    row: Row, leads: Mapping[Block, Mapping[Block, Mapping[Point, Position]]]
+) -> dict[Block, dict[Block, Point]]:
     """The points of a route that turn its train from where it is not to go."""
     found: dict[Block, dict[Block, Point]] = {block: {} for block in leads}
     for block, following in pairwise(row.chain):

@@ -33,7 +33,6 @@ def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
 
 Listed = tuple[str, tuple[str, ...]]
 """Rule, and elements in order of name."""
-OF_A_PATH = ("a release detector lies within its route", "a route's positions are of its points")
 
 
 def differing_routes(imported: Imported, found: Enumerated) -> dict[str, list[str]]:
@@ -96,25 +95,10 @@ def listed_violations(result: CheckResult) -> Counter[Listed]:
     return Counter((violation.axiom, tuple(sorted(set(violation.elements)))) for violation in result.violations)
 
 
-def left_out(found: Enumerated) -> set[str]:
-    """Routes that are not imported; of them the importer tells why, and no more."""
-    out = {remark.elements[0] for remark in found.remarks if remark.rule == "grants nothing"}
-    return out | {fault.elements[0] for fault in found.violations if fault.rule == "a route passes a block once"}
-
-
-def to_be_told(found: Enumerated) -> set[Listed]:
-    """The enumerated violations that an importer has to tell: see ``test_faults_of_a_route_left_out_are_told``."""
-    out = left_out(found)
-    return {
-        (violation.rule, tuple(sorted(set(violation.elements))))
-        for violation in found.violations
-        if violation.rule not in OF_A_PATH or violation.elements[0] not in out
-    }
-
-
 def disagreements(imported: Imported, result: CheckResult, found: Enumerated) -> list[str]:
     """All that the importer and the enumeration see differently; how often a fault is told says nothing."""
-    ours, theirs = to_be_told(found), set(listed_violations(result))
+    ours = {(violation.rule, tuple(sorted(set(violation.elements)))) for violation in found.violations}
+    theirs = set(listed_violations(result))
     differing = [
         f"only enumerated: {one}" for one in sorted(ours) if not any(alike(one, other, found) for other in theirs)
     ]
@@ -129,18 +113,19 @@ def disagreements(imported: Imported, result: CheckResult, found: Enumerated) ->
 def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:
     """Whether two violations are of the same rule and elements.
 
-    The importer adds the points passed before one that is wrong, the other ends of a block whose boundary is, and
-    a point that it took for turning a train away.
+    The importer adds points passed before one that is wrong, where the fault may as well be theirs.  Of the points
+    in a block that a train is led astray in, it names those alone that lead it there; in a table the rows name none.
     """
     rule, elements = ours
     if rule != theirs[0]:
         return False
-    more = set(theirs[1]) - set(elements)
-    if rule in ("a route is led over its points", "tags_of_a_boundary_are_partners"):
-        return set(elements) <= set(theirs[1])
-    network = network_of(found)
-    if rule == "track_leads_along_the_way_or_is_turned" and network is not None:
-        return not (more | (set(elements) - set(theirs[1]))) - set(network.junctions)
+    more, fewer = set(theirs[1]) - set(elements), set(elements) - set(theirs[1])
+    if rule == "a route is led over its points":
+        return not fewer
+    if rule == "track_leads_along_the_way_or_is_turned":
+        network = network_of(found)
+        known = set(getattr(found, "stands_in", ())) if network is None else set(network.junctions)
+        return not fewer - known and not (more - known if network is None else more)
     return elements == theirs[1]
 
 

@@ -7,10 +7,13 @@ from typing import Any
 
 import pytest
 
+from tests.lift import harbour, harbour_steps
 from tests.lift.differential import check_function
-from tests.lift.harbour import FUNCTIONS, UNIVERSE
+from tests.lift.harbour import UNIVERSE
 
 
-@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+@pytest.mark.parametrize(
+    "function", [*harbour.FUNCTIONS, *harbour_steps.FUNCTIONS], ids=lambda function: function.__name__
+)
 def test_lifted_and_run_agree(function: Callable[..., Any]) -> None:
     check_function(function, UNIVERSE)

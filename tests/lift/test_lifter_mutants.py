@@ -25,7 +25,7 @@ from proofs.lift import (
 )
 from proofs.lift.frames import Frame, State
 from proofs.lift.terms import and_, ite_, not_, or_
-from tests.lift import harbour
+from tests.lift import harbour, harbour_steps
 from tests.lift.differential import check_function
 
 Mutant = list[AbstractContextManager[Any]]
@@ -196,12 +196,15 @@ MUTANTS: dict[str, tuple[Callable[..., Any], Callable[[], Mutant]]] = {
         harbour.stays_of_moored,
         lambda: instead(comprehensions, "_map_range", items_off),
     ),
-    "keyword arguments by place": (harbour.called, lambda: instead(calls, "_arguments", keyword_order)),
-    "early return ignored": (harbour.returned_early, lambda: instead(statements, "_resume", never_resumed)),
-    "branches not joined": (harbour.fell_through, lambda: instead(statements, "_joined", lambda test, one, other: one)),
-    "every if taken inside another": (harbour.returned_early, lambda: instead(State, "decided", wrong_case)),
+    "keyword arguments by place": (harbour_steps.called, lambda: instead(calls, "_arguments", keyword_order)),
+    "early return ignored": (harbour_steps.returned_early, lambda: instead(statements, "_resume", never_resumed)),
+    "branches not joined": (
+        harbour_steps.fell_through,
+        lambda: instead(statements, "_joined", lambda test, one, other: one),
+    ),
+    "every if taken inside another": (harbour_steps.returned_early, lambda: instead(State, "decided", wrong_case)),
     "narrowing the wrong branch": (
-        harbour.port_maybe,
+        harbour_steps.port_maybe,
         lambda: (
             instead(expressions, "narrow", lambda test, env, holds: _narrow(test, env, not holds))
             + instead(statements, "narrow", lambda test, env, holds: _narrow(test, env, not holds))
@@ -250,11 +253,11 @@ MUTANTS: dict[str, tuple[Callable[..., Any], Callable[[], Mutant]]] = {
         lambda: instead(comprehensions, "_equals", lambda frame, element, env, q: True),
     ),
     "definitions of changed components lost": (
-        harbour.enter,
+        harbour_steps.enter,
         lambda: instead(scopes, "equal_terms", lambda left, right: True),
     ),
     "changed components shared": (
-        harbour.enter,
+        harbour_steps.enter,
         lambda: instead(scopes.Scope, "_is_unchanged", lambda self, part, value, old: True),
     ),
 }

@@ -10,7 +10,7 @@ import pytest
 import z3
 
 from proofs.lift import Lifter, Obligation, UnboundedScope
-from tests.lift import harbour
+from tests.lift import harbour, harbour_steps
 from tests.lift.harbour import Berth, Harbour, Ship
 
 
@@ -75,9 +75,9 @@ GUARDED = [
     harbour.guarded_by_or,
     harbour.newer_than_last,
     harbour.marked,
-    harbour.narrowed,
+    harbour_steps.narrowed,
     harbour.divided,
-    harbour.leave,
+    harbour_steps.leave,
 ]
 UNGUARDED = [
     harbour.unguarded_lookup,

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 
 from proofs.lift import FiniteScope, Lifter, Mismatch, UnboundedScope, concretise, conjuncts, embed
 from proofs.lift.scopes import Scope
-from tests.lift import harbour
+from tests.lift import harbour, harbour_steps
 from tests.lift.harbour import UNIVERSE, Berth, Harbour, Port, Ship, Tide, Visit
 from tests.lift.strategies import states_of
 
@@ -75,7 +75,7 @@ def test_a_finite_counterexample_is_a_python_object() -> None:
     scope = FiniteScope(SIZES)
     lifter = Lifter(scope)
     pre, visit, berth = scope.fresh(Harbour, "pre"), scope.constant(Visit, "visit"), scope.constant(Berth, "berth")
-    post = lifter.call(harbour.enter, pre, visit, berth)
+    post = lifter.call(harbour_steps.enter, pre, visit, berth)
     solver = z3.Solver()
     solver.add(*(axiom.formula for axiom in scope.axioms()))
     solver.add(z3.Not(lifter.formula(harbour.has_stay, post, visit, berth)), pre.fields["closed"].member(berth))
@@ -86,13 +86,13 @@ def test_a_finite_counterexample_is_a_python_object() -> None:
     assert entered[1] in ("Berth0", "Berth1")
     assert isinstance(entered[0], Visit)
     assert entered[0].ship in ("Ship0", "Ship1")
-    assert harbour.enter(before, *entered) == concretise(model, scope, post, Harbour)
+    assert harbour_steps.enter(before, *entered) == concretise(model, scope, post, Harbour)
 
 
 def test_a_case_that_hands_an_argument_back_is_that_argument() -> None:
     scope = UnboundedScope()
     pre, visit, berth = scope.fresh(Port, "pre"), scope.constant(Visit, "visit"), scope.constant(Berth, "berth")
-    cases = Lifter(scope).cases(harbour.port_enter, pre, visit, berth)
+    cases = Lifter(scope).cases(harbour_steps.port_enter, pre, visit, berth)
     assert [case.value is pre for case in cases] == [True, True, True, False]
     assert proved(scope, z3.Or(*(case.condition for case in cases)))
     for index, case in enumerate(cases):
@@ -102,7 +102,7 @@ def test_a_case_that_hands_an_argument_back_is_that_argument() -> None:
 def test_a_variable_keeps_its_cases_apart() -> None:
     scope = UnboundedScope()
     pre, berth = scope.fresh(Port, "pre"), scope.constant(Berth, "berth")
-    cases = Lifter(scope).cases(harbour.port_attempt, pre, berth)
+    cases = Lifter(scope).cases(harbour_steps.port_attempt, pre, berth)
     assert len(cases) == 2
     assert [case.value.fields["port"] is pre for case in cases] == [True, False]
 
@@ -110,7 +110,7 @@ def test_a_variable_keeps_its_cases_apart() -> None:
 def test_only_changed_components_are_named() -> None:
     scope = UnboundedScope()
     pre, visit, berth = scope.fresh(Harbour, "pre"), scope.constant(Visit, "visit"), scope.constant(Berth, "berth")
-    case = Lifter(scope).cases(harbour.enter, pre, visit, berth)[-1]
+    case = Lifter(scope).cases(harbour_steps.enter, pre, visit, berth)[-1]
     post, definitions = scope.name(case.value, "post", relative_to=pre)
     names = {definition.name for definition in definitions}
     assert names == {"post.last.is_none", "post.last", "post.closed", "post.moored.has", "post.moored"}
@@ -138,7 +138,7 @@ def test_named_and_unnamed_forms_are_equal() -> None:
     scope = FiniteScope(SIZES)
     pre, visit, berth = scope.fresh(Harbour, "pre"), scope.constant(Visit, "visit"), scope.constant(Berth, "berth")
     lifter = Lifter(scope)
-    value = lifter.call(harbour.enter, pre, visit, berth)
+    value = lifter.call(harbour_steps.enter, pre, visit, berth)
     post, definitions = scope.name(value, "post", relative_to=pre)
     defined = z3.And(*(definition.formula for definition in definitions))
     plain, named = (lifter.formula(harbour.each_has_one, each) for each in (value, post))

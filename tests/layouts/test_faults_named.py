@@ -1,0 +1,171 @@
+"""Each fault is told once, and names what is at fault and little else."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kernel.names import Block, Route
+from models.layouts import Imported, Violation, check, load
+from models.layouts.native import import_native
+from models.layouts.railjson import import_railjson
+from models.layouts.table import import_table
+from tests.layouts.stations import SAMPLES, Data, plain_station, railjson_of, table_rows
+
+LED = "a route is led over its points"
+TURNED = "track_leads_along_the_way_or_is_turned"
+STATION = load(next(path for path in SAMPLES if path.stem == "passing_station"))
+
+
+def of_rule(imported: Imported, rule: str) -> list[Violation]:
+    return [violation for violation in check(imported).violations if violation.axiom == rule]
+
+
+def with_route(name: str, route: Data) -> Imported:
+    native = plain_station()
+    native["routes"][name] = route
+    return import_native("plain", native, ("T1",))
+
+
+@pytest.mark.parametrize(
+    ("fault", "rule", "named"),
+    [
+        ({"points": {"P": "normal"}}, "a route's positions are of its points", "P"),
+        ({"release_at": ["h"]}, "a release detector lies within its route", "h"),
+    ],
+)
+def test_faults_of_a_route_that_grants_nothing(fault: Data, rule: str, named: str) -> None:
+    imported = with_route("stub", {"from": "west", "direction": "forward", "to": "a"} | fault)
+    assert Route("stub") not in imported.layout.routes
+    assert [violation.elements for violation in of_rule(imported, rule)] == [("stub", named)]
+
+
+def test_faults_of_a_route_that_passes_a_block_twice() -> None:
+    native = plain_station()
+    for mark, track in (("c", "t1"), ("d", "t1"), ("e", "t2"), ("f", "t2")):
+        del native["tracks"][track]["boundaries"][mark]
+    native["tracks"]["t1"]["boundaries"] = {"m": 500_000}
+    native["points"]["S"] = {}
+    run = {"from": "a", "direction": "forward", "to": "g", "points": {"P": "normal", "Q": "normal", "S": "normal"}}
+    native["tracks"] |= {
+        "s1": {"from": "in", "to": "S.tip", "length_mm": 1000},
+        "s2": {"from": "S.normal", "to": "n", "length_mm": 1000},
+        "s3": {"from": "S.reverse", "to": "r", "length_mm": 1000},
+    }
+    native["routes"] = {"through": run | {"release_at": ["h"]}}
+    rules = {violation.axiom: violation.elements for violation in check(import_native("x", native, ())).violations}
+    assert "a route passes a block once" in rules
+    assert rules["a route's positions are of its points"] == ("through", "S")
+    assert rules["a release detector lies within its route"] == ("through", "h")
+
+
+def route_over(**points: str) -> Data:
+    return {"from": "a", "direction": "forward", "to": "h", "points": points}
+
+
+@pytest.mark.parametrize(
+    ("points", "elements"),
+    [
+        ({"P": "normal"}, ("r", "Q")),
+        ({"P": "normal", "Q": "sideways"}, ("r", "Q")),
+        ({"P": "normal", "Q": "reverse"}, ("r", "Q", "P")),
+        ({"Q": "normal"}, ("r", "P")),
+    ],
+)
+def test_a_route_led_wrongly_names_what_may_be_at_fault(points: dict[str, str], elements: tuple[str, ...]) -> None:
+    assert [violation.elements for violation in of_rule(with_route("r", route_over(**points)), LED)] == [elements]
+
+
+def test_points_passed_rightly_are_not_named() -> None:
+    native = plain_station()
+    native["tracks"]["z"]["to"] = "R.normal"
+    native["tracks"]["side"] = {"from": "east", "to": "R.reverse", "length_mm": 1000}
+    native["tracks"]["end"] = {"from": "R.tip", "to": "far", "length_mm": 9000, "boundaries": {"k": 5000}}
+    native["points"]["R"] = {}
+    run = {"from": "a", "direction": "forward", "to": "k", "points": {"P": "normal", "Q": "normal", "R": "reverse"}}
+    native["routes"] = {"r": run}
+    (violation,) = of_rule(import_native("x", native, ("T1",)), LED)
+    assert violation.elements == ("r", "R")
+    assert "'P'" not in violation.text
+
+
+def test_a_train_led_astray_is_told_once_with_the_point() -> None:
+    route = next(r for r in sorted(STATION.layout.routes) if any(STATION.ground.turnout[r].values()))
+    block, turning = next((b, t) for b, t in sorted(STATION.ground.turnout[route].items()) if t)
+    target, point = next(iter(sorted(turning.items())))
+    wanted = STATION.ground.leads[route][block][target][point]
+    needs = {**STATION.layout.needs, route: {**STATION.layout.needs[route], point: wanted}}
+    wrong = replace(STATION, layout=replace(STATION.layout, needs=needs))
+    (violation,) = of_rule(wrong, TURNED)
+    assert violation.elements[0] == route
+    assert point in violation.elements
+    unheld = replace(STATION, ground=replace(STATION.ground, turnout={**STATION.ground.turnout, route: {}}))
+    assert len(of_rule(unheld, TURNED)) == sum(map(len, STATION.ground.turnout[route].values()))
+
+
+def test_two_boundaries_that_part_nothing_are_told_apart() -> None:
+    """One block behind ``b``, with two tracks that bend back into it."""
+
+    def track(begin: str, end: str, **marks: int) -> Data:
+        return {"from": begin, "to": end, "length_mm": 9000, "boundaries": marks}
+
+    data = {
+        "format": "heisoku-layout-1",
+        "held_by_authority": "rest",
+        "tracks": {
+            "line": track("west", "P.tip", a=1000, b=2000),
+            "up": track("P.normal", "Q.tip"),
+            "down": track("P.reverse", "R.tip"),
+            "ring up": track("Q.normal", "Q.reverse", x=4000),
+            "ring down": track("R.normal", "R.reverse", y=4000),
+        },
+        "points": {"P": {}, "Q": {}, "R": {}},
+        "routes": {"in": {"from": "a", "direction": "forward", "to": "b"}},
+    }
+    imported = import_native("x", data, ("T1",))
+    assert ("b", "x", "y") in imported.places.blocks.values()
+    named = [violation.elements for violation in of_rule(imported, "tags_of_a_boundary_are_partners")]
+    assert named == [("x",), ("y",)]
+
+
+def test_a_slip_in_the_start_block_lies_open_to_every_leg() -> None:
+    """Both ways of each leg lead to the entry, by positions that differ from leg to leg."""
+    ends = {"A1": ("one", "END"), "A2": ("two", "END"), "B1": ("up", "BEGIN"), "B2": ("down", "BEGIN")}
+    joined = {"A": ("out", "BEGIN"), "B1": ("up", "END"), "B2": ("down", "END")}
+
+    def switch(name: str, kind: str, at: dict[str, tuple[str, str]]) -> Data:
+        ports = {port: {"track": track, "endpoint": end} for port, (track, end) in at.items()}
+        return {"id": name, "switch_type": kind, "ports": ports, "group_change_delay": 0.0}
+
+    data = railjson_of(plain_station())
+    data["track_sections"] += [{"id": track, "length": 100.0} for track in ("one", "two", "up", "down", "out")]
+    data["switches"] += [switch("slip", "double_slip_switch", ends), switch("join", "point_switch", joined)]
+    marks = (("m1", "one"), ("m2", "two"), ("entry", "out"), ("beyond", "out"))
+    data["detectors"] += [{"id": m, "track": t, "position": 80.0 if m == "beyond" else 50.0} for m, t in marks]
+    data["routes"].append(
+        data["routes"][0]
+        | {
+            "id": "off",
+            "entry_point": {"type": "Detector", "id": "entry"},
+            "exit_point": {"type": "Detector", "id": "beyond"},
+            "release_detectors": [],
+            "switches_directions": {},
+        }
+    )
+    found = of_rule(import_railjson("slip", data, ("T1",)), "a start block leads out one way")
+    assert [violation.elements for violation in found] == [("off", "slip")]
+    assert "from A1 'A1_B1', from A2 'A2_B1'" in found[0].text
+
+
+def test_a_row_from_a_signal_that_no_row_ends_at_is_compared() -> None:
+    rows = table_rows()
+    arriving = next(row for row in rows if row["id"] == "W-t1")
+    rows = [row for row in rows if row["id"] != "in W"]
+    for row in rows:
+        row["conflicts"] = [entry for entry in row["conflicts"] if entry["id"] != "in W"]
+    extra = {**arriving, "id": "odd", "points": [{"id": "p", "position": "reverse"}]}
+    again = {**arriving, "id": "again"}
+    imported = import_table("table", {"interlocking-table": [*rows, extra, again]}, ("T1",))
+    assert imported.layout.start[Route("odd")] == Block("before homeW")
+    assert [v.elements for v in of_rule(imported, "a point lies one way between two blocks")] == [("odd", "p")]
