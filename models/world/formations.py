@@ -76,14 +76,22 @@ def formation(trains: Mapping[Train, Sequence[Car]], along: Callable[[Route], bo
 def directions(layout: Layout, ground: Ground) -> Mapping[Route, bool]:
     """Whether each route runs along or against one common direction of the whole line.
 
-    Track that meets itself the other way round (a balloon loop) has none: there the first answer stands.
+    What a route runs over in one go comes first; which side of a block its other neighbours lie on
+    is only guessed, where nothing else joins them.  Track that meets itself the other way round (a
+    balloon loop) has no common direction: there the first answer stands.
     """
     sense = _Senses()
-    for route in layout.routes:
+    for route in sorted(layout.routes):
         for block, target in layout.way[route].items():
-            for other in ground.neighbours.get(block, frozenset()):
-                before = (block, other) if other in ground.leads[route][block] else (other, block)
-                sense.join(before, (block, target))
+            onward = layout.way[route].get(target)
+            if onward is not None:
+                sense.join((block, target), (target, onward))
+            for other in ground.leads[route][block]:
+                sense.join((block, other), (block, target))
+    for route in sorted(layout.routes):
+        for block, target in layout.way[route].items():
+            for other in ground.neighbours.get(block, frozenset()) - frozenset(ground.leads[route][block]):
+                sense.join((other, block), (block, target))
     return {
         route: sense.of(next((block, target) for block, target in layout.way[route].items())) for route in layout.routes
     }

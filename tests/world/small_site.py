@@ -6,10 +6,11 @@ West W (point pw facing P and Q), platforms P and Q, east E (point pe facing P a
 from __future__ import annotations
 
 from kernel.layout import Layout, TagRecords
+from kernel.maps import Map
 from kernel.names import Block, Cab, Car, Point, Position, Record, Route, Run, Serial, Tag, Train, UnitLife
 from models.ground import Ground
-from models.world.state import Formation, Site, System
 from models.world.start import start
+from models.world.state import Formation, Site, System
 
 N, R = Position("normal"), Position("reverse")
 W, P, Q, E = Block("W"), Block("P"), Block("Q"), Block("E")
@@ -35,7 +36,7 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
         released_with[route] = {point_of[end]: end}
         others = {P, Q} - {platform}
         leads[route] = {a: {p: {point_of[end]: lies[p]} for p in (P, Q)} if a == end else {end: {}}}
-        turnout[route] = {a: {other: point_of[end] for other in others}} if a == end else {a: {}}
+        turnout[route] = {a: dict.fromkeys(others, point_of[end])} if a == end else {a: {}}
     tags = [tag(name, block) for (a, b), name in ends.items() for block in (a, b)]
     partner = {}
     tag_in = {}
@@ -91,13 +92,19 @@ def small_site(serials: int = 8, lives: int = 4) -> Site:
         for k in range(1, lives)
         for r in [*sorted(layout.routes), Route("standing")]
     ]
-    last, ahead = {}, {}
+    last: dict[Run, Car] = {}
+    ahead: dict[Run, Map[Car, frozenset[Car]]] = {}
     for run in runs:
         cars = [c for c, t in train_of.items() if t == run.train]
         order = cars if run.route.endswith("W") or run.route[0] == "E" else list(reversed(cars))
         last[run] = order[-1]
         ahead[run] = {c: frozenset(order[:i]) for i, c in enumerate(order)}
-    return Site(layout=layout, records=records, ground=ground, formation=Formation(train_of=train_of, last=last, ahead=ahead, cab={c: Cab(f'cab of {c}') for c in train_of}))
+    return Site(
+        layout=layout,
+        records=records,
+        ground=ground,
+        formation=Formation(train_of=train_of, last=last, ahead=ahead, cab={c: Cab(f"cab of {c}") for c in train_of}),
+    )
 
 
 def small_start(site: Site) -> System:

@@ -1,0 +1,1 @@
+"""A train on real track: cars, antennas and tags at positions in mm, held against the abstract world step by step."""

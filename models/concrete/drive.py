@@ -1,0 +1,106 @@
+"""Concrete trains drive, and each thing that happens to them must be a step that the abstract world allows."""
+
+from __future__ import annotations
+
+from collections import Counter
+from random import Random
+
+from kernel.names import Antenna, Read, Run
+from models.concrete.rails import Rails
+from models.concrete.train import Happening, OnRails
+from models.simulator.play import Play
+from models.world.assumptions import a_healthy_line_reaches_the_tail, a_pair_read_in_order_proves_the_exit
+
+
+class NatureRefusedError(AssertionError):
+    """Something that can happen on real track is no step of the abstract world, or leads it elsewhere."""
+
+
+class Drive:
+    """A play whose trains are concrete; ``seen`` counts what happened."""
+
+    def __init__(self, play: Play, rails: Rails, trains: list[OnRails], random: Random, missed: float = 0.0) -> None:
+        self.play = play
+        self.rails = rails
+        self.trains = trains
+        self.random = random
+        self.missed = missed
+        self.seen: Counter[str] = Counter()
+        self.compare()
+
+    def compare(self) -> None:
+        """Every car is in just the blocks that the abstract track says."""
+        for train in self.trains:
+            for car, blocks in train.blocks(self.rails).items():
+                said = self.play.system.track.at.get(car, frozenset())
+                if said != blocks:
+                    raise NatureRefusedError(
+                        f"{car} is in {sorted(blocks)}, the abstract world has it in {sorted(said)}"
+                    )
+
+    def move(self, train: OnRails, run: Run, mm: int) -> None:
+        """A train moves so far between two samples; everything on the way happens, in its order."""
+        train.look()
+        train.reach(self.rails, mm, self.play.system.track.lies)
+        mm = min(mm, train.path[-1].to_mm - 1 - train.front_mm)
+        done = 0
+        happenings = train.happenings(self.rails, mm)
+        for at, happening in enumerate(happenings):
+            self.happens(train, run, happening)
+            self.seen[happening.kind] += 1
+            if at + 1 == len(happenings) or happenings[at + 1].after_mm != happening.after_mm:
+                train.front_mm += happening.after_mm - done
+                done = happening.after_mm
+                self.compare()
+        self.seen["several things between two samples"] += len(happenings) > 1
+        train.front_mm += mm - done
+        self.compare()
+
+    def happens(self, train: OnRails, run: Run, what: Happening) -> None:
+        """One thing happens: the abstract world must allow it."""
+        if what.kind == "enters":
+            self.enters(train, run, what)
+        elif what.kind == "leaves":
+            self.must(self.play.take("car_leaves", car=what.car, block=what.block), what)
+        elif self.random.random() < self.missed:
+            self.seen["missed"] += 1
+        elif what.kind == "head reads":
+            cab = self.play.site.formation.cab[what.car]
+            self.play.take("head_reads", train=train.name, cab=cab, tag=what.tag, in_window=True)
+        else:
+            self.tail_reads(train, run, what)
+
+    def enters(self, train: OnRails, run: Run, what: Happening) -> None:
+        """A front axle of a car comes into a block: under the run, or after a car that is ahead of it there."""
+        layout = self.play.site.layout
+        runs = [run, *sorted(r for r in self.play.system.track.rolling if r.train == run.train and r != run)]
+        for under in runs:
+            if {what.block, what.target} <= layout.claims.get(under.route, frozenset()):
+                event = {"run": under, "car": what.car, "block": what.block, "target": what.target}
+                if self.play.take("car_moves", **event):
+                    self.seen["moves"] += 1
+                    return
+        ahead = train.cars[: train.cars.index(what.car)]
+        event = {"car": what.car, "block": what.block, "target": what.target}
+        followed = any(self.play.take("car_follows", other=other, **event) for other in ahead)
+        self.seen["follows"] += followed
+        self.must(followed, what)
+
+    def tail_reads(self, train: OnRails, run: Run, what: Happening) -> None:
+        """The antenna of the last car reads a tag; over a line that broke it is no healthy tail."""
+        assert what.tag is not None
+        site, system = self.play.site, self.play.system
+        healthy = not train.standing
+        read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
+        unit = system.units[run.train]
+        true = a_healthy_line_reaches_the_tail(site, system, run, what.car, Antenna.TAIL, healthy)
+        if unit.tail_read is not None and unit.tail_cab == cab:
+            true = true and a_pair_read_in_order_proves_the_exit(site, system, run, what.car, unit.tail_read, read)
+        self.must(true, what)
+        event = {"antenna": Antenna.TAIL, "cab": cab, "healthy": healthy, "read": read}
+        self.play.take("tail_reads", run=run, car=what.car, **event)
+
+    def must(self, allowed: bool, what: Happening) -> None:
+        """Nature did it; the abstract world must allow it."""
+        if not allowed:
+            raise NatureRefusedError(f"the abstract world refuses: {what}")
