@@ -16,7 +16,7 @@ CONTRACTS := $(sort $(wildcard tests/contracts_*.py tests/*/contracts_*.py))
 JOBS   ?= auto
 
 .DELETE_ON_ERROR:
-.PHONY: help assure prove check test lint types format bench crosshair setup lock clean distclean
+.PHONY: help assure prove check test lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -50,6 +50,10 @@ types: setup
 format: setup
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+# Pages under docs/ that are written from code and data.
+pages: setup
+	$(BIN)/python -m proofs.pages
 
 bench: setup
 	$(BIN)/python -m tests.bench

@@ -57,8 +57,10 @@ class Statement:
 class Centre:
     """All that the centre decides from.
 
+    ``epoch``: counts the restarts of the centre (T8).
     ``newest``: the newest serial ever granted; survives every restart (T10).
     ``accounted``: the life in which each train has told where it stands in this epoch (T8).
+    ``runs``: every run that it has granted and not forgotten (T4, T9).
     ``claimed``: for each block the runs it is held for; absent means none (T4).
     ``locked``: for each point the runs it is locked for, and how it must lie (T10).
     ``lost_blocks``, ``lost_points``: held since the last restart for whatever may be there (T8).

@@ -19,7 +19,7 @@ def end_claims(
     stage: Stage,
     cause: Cause,
 ) -> Centre:
-    """Free ``blocks`` and ``points`` from ``run``, note why, and leave it at ``stage``."""
+    """Free ``blocks`` and ``points`` from ``run``, note why, and leave it at ``stage`` (T7, T8)."""
     return replace(
         centre,
         runs=centre.runs
@@ -40,7 +40,7 @@ def end_claims(
 
 
 def end_run(layout: Layout, centre: Centre, run: Run, grant: Grant, cause: Cause) -> Centre:
-    """Free everything a run of a route holds, at once."""
+    """Free everything a run of a route holds, at once (T8, T9)."""
     return end_claims(
         layout,
         centre,

@@ -38,7 +38,7 @@ def standing_refusal(
 
 
 def account_for(layout: Layout, centre: Centre, blocks: frozenset[Block], run: Run, cause: Cause) -> Centre:
-    """Hold exactly ``blocks`` for the train of ``run``; whatever it held before ends.
+    """Hold exactly ``blocks`` for the train of ``run``; whatever it held before ends (T8).
 
     Points in these blocks are lost, since the centre cannot know how they lie, until the
     terminal tells it (:func:`adopt_point`).
@@ -51,8 +51,7 @@ def account_for(layout: Layout, centre: Centre, blocks: frozenset[Block], run: R
             other: replace(
                 grant,
                 stage=Stage.OVER,
-                ended=grant.ended
-                | {block: cause for block in centre.claimed if other in centre.claimed[block]},
+                ended=grant.ended | {block: cause for block in centre.claimed if other in centre.claimed[block]},
             )
             if other.train == run.train
             else grant

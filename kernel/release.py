@@ -43,9 +43,7 @@ def release(
     points = (
         layout.points_in.get(block, NO_POINTS)
         if grant.stage == Stage.STANDING
-        else frozenset(
-            point for point in layout.needs[run.route] if layout.released_with[run.route][point] == block
-        )
+        else frozenset(point for point in layout.needs[run.route] if layout.released_with[run.route][point] == block)
     )
     return end_claims(layout, centre, run, grant, frozenset({block}), points, grant.stage, Cause.TAIL_EVIDENCE)
 

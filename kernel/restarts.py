@@ -10,7 +10,7 @@ from kernel.unit import Unit
 
 
 def restart_centre(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
-    """Begin a new epoch: every block and point is lost, nobody is accounted for."""
+    """Begin a new epoch: every block and point is lost, nobody is accounted for (T8)."""
     return Centre(
         epoch=epoch,
         newest=centre.newest,
@@ -27,7 +27,7 @@ def restart_centre(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
 
 
 def restart_unit(unit: Unit, life: UnitLife) -> Unit:
-    """Begin a new life: no authority, and no memory of where the train is."""
+    """Begin a new life: no authority, and no memory of where the train is (T8)."""
     return Unit(
         life=life,
         answered=None,
@@ -42,7 +42,7 @@ def restart_unit(unit: Unit, life: UnitLife) -> Unit:
 
 
 def restart_terminal(terminal: Terminal, life: TerminalLife) -> Terminal:
-    """Begin a new life: the lock stays as it is, the lock id is gone."""
+    """Begin a new life: the lock stays as it is, the lock id is gone (T8, T10)."""
     return Terminal(
         life=life,
         holds=None,

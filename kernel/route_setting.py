@@ -9,6 +9,7 @@ from kernel.layout import Layout
 from kernel.names import Point, Position, Run, Stage, TerminalLife
 from kernel.refusal import Refusal
 
+
 def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refusal | None:
     """Say why ``run`` cannot be reserved for a train that stands, or will stand, under ``base`` (T4, T9)."""
     if run.route not in layout.routes:
@@ -63,11 +64,7 @@ def request(layout: Layout, centre: Centre, run: Run, base: Run) -> Centre:
     """
     if request_refusal(layout, centre, run, base) is not None:
         return centre
-    held_below = frozenset(
-        point
-        for point in layout.needs[run.route]
-        if base in centre.locked.get(point, NO_LOCKS)
-    )
+    held_below = frozenset(point for point in layout.needs[run.route] if base in centre.locked.get(point, NO_LOCKS))
     return replace(
         centre,
         newest=run.serial,

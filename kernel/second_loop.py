@@ -15,8 +15,8 @@ def open_loops(unit: Unit) -> Unit:
 
 
 def is_expected(unit: Unit, tag: Tag) -> bool:
-    """Tell whether some permitted run expects ``tag`` next at the head (T5)."""
-    return any(order.permitted and order.expected == tag for _, order in unit.orders.items())
+    """Tell whether a permitted run that was not given back expects ``tag`` next at the head (T5)."""
+    return any(order.permitted and not order.given_back and order.expected == tag for _, order in unit.orders.items())
 
 
 def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bool) -> Unit:
@@ -42,7 +42,7 @@ def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bo
                 begun=order.begun or layout.first_tag.get(run.route) != tag,
                 expected=layout.tag_after[run.route].get(tag) if run.route in layout.tag_after else None,
             )
-            if order.permitted and order.expected == tag
+            if order.permitted and not order.given_back and order.expected == tag
             else order
             for run, order in unit.orders.items()
         },

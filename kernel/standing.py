@@ -7,7 +7,7 @@ from kernel.unit import NO_ORDERS, Unit
 
 
 def answer(unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], at_rest: bool, healthy: bool) -> Unit:
-    """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands.
+    """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands (T8).
 
     ``blocks``: by the tags at both ends, all the blocks the train is in.
     ``at_rest``: it stands still.  ``healthy``: the through line reaches the tail.

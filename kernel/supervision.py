@@ -17,7 +17,7 @@ from kernel.refusal import Refusal
 
 
 def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:
-    """Open the supervised procedure for a train; what was stated before counts no more."""
+    """Open the supervised procedure for a train; what was stated before counts no more (T8)."""
     if train not in layout.fleet:
         return centre
     return replace(
@@ -27,10 +27,8 @@ def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:
     )
 
 
-def note_statement(
-    centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
-) -> Centre:
-    """Note what the first person states: the life the isolated unit shows, and where the train stands."""
+def note_statement(centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]) -> Centre:
+    """Note what the first person states: the life the isolated unit shows, and where the train stands (T8)."""
     if train not in centre.supervised or epoch != centre.epoch:
         return centre
     return replace(centre, statements=centre.statements | {train: Statement(life=life, blocks=blocks)})
@@ -39,7 +37,7 @@ def note_statement(
 def supervised_refusal(
     layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
 ) -> Refusal | None:
-    """Say why the second person's confirmation does not account for the train."""
+    """Say why the second person's confirmation does not account for the train (T8)."""
     if train not in centre.supervised:
         return Refusal.PROCEDURE_NOT_OPEN
     said = centre.statements.get(train)
@@ -51,7 +49,7 @@ def supervised_refusal(
 def note_statement_confirmed(
     layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
 ) -> Centre:
-    """Account for the train as stated: the second person has confirmed it; the procedure closes."""
+    """Account for the train as stated: the second person has confirmed it; the procedure closes (T8)."""
     said = centre.statements.get(train)
     if said is None or supervised_refusal(layout, centre, train, life, epoch, run) is not None:
         return centre

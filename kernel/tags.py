@@ -140,12 +140,12 @@ def traits(code: int) -> Traits:
 
 
 def fits(value: int, bits: int) -> bool:
-    """Whether ``value`` is an unsigned integer of at most ``bits`` bits."""
+    """Whether ``value`` is an unsigned integer of at most ``bits`` bits (T1)."""
     return 0 <= value < 1 << bits
 
 
 def crc16(value: int, bits: int) -> int:
-    """CRC-16/CCITT (polynomial 1021, start FFFF, not reflected) over the ``bits`` bits of ``value``.
+    """CRC-16/CCITT (polynomial 1021, start FFFF, not reflected) over the ``bits`` bits of ``value`` (T1).
 
     The most significant bit goes first.  Over the bytes of "123456789" it is 29B1.
     """
@@ -166,7 +166,7 @@ def record_crc(uid: int, first_page: int, block_and_format: int) -> int:
 
 
 def field_out_of_range(record: TagRecord) -> Rejection | None:
-    """The first field of a record that does not fit into its bits, or None."""
+    """The first field of a record that does not fit into its bits, or None (T1)."""
     if not fits(record.uid, UID_BITS):
         return Rejection.UID_OUT_OF_RANGE
     if not fits(record.block, BLOCK_BITS):

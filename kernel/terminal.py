@@ -11,6 +11,7 @@ from kernel.names import Position, Run, TerminalLife
 class Terminal:
     """All that a terminal decides from; ``life`` and the lock itself survive its restart (T8, T10).
 
+    ``life``: counts the restarts of the terminal.
     ``holds``: the newest run it has obeyed in this life; its serial is the lock id.
     ``wanted``: how the point shall lie for that run; none after a restart.
     ``unlocked``: the point is free to move, and may drift.
@@ -31,9 +32,7 @@ def obey(terminal: Terminal, run: Run, position: Position, life: TerminalLife, d
         return terminal
     if terminal.holds is not None and run.serial <= terminal.holds.serial:
         return terminal
-    return replace(
-        terminal, holds=run, wanted=position, unlocked=terminal.unlocked or detected != position
-    )
+    return replace(terminal, holds=run, wanted=position, unlocked=terminal.unlocked or detected != position)
 
 
 def relabel(terminal: Terminal, run: Run, life: TerminalLife) -> Terminal:

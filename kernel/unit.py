@@ -46,6 +46,7 @@ NO_EVIDENCE: Map[Block, Evidence] = {}
 class Unit:
     """All that a unit decides from; only ``life`` survives its restart (T8).
 
+    ``life``: counts the restarts of the unit.
     ``answered``: the epoch of the centre whose challenge this life has answered.
     ``standing_in``: what it answered, the blocks it stood in.
     ``orders``: the runs told to this life.

@@ -171,13 +171,7 @@ def every_map_has_its_keys(layout: Layout, ground: Ground) -> bool:
         and all(block in ground.leads[route] for route in layout.routes for block in layout.way[route])
         and all(point in layout.stands_in for point in layout.points)
         and all(point in layout.points for point in layout.stands_in)
-        and all(
-            route in layout.routes
-            for route in layout.needs
-        )
-        and all(
-            route in layout.routes
-            for route in layout.way
-        )
+        and all(route in layout.routes for route in layout.needs)
+        and all(route in layout.routes for route in layout.way)
         and all(tag in layout.tag_in for tag in layout.partner)
     )

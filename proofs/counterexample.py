@@ -22,6 +22,8 @@ from proofs.mutated import Sources, running
 
 ROOT = Path(__file__).resolve().parent.parent
 MILLISECONDS = 60_000
+UNDEFINED = (KeyError, AttributeError, TypeError)
+"""What CPython raises where a step looks up what is not there."""
 
 
 class Unfaithful(Exception):
@@ -80,9 +82,7 @@ def broken(name: str) -> Broken:
     return Broken(name, meaning, str(Path(file).relative_to(ROOT)), line)
 
 
-def search(
-    world: World, transition: str, sources: Sources | None = None, milliseconds: int = MILLISECONDS
-) -> Answer:
+def search(world: World, transition: str, sources: Sources | None = None, milliseconds: int = MILLISECONDS) -> Answer:
     """Look for a step of this transition, some functions replaced, that breaks an invariant."""
     verdict = "none"
     for question in world.questions(transition, sources):
@@ -111,9 +111,9 @@ def replayed(world: World, question: Question, model: Any, sources: Sources) -> 
     counterexample = stepped(question.transition, site, before, event, sources)
     if not counterexample.broken and not counterexample.raised:
         raise Unfaithful(f"{question.transition}: every invariant holds after the step")
-    if counterexample.after is not None and z3.is_false(question.undefined):
-        if counterexample.after != concretise(model, world.scope, question.after, System):
-            raise Unfaithful(f"{question.transition}: CPython comes to another state")
+    after, checked = counterexample.after, z3.is_false(question.undefined)
+    if checked and after is not None and after != concretise(model, world.scope, question.after, System):
+        raise Unfaithful(f"{question.transition}: CPython comes to another state")
     return counterexample
 
 
@@ -126,20 +126,24 @@ def unmet(site: Site, system: System) -> list[str]:
     ]
 
 
-def stepped(
-    transition: str, site: Site, before: System, event: Mapping[str, Any], sources: Sources
-) -> Counterexample:
+def stepped(transition: str, site: Site, before: System, event: Mapping[str, Any], sources: Sources) -> Counterexample:
     """Take one step in CPython, some functions replaced, and say which invariants are false after it."""
     try:
         with running(sources):
             after = STEPS[transition](site, before, **event)
-    except (KeyError, AttributeError, TypeError) as error:
-        where = _place(error)
-        return Counterexample(
-            transition, event, site, before, None, (), f"{type(error).__name__} {error} in {where}"
-        )
-    false = [name for name, claim in INVARIANTS.items() if not claim(site, after)]
+    except UNDEFINED as error:
+        raised = f"{type(error).__name__} {error} in {_place(error)}"
+        return Counterexample(transition, event, site, before, None, (), raised)
+    false = [name for name in INVARIANTS if not holds(name, site, after)]
     return Counterexample(transition, event, site, before, after, tuple(map(broken, false)))
+
+
+def holds(name: str, site: Site, system: System) -> bool:
+    """Whether an invariant holds; it does not where it looks up what is not there."""
+    try:
+        return bool(INVARIANTS[name](site, system))
+    except UNDEFINED:
+        return False
 
 
 def _place(error: Exception) -> str:

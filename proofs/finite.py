@@ -41,11 +41,24 @@ from proofs.transitions import event_types
 
 Sizes = Mapping[Any, int]
 
+
 def _sizes(blocks: int, routes: int, points: int, cars: int, tags: int, runs: int, lives: int) -> Sizes:
     return {
-        **{Block: blocks, Route: routes, Point: points, Position: 2, Train: 2, Car: cars, Cab: cars},
-        **{Tag: tags, Record: 2, Read: tags - tags // 4, Run: runs, Serial: runs, UnitLife: lives},
-        **{TerminalLife: 2, Epoch: 2},
+        Block: blocks,
+        Route: routes,
+        Point: points,
+        Position: 2,
+        Train: 2,
+        Car: cars,
+        Cab: cars,
+        Tag: tags,
+        Record: 2,
+        Read: tags - tags // 4,
+        Run: runs,
+        Serial: runs,
+        UnitLife: lives,
+        TerminalLife: 2,
+        Epoch: 2,
     }
 
 

@@ -205,7 +205,8 @@ def knows_the_world(source: str) -> list[str]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom | ast.Import):
             names = [node.module or ""] if isinstance(node, ast.ImportFrom) else [alias.name for alias in node.names]
-            found += [f"line {node.lineno}: imports {name}" for name in names if name.split(".")[0] in ("models", "proofs")]
+            rooms = [name for name in names if name.split(".")[0] in ("models", "proofs")]
+            found += [f"line {node.lineno}: imports {name}" for name in rooms]
         elif isinstance(node, ast.Name) and node.id in WORLD_NAMES:
             found.append(f"line {node.lineno}: names {node.id}")
         elif isinstance(node, ast.Attribute) and node.attr in PHYSICAL:

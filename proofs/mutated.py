@@ -4,12 +4,12 @@ All who call the function see the other body, since its code object is exchanged
 """
 
 from __future__ import annotations
-
 import __future__
 
 import ast
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache, wraps
 from types import CodeType
 from typing import Any
 
@@ -19,6 +19,7 @@ Sources = Mapping[Code, ast.FunctionDef]
 """Functions, and the syntax trees that stand for their own."""
 
 
+@cache
 def code_of(function: Code, tree: ast.FunctionDef) -> CodeType:
     """Compile a body for a function: same names, same file, same lines."""
     module = ast.fix_missing_locations(ast.Module([tree], []))
@@ -35,19 +36,23 @@ def running(sources: Sources) -> Iterator[None]:
     before = {function: function.__code__ for function in sources}
     for function, tree in sources.items():
         definition_of(function)
-        function.__code__ = code_of(function, tree)  # type: ignore[attr-defined]
+        function.__code__ = code_of(function, tree)
     try:
         yield
     finally:
         for function, code in before.items():
-            function.__code__ = code  # type: ignore[attr-defined]
+            function.__code__ = code
 
 
-def body(function: Code, text: str) -> ast.FunctionDef:
-    """Give the tree of a function whose text is written down elsewhere, at the place of the function."""
-    tree = ast.parse(text).body[0]
-    own = definition_of(function)
-    if not isinstance(tree, ast.FunctionDef) or ast.unparse(tree.args) != ast.unparse(own.args):
-        raise ValueError(f"{function.__name__}: not a function of the same parameters")
-    tree.name = own.name
-    return ast.increment_lineno(tree, own.lineno - tree.lineno)
+def table_running(table: Mapping[str, Callable[..., Any]], sources: Sources) -> dict[str, Callable[..., Any]]:
+    """A table of functions, each run with the bodies given while it lasts."""
+
+    def replaced(function: Callable[..., Any]) -> Callable[..., Any]:
+        @wraps(function)
+        def run(*values: Any, **named: Any) -> Any:
+            with running(sources):
+                return function(*values, **named)
+
+        return run
+
+    return {name: replaced(function) for name, function in table.items()}

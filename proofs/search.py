@@ -96,10 +96,7 @@ def find_row(task: tuple[str, list[str]]) -> tuple[str, dict[str, list[str] | No
 
 def main(pattern: str = "") -> int:
     """Search every obligation that matches and write the scripts."""
-    tasks = [
-        (row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")])
-        for row in (*ROWS, READING)
-    ]
+    tasks = [(row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")]) for row in (*ROWS, READING)]
     missing = 0
     with ProcessPoolExecutor(2) as pool:
         for transition, found in pool.map(find_row, [task for task in tasks if task[1]]):

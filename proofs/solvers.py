@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from functools import cache
 from importlib import metadata
 from typing import Literal
 
@@ -41,10 +40,11 @@ def ask(solver: str, part: Part, seed: int) -> Reply:
     return Reply(answer, spent, time.perf_counter() - began)
 
 
-@cache
-def _spent_before() -> list[int]:
-    """What z3 has counted in this process so far; it counts on from question to question."""
-    return [0]
+def _counted(solver: z3.Solver) -> int:
+    """Tell what z3 has counted so far; it counts on from question to question, and while terms are made."""
+    statistics = solver.statistics()
+    told = statistics.keys()
+    return int(statistics.get_key_value("rlimit count")) if "rlimit count" in told else 0
 
 
 def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
@@ -56,12 +56,9 @@ def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
         solver.add(*part.hypotheses[name])
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
-    before = _spent_before()
+    before = _counted(solver)
     verdict = solver.check()
-    statistics = solver.statistics()
-    count = statistics.get_key_value("rlimit count") if "rlimit count" in statistics.keys() else before[0]
-    spent = count - before[0]
-    before[0] = count
+    spent = _counted(solver) - before
     if verdict == z3.unsat:
         return "unsat", spent
     return ("sat", spent) if verdict == z3.sat else ("unknown", spent)
@@ -78,7 +75,7 @@ def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
 
 def _ask_cvc5_once(text: str, seed: int, *, saturate: bool) -> tuple[Answer, int]:
     solver = cvc5.Solver()
-    solver.setOption("rlimit", str(BUDGET["cvc5"] // 2))
+    solver.setOption("rlimit", str(max(1, BUDGET["cvc5"] // 2)))
     solver.setOption("seed", str(seed))
     solver.setOption("full-saturate-quant", str(saturate).lower())
     parser = cvc5.InputParser(solver)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from proofs import scripts
-from proofs.catalogue import SAFETY
+from proofs.catalogue import INITIAL, INVARIANTS, SAFETY
 from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.run import columns
 from proofs.scripts import ROWS
@@ -57,3 +57,8 @@ def needed(found: Book) -> frozenset[str]:
             reached.add(name)
             todo.extend(below.get(name, ()))
     return frozenset(reached)
+
+
+def claims() -> Mapping[str, Callable[..., bool]]:
+    """Give every claim about a state: invariants and what holds at the start."""
+    return {**INITIAL, **INVARIANTS}

@@ -14,6 +14,7 @@ from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
 from proofs.scripts import START
 from proofs.transitions import event_types
 
+
 @dataclass(frozen=True)
 class Way:
     """One way that a transition changes the state: its condition, what it defines, the state after."""
@@ -93,8 +94,8 @@ class Workbench:
                 if after is self.before:
                     continue
                 if self.named:
-                    after, definitions = self.scope.name(after, "post", relative_to=self.before)
-                    found.append(Way(condition, [named.formula for named in definitions], after))
+                    state, definitions = self.scope.name(after, "post", relative_to=self.before)
+                    found.append(Way(condition, [named.formula for named in definitions], state))
                 else:
                     found.append(Way(condition, [], after))
             self._ways[transition] = found
@@ -136,4 +137,3 @@ class Workbench:
             for way in self.ways(transition)
             for goal in self.claim(way.after, invariant)
         ]
-

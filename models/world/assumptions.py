@@ -63,8 +63,8 @@ def a_pair_read_in_order_proves_the_exit(
     """Both tags of a boundary read in order by one antenna: its car, and all ahead of it, have left the block.
 
     A tag lies at least rear overhang, read window and error beyond the boundary, and cars keep
-    their order.  Reads of two antennas prove nothing together.  Only genuine records are bound by this: a foreign, copied or corrupted tag may
-    be read anywhere.
+    their order.  Reads of two antennas prove nothing together.  Only genuine records are bound by
+    this: a foreign, copied or corrupted tag may be read anywhere.
     """
     if site.records.record.get(before.tag) != before.record or site.records.record.get(read.tag) != read.record:
         return True
@@ -131,11 +131,7 @@ def stands_exactly(site: Site, system: System, train: Train, blocks: frozenset[B
             for block in system.track.at[car]
         )
         and all(
-            any(
-                block in system.track.at[car]
-                for car in system.track.at
-                if site.formation.train_of.get(car) == train
-            )
+            any(block in system.track.at[car] for car in system.track.at if site.formation.train_of.get(car) == train)
             for block in blocks
         )
         and all(run.train != train for run in system.track.rolling)

@@ -17,9 +17,7 @@ def with_terminal(system: System, point: Point, terminal: Terminal) -> System:
     return replace(system, terminals=system.terminals | {point: terminal})
 
 
-def obey_order(
-    site: Site, system: System, run: Run, point: Point, life: TerminalLife, detected: Position
-) -> System:
+def obey_order(site: Site, system: System, run: Run, point: Point, life: TerminalLife, detected: Position) -> System:
     """An order arrives from a train; its position is the one the route needs (T10)."""
     if (run, point, life) not in system.radio.relayed_orders or point not in system.terminals:
         return system

@@ -32,9 +32,7 @@ def overrun(site: Site, system: System, run: Run) -> System:
         return system
     return replace(
         system,
-        track=replace(
-            system.track, rolling=system.track.rolling | {run}, slipping=system.track.slipping | {run}
-        ),
+        track=replace(system.track, rolling=system.track.rolling | {run}, slipping=system.track.slipping | {run}),
     )
 
 
@@ -103,9 +101,7 @@ def car_leaves(site: Site, system: System, car: Car, block: Block) -> System:
         return system
     return replace(
         system,
-        track=replace(
-            system.track, at=system.track.at | {car: system.track.at.get(car, frozenset()) - {block}}
-        ),
+        track=replace(system.track, at=system.track.at | {car: system.track.at.get(car, frozenset()) - {block}}),
     )
 
 
@@ -123,9 +119,7 @@ def take_over(
     return replace(
         system,
         units=system.units | {train: restarted_unit(system.units[train], life)},
-        radio=replace(
-            system.radio, statements=system.radio.statements | {(train, life, epoch): blocks}
-        ),
+        radio=replace(system.radio, statements=system.radio.statements | {(train, life, epoch): blocks}),
     )
 
 

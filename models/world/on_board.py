@@ -57,9 +57,7 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
     """The head antenna reads something, anywhere: right, foreign, repeated, early or late (T5)."""
     if train not in system.units:
         return system
-    return with_unit(
-        system, train, second_loop.note_head_read(site.layout, system.units[train], cab, tag, in_window)
-    )
+    return with_unit(system, train, second_loop.note_head_read(site.layout, system.units[train], cab, tag, in_window))
 
 
 def window_passes(site: Site, system: System, train: Train) -> System:
@@ -99,9 +97,7 @@ def note_stopped(site: Site, system: System, run: Run, within_destination: bool)
         return system
     if not a_train_within_its_destination_is_not_beyond(site, system, run, within_destination):
         return system
-    return with_unit(
-        system, run.train, authority.note_stopped(system.units[run.train], run, within_destination)
-    )
+    return with_unit(system, run.train, authority.note_stopped(system.units[run.train], run, within_destination))
 
 
 def answer(
@@ -119,9 +115,7 @@ def answer(
         return system
     if not a_located_train_stands_where_it_says(site, system, train, blocks, at_rest, healthy):
         return system
-    return with_unit(
-        system, train, standing.answer(system.units[train], epoch, life, blocks, at_rest, healthy)
-    )
+    return with_unit(system, train, standing.answer(system.units[train], epoch, life, blocks, at_rest, healthy))
 
 
 def restart_unit(site: Site, system: System, train: Train, life: UnitLife) -> System:

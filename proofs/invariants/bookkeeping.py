@@ -8,7 +8,7 @@ from proofs.invariants.vocabulary import at_stage
 
 
 def every_run_is_counted(site: Site, system: System) -> bool:
-    """No run is known anywhere that is newer than the newest serial the centre has granted."""
+    """No run is known anywhere that is newer than the newest serial the centre has granted (T10)."""
     newest = system.centre.newest
     return (
         all(run.serial <= newest for run in system.centre.runs)
@@ -19,17 +19,14 @@ def every_run_is_counted(site: Site, system: System) -> bool:
         and all(run.serial <= newest for run, _block in system.track.behind)
         and all(run.serial <= newest for run, _point, _position in system.radio.confirmed)
         and all(
-            terminal.holds is None or terminal.holds.serial <= newest
-            for _point, terminal in system.terminals.items()
+            terminal.holds is None or terminal.holds.serial <= newest for _point, terminal in system.terminals.items()
         )
-        and all(
-            run.serial <= newest for car in system.track.under for _block, run in system.track.under[car].items()
-        )
+        and all(run.serial <= newest for car in system.track.under for _block, run in system.track.under[car].items())
     )
 
 
 def a_holder_is_an_open_run(site: Site, system: System) -> bool:
-    """Blocks and points are held only for runs that the centre knows and that are not over."""
+    """Blocks and points are held only for runs that the centre knows and that are not over (T8)."""
     return all(
         run in system.centre.runs and not at_stage(system, run, Stage.OVER)
         for block in system.centre.claimed
@@ -42,7 +39,7 @@ def a_holder_is_an_open_run(site: Site, system: System) -> bool:
 
 
 def a_run_stands_or_has_a_route(site: Site, system: System) -> bool:
-    """A run of a route never stands for a train at rest, and the other way round."""
+    """A run of a route never stands for a train at rest, and the other way round (T8)."""
     return all(
         (run.route in site.layout.routes or grant.stage == Stage.STANDING or grant.stage == Stage.OVER)
         and (run.route not in site.layout.routes or grant.stage != Stage.STANDING)
@@ -51,7 +48,7 @@ def a_run_stands_or_has_a_route(site: Site, system: System) -> bool:
 
 
 def an_open_run_is_of_the_accounted_life(site: Site, system: System) -> bool:
-    """A run that is not over was granted to the life in which its train was last accounted for."""
+    """A run that is not over was granted to the life in which its train was last accounted for (T8)."""
     return all(
         grant.stage == Stage.OVER or system.centre.accounted.get(run.train) == run.life
         for run, grant in system.centre.runs.items()
@@ -59,25 +56,29 @@ def an_open_run_is_of_the_accounted_life(site: Site, system: System) -> bool:
 
 
 def an_open_run_holds_its_blocks(site: Site, system: System) -> bool:
-    """Until it is set a run holds every block of its route; a run of a route holds no other."""
-    return all(
-        run in system.centre.claimed.get(block, frozenset())
-        for run, grant in system.centre.runs.items()
-        if grant.stage == Stage.RESERVED or grant.stage == Stage.OFFERED
-        for block in site.layout.claims[run.route]
-    ) and all(
-        grant.stage != Stage.RESERVED and grant.stage != Stage.OFFERED
-        for run, grant in system.centre.runs.items()
-        for block in grant.ended
-    ) and all(
-        run.route not in site.layout.routes or block in site.layout.claims[run.route]
-        for block in system.centre.claimed
-        for run in system.centre.claimed[block]
+    """Until it is set a run holds every block of its route; a run of a route holds no other (T4)."""
+    return (
+        all(
+            run in system.centre.claimed.get(block, frozenset())
+            for run, grant in system.centre.runs.items()
+            if grant.stage == Stage.RESERVED or grant.stage == Stage.OFFERED
+            for block in site.layout.claims[run.route]
+        )
+        and all(
+            grant.stage != Stage.RESERVED and grant.stage != Stage.OFFERED
+            for run, grant in system.centre.runs.items()
+            for block in grant.ended
+        )
+        and all(
+            run.route not in site.layout.routes or block in site.layout.claims[run.route]
+            for block in system.centre.claimed
+            for run in system.centre.claimed[block]
+        )
     )
 
 
 def a_held_block_holds_its_points(site: Site, system: System) -> bool:
-    """While a run holds a block it locks every point released with it, as its route needs it, and no other point."""
+    """While a run holds a block it locks, as its route needs, every point released with it, and no other (T7, T10)."""
     return all(
         run in system.centre.locked.get(point, {})
         for block in system.centre.claimed
@@ -97,7 +98,7 @@ def a_held_block_holds_its_points(site: Site, system: System) -> bool:
 
 
 def a_standing_run_locks_only_below_itself(site: Site, system: System) -> bool:
-    """A run that stands locks points only in blocks it holds, and any point there is locked for it or lost."""
+    """A run that stands locks points only in blocks it holds; any point there is locked for it or lost (T8, T10)."""
     return all(
         point in site.layout.points
         and (
@@ -117,7 +118,7 @@ def a_standing_run_locks_only_below_itself(site: Site, system: System) -> bool:
 
 
 def a_train_stands_under_one_run(site: Site, system: System) -> bool:
-    """Of two runs that stand for one train, one is over."""
+    """Of two runs that stand for one train, one is over (T8)."""
     return all(
         run == other or run.train != other.train
         for run, grant in system.centre.runs.items()
@@ -128,12 +129,11 @@ def a_train_stands_under_one_run(site: Site, system: System) -> bool:
 
 
 def while_a_train_is_missing_everything_is_lost(site: Site, system: System) -> bool:
-    """Until every train of the register is accounted for, every block is lost and only standing runs are open."""
+    """Until every train of the register is accounted for, every block is lost and only standing runs are open (T8)."""
     return all(
         all(block in system.centre.lost_blocks for block in site.layout.blocks)
         and all(
-            grant.stage == Stage.STANDING or grant.stage == Stage.OVER
-            for _run, grant in system.centre.runs.items()
+            grant.stage == Stage.STANDING or grant.stage == Stage.OVER for _run, grant in system.centre.runs.items()
         )
         for train in site.layout.fleet
         if train not in system.centre.accounted
@@ -141,7 +141,7 @@ def while_a_train_is_missing_everything_is_lost(site: Site, system: System) -> b
 
 
 def a_lost_block_is_held_for_nobody_else(site: Site, system: System) -> bool:
-    """What is lost is held by nobody but a train that stands there."""
+    """What is lost is held by nobody but a train that stands there (T8)."""
     return all(
         block not in system.centre.lost_blocks or run.route not in site.layout.routes
         for block in system.centre.claimed
@@ -150,7 +150,7 @@ def a_lost_block_is_held_for_nobody_else(site: Site, system: System) -> bool:
 
 
 def a_set_run_has_every_point_proved(site: Site, system: System) -> bool:
-    """A run is offered, and set, only with every point of its route proved."""
+    """A run is offered, and set, only with every point of its route proved (T4, T10)."""
     return all(
         point in grant.proved
         for run, grant in system.centre.runs.items()
@@ -160,7 +160,7 @@ def a_set_run_has_every_point_proved(site: Site, system: System) -> bool:
 
 
 def everybody_known_is_in_the_register(site: Site, system: System) -> bool:
-    """Units are the fleet's, terminals the layout's; accounted trains are of the fleet; cars belong to it."""
+    """Units are the fleet's, terminals the layout's; accounted trains are of the fleet; cars belong to it (T8)."""
     return (
         all(train in system.units for train in site.layout.fleet)
         and all(point in system.terminals for point in site.layout.points)
@@ -171,7 +171,5 @@ def everybody_known_is_in_the_register(site: Site, system: System) -> bool:
             car in site.formation.train_of and site.formation.train_of[car] in site.layout.fleet
             for car in system.track.at
         )
-        and all(
-            block in site.layout.blocks for car in system.track.at for block in system.track.at[car]
-        )
+        and all(block in site.layout.blocks for car in system.track.at for block in system.track.at[car])
     )

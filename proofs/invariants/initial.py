@@ -7,7 +7,7 @@ from proofs.invariants.safety import no_two_trains_in_a_block, no_two_trains_in_
 
 
 def everything_has_just_restarted(site: Site, system: System) -> bool:
-    """The centre knows nothing but its counters, units and terminals hold nothing, the air is empty."""
+    """The centre knows nothing but its counters, units and terminals hold nothing, the air is empty (T8)."""
     return (
         not any(True for _ in system.centre.accounted)
         and not any(True for _ in system.centre.runs)
@@ -27,7 +27,7 @@ def everything_has_just_restarted(site: Site, system: System) -> bool:
 
 
 def nothing_was_ever_sent(site: Site, system: System) -> bool:
-    """The air is empty: nobody has sent anything in the lives that have begun."""
+    """The air is empty: nobody has sent anything in the lives that have begun (T8)."""
     radio = system.radio
     return (
         not any(True for _ in radio.orders)
@@ -53,7 +53,7 @@ def nothing_was_ever_sent(site: Site, system: System) -> bool:
 
 
 def trains_stand_apart_on_locked_points(site: Site, system: System) -> bool:
-    """Trains stand anywhere, no two in one block or in fouling blocks, none on an unlocked point."""
+    """Trains stand anywhere, no two in one block or in fouling blocks, none on an unlocked point (T8)."""
     return (
         no_two_trains_in_a_block(site, system)
         and no_two_trains_in_fouling_blocks(site, system)

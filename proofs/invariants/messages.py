@@ -8,11 +8,10 @@ from proofs.invariants.vocabulary import at_stage
 
 
 def a_message_follows_its_stage(site: Site, system: System) -> bool:
-    """Lists go out after the points are proved, permits after the echo; a standing run is never offered."""
+    """Lists go out after the points are proved, permits after the echo; a standing run is never offered (T4)."""
     return (
         all(
-            run.route in site.layout.routes and not at_stage(system, run, Stage.RESERVED)
-            for run in system.radio.offers
+            run.route in site.layout.routes and not at_stage(system, run, Stage.RESERVED) for run in system.radio.offers
         )
         and all(
             run.route in site.layout.routes
@@ -30,7 +29,7 @@ def a_message_follows_its_stage(site: Site, system: System) -> bool:
 
 
 def an_answer_follows_its_question(site: Site, system: System) -> bool:
-    """Echo after list, permit after echo, acknowledgement after echo; relays pass on only what was sent."""
+    """Echo after list, permit after echo, acknowledgement after echo; relays pass on only what was sent (T4, T10)."""
     return (
         all(run in system.radio.offers or run in system.radio.standing_runs for run in system.radio.echoes)
         and all(run in system.radio.offers and run in system.radio.echoes for run in system.radio.permits)
@@ -43,7 +42,7 @@ def an_answer_follows_its_question(site: Site, system: System) -> bool:
 
 
 def a_set_run_was_offered(site: Site, system: System) -> bool:
-    """A run is set only after its list was sent and echoed."""
+    """A run is set only after its list was sent and echoed (T4)."""
     return all(
         grant.stage != Stage.SET or (run in system.radio.offers and run in system.radio.echoes)
         for run, grant in system.centre.runs.items()
@@ -51,7 +50,7 @@ def a_set_run_was_offered(site: Site, system: System) -> bool:
 
 
 def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
-    """A unit's orders are of its own train and life, were offered to it, and are permitted only by permit."""
+    """A unit's orders are of its own train and life, were offered to it, and are permitted only by permit (T4)."""
     return all(
         run.train == train
         and run.life == system.units[train].life
@@ -64,23 +63,18 @@ def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
 
 
 def no_life_is_named_before_it_begins(site: Site, system: System) -> bool:
-    """Every life in the books or in the air has begun."""
+    """Every life in the books or in the air has begun (T8)."""
     return (
-        all(
-            run.train in system.units and run.life <= system.units[run.train].life
-            for run in system.radio.offers
-        )
+        all(run.train in system.units and run.life <= system.units[run.train].life for run in system.radio.offers)
         and all(
-            run.train in system.units and run.life <= system.units[run.train].life
-            for run in system.radio.standing_runs
+            run.train in system.units and run.life <= system.units[run.train].life for run in system.radio.standing_runs
         )
         and all(
             train in system.units and system.centre.accounted[train] <= system.units[train].life
             for train in system.centre.accounted
         )
         and all(
-            train in system.units and life <= system.units[train].life
-            for train, life, _epoch in system.radio.standings
+            train in system.units and life <= system.units[train].life for train, life, _epoch in system.radio.standings
         )
         and all(
             train in system.units and life <= system.units[train].life
@@ -103,19 +97,17 @@ def no_life_is_named_before_it_begins(site: Site, system: System) -> bool:
 
 
 def no_epoch_is_named_before_it_begins(site: Site, system: System) -> bool:
-    """Every epoch in the air has begun."""
+    """Every epoch in the air has begun (T8)."""
     return (
         all(epoch <= system.centre.epoch for epoch in system.radio.challenges)
         and all(epoch <= system.centre.epoch for _train, _life, epoch in system.radio.standings)
         and all(epoch <= system.centre.epoch for _train, _life, epoch in system.radio.statements)
-        and all(
-            unit.answered is None or unit.answered <= system.centre.epoch for _train, unit in system.units.items()
-        )
+        and all(unit.answered is None or unit.answered <= system.centre.epoch for _train, unit in system.units.items())
     )
 
 
 def what_is_given_back_is_not_entered(site: Site, system: System) -> bool:
-    """Once a unit has given a run back no car has moved under it, it does not roll under it, and never will."""
+    """Once a unit has given a run back no car has moved under it, it does not roll under it, and never will (T9)."""
     return all(
         not order.given_back
         or run not in system.radio.offers
@@ -135,15 +127,14 @@ def what_is_given_back_is_not_entered(site: Site, system: System) -> bool:
 
 
 def what_has_stopped_does_not_slip(site: Site, system: System) -> bool:
-    """Once a train has told that it stopped it has not come into the overlap under this run, and never will."""
+    """Once a train has told that it stopped it has not come into the overlap under this run, and never will (T9)."""
     return all(
         not order.stopped
         or run not in system.radio.offers
         or (
             run not in system.track.slipping
             and all(
-                block not in site.layout.overlap[run.route]
-                or block not in system.track.at.get(car, frozenset())
+                block not in site.layout.overlap[run.route] or block not in system.track.at.get(car, frozenset())
                 for car in system.track.under
                 for block, other in system.track.under[car].items()
                 if other == run
@@ -165,13 +156,4 @@ def what_has_stopped_does_not_slip(site: Site, system: System) -> bool:
             or (run in system.units[run.train].orders and system.units[run.train].orders[run].stopped)
         )
         for run in system.radio.stops
-    )
-
-
-def a_unit_answers_for_its_own_life(site: Site, system: System) -> bool:
-    """A unit that has answered a challenge still says what it answered, and any earlier life's word is its own."""
-    return all(
-        system.radio.standings.get((train, life, epoch), frozenset()) == system.units[train].standing_in
-        for train, life, epoch in system.radio.standings
-        if train in system.units and life == system.units[train].life and epoch == system.units[train].answered
     )

@@ -9,7 +9,7 @@ from proofs.invariants.vocabulary import genuine, reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
-    """Runs that a train rolls, slips or has moved under were permitted."""
+    """Runs that a train rolls, slips or has moved under were permitted (T4)."""
     return (
         all(run in system.radio.permits for run in system.track.rolling)
         and all(run in system.track.rolling for run in system.track.slipping)
@@ -18,7 +18,7 @@ def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
 
 
 def a_car_came_under_a_run_of_its_train(site: Site, system: System) -> bool:
-    """A car in a block came there under a run of its own train: into a block beyond the start, or standing there."""
+    """A car came into its block under a run of its train: beyond the start of it, or standing there (T4)."""
     return all(
         run.train == site.formation.train_of.get(car)
         and (
@@ -35,7 +35,7 @@ def a_car_came_under_a_run_of_its_train(site: Site, system: System) -> bool:
 
 
 def a_reachable_block_is_held(site: Site, system: System) -> bool:
-    """Where an accounted train can be led, the centre holds the block for that run."""
+    """Where an accounted train can be led, the centre holds the block for that run (T4)."""
     return all(
         run in system.centre.claimed.get(block, frozenset())
         for run in system.radio.permits
@@ -46,7 +46,7 @@ def a_reachable_block_is_held(site: Site, system: System) -> bool:
 
 
 def reach_is_exclusive(site: Site, system: System) -> bool:
-    """No block can be reached by two trains, and none that can be reached holds a car of another."""
+    """No block can be reached by two trains, and none that can be reached holds a car of another (T9)."""
     return all(
         not reaches(site, system, other, block) or run.train == other.train
         for run in system.radio.permits
@@ -65,7 +65,7 @@ def reach_is_exclusive(site: Site, system: System) -> bool:
 
 
 def reach_is_clear_of_fouling(site: Site, system: System) -> bool:
-    """Neither can blocks that foul each other be reached by two trains, or hold another's car."""
+    """Neither can blocks that foul each other be reached by two trains, or hold another's car (T9)."""
     return all(
         not reaches(site, system, other, beside) or run.train == other.train
         for run in system.radio.permits
@@ -86,7 +86,7 @@ def reach_is_clear_of_fouling(site: Site, system: System) -> bool:
 
 
 def a_held_block_is_closed_to_others(site: Site, system: System) -> bool:
-    """What the centre holds for a train, nobody else can be led into, or is in."""
+    """What the centre holds for a train, nobody else can be led into, or is in (T9)."""
     return all(
         not reaches(site, system, other, block) or run.train == other.train
         for block in system.centre.claimed
@@ -101,7 +101,7 @@ def a_held_block_is_closed_to_others(site: Site, system: System) -> bool:
 
 
 def a_held_block_is_clear_of_fouling(site: Site, system: System) -> bool:
-    """The same for the blocks that foul it."""
+    """The same for the blocks that foul it (T9)."""
     return all(
         not reaches(site, system, other, beside) or run.train == other.train
         for block in system.centre.claimed
@@ -118,7 +118,7 @@ def a_held_block_is_clear_of_fouling(site: Site, system: System) -> bool:
 
 
 def a_reported_block_is_left_by_all_cars(site: Site, system: System) -> bool:
-    """Where the tail has read the genuine pair of a block, no car is that came there under this run."""
+    """Where the tail has read the genuine pair of a block, no car is that came there under this run (T2, T6)."""
     return all(
         not genuine(site, block, left, entered)
         or block not in system.track.at.get(car, frozenset())
@@ -137,7 +137,7 @@ def a_reported_block_is_left_by_all_cars(site: Site, system: System) -> bool:
 
 
 def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
-    """In one life a unit forgets no block its tail has left, and what it has left or reported is behind it."""
+    """In one life a unit forgets no block its tail has left, and what it has left or reported is behind it (T2, T7)."""
     return (
         all(
             run.train in system.units
@@ -162,7 +162,7 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
 
 
 def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
-    """While the word of a standing train is in the air, no run was offered to that life and none rolls."""
+    """While the word of a standing train is in the air, no run was offered to that life and none rolls (T8)."""
     return all(
         (train in system.units and life <= system.units[train].life)
         and all(run.train != train or run.life < life for run in system.radio.offers)
@@ -179,7 +179,7 @@ def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
 
 
 def a_train_that_told_stands_there(site: Site, system: System) -> bool:
-    """While the word of a standing train is in the air, it stands exactly there."""
+    """While the word of a standing train is in the air, it stands exactly there (T8)."""
     return all(
         stands_exactly(site, system, train, blocks)
         for (train, life, epoch), blocks in system.radio.standings.items()
@@ -193,7 +193,7 @@ def a_train_that_told_stands_there(site: Site, system: System) -> bool:
 
 
 def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
-    """A unit that answered this epoch, and has not been taken at its word, stands exactly there, offered nothing."""
+    """A unit that answered this epoch and was not yet taken at its word stands exactly there, offered nothing (T8)."""
     return all(
         unit.answered != system.centre.epoch
         or (train in system.centre.accounted and unit.life <= system.centre.accounted[train])
@@ -206,7 +206,7 @@ def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
 
 
 def a_unit_taken_over_was_offered_nothing(site: Site, system: System) -> bool:
-    """A life that began with a statement in this epoch was offered nothing before the centre accounted for it."""
+    """A life that began with a statement in this epoch was offered nothing before the centre accounted for it (T8)."""
     return all(
         epoch != system.centre.epoch
         or (train in system.centre.accounted and life <= system.centre.accounted[train])
@@ -216,7 +216,7 @@ def a_unit_taken_over_was_offered_nothing(site: Site, system: System) -> bool:
 
 
 def the_first_statement_noted_is_the_one_in_the_air(site: Site, system: System) -> bool:
-    """What the centre noted of a supervised train is what the first person stated in that life and epoch."""
+    """What the centre noted of a supervised train is what the first person stated in that life and epoch (T8)."""
     return all(
         (train, said.life, system.centre.epoch) in system.radio.statements
         and system.radio.statements[train, said.life, system.centre.epoch] == said.blocks
@@ -225,7 +225,7 @@ def the_first_statement_noted_is_the_one_in_the_air(site: Site, system: System) 
 
 
 def an_unset_run_has_not_been_entered(site: Site, system: System) -> bool:
-    """No train rolls or has moved under a run that is not yet set."""
+    """No train rolls or has moved under a run that is not yet set (T4)."""
     return all(
         (grant.stage != Stage.RESERVED and grant.stage != Stage.OFFERED)
         or (run not in system.radio.permits and run not in system.track.run_into)

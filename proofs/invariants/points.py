@@ -8,7 +8,7 @@ from proofs.invariants.vocabulary import at_stage, frozen, frozen_at, reaches
 
 
 def a_locked_point_lies_as_wanted(site: Site, system: System) -> bool:
-    """A terminal that holds its point for a route locks it only in the position of that route."""
+    """A terminal that holds its point for a route locks it only in the position of that route (T10)."""
     return all(
         (
             terminal.holds is None
@@ -31,7 +31,7 @@ def a_locked_point_lies_as_wanted(site: Site, system: System) -> bool:
 
 
 def locks_agree(site: Site, system: System) -> bool:
-    """All runs that lock a point want it alike, and so does every order for it that is not older than they are."""
+    """All runs that lock a point want it alike, and so does every order for it not older than they are (T9, T10)."""
     return all(
         lies == wanted
         for point in system.centre.locked
@@ -46,7 +46,7 @@ def locks_agree(site: Site, system: System) -> bool:
 
 
 def no_newer_order_for_a_lost_point_below(site: Site, system: System) -> bool:
-    """For a lost point under a train that stands, no lock, and no order in the air, is newer than the standing run."""
+    """For a lost point under a train that stands, no lock and no order in the air is newer than its run (T10)."""
     return all(
         all(run.serial < holder.serial for run in system.centre.locked.get(point, {}))
         for block in system.centre.claimed
@@ -66,13 +66,10 @@ def no_newer_order_for_a_lost_point_below(site: Site, system: System) -> bool:
 
 
 def a_lost_point_below_is_frozen(site: Site, system: System) -> bool:
-    """A lost point under a train that stands is frozen, and every lock on it agrees with how it lies."""
+    """A lost point under a train that stands is frozen, and every lock on it agrees with how it lies (T8, T10)."""
     return all(
         frozen(site, system, point)
-        and all(
-            lies == system.track.lies.get(point)
-            for _run, lies in system.centre.locked.get(point, {}).items()
-        )
+        and all(lies == system.track.lies.get(point) for _run, lies in system.centre.locked.get(point, {}).items())
         for block in system.centre.claimed
         for holder in system.centre.claimed[block]
         if holder.route not in site.layout.routes
@@ -82,7 +79,7 @@ def a_lost_point_below_is_frozen(site: Site, system: System) -> bool:
 
 
 def a_proved_point_stays(site: Site, system: System) -> bool:
-    """A point locked for a run and proved for it, or adopted by it, is frozen as that run wants it."""
+    """A point locked for a run and proved for it, or adopted by it, is frozen as that run wants it (T10)."""
     return all(
         frozen_at(site, system, point, lies)
         for point in system.centre.locked
@@ -93,10 +90,9 @@ def a_proved_point_stays(site: Site, system: System) -> bool:
 
 
 def a_confirmed_point_stays(site: Site, system: System) -> bool:
-    """A confirmation in the air is true while the run locks the point, or stands over it with the point lost."""
+    """A confirmation in the air is true while the run locks the point, or stands over it with the point lost (T10)."""
     return all(
-        frozen_at(site, system, point, position)
-        and system.centre.locked.get(point, {}).get(run, position) == position
+        frozen_at(site, system, point, position) and system.centre.locked.get(point, {}).get(run, position) == position
         for run, point, position in system.radio.confirmed
         if run in system.centre.locked.get(point, {})
         or (
@@ -109,7 +105,7 @@ def a_confirmed_point_stays(site: Site, system: System) -> bool:
 
 
 def a_reachable_point_is_frozen(site: Site, system: System) -> bool:
-    """Where a train can be led, every point released with that block is frozen as the route needs it."""
+    """Where a train can be led, every point released with that block is frozen as the route needs it (T10)."""
     return all(
         frozen_at(site, system, point, site.layout.needs[run.route][point])
         for run in system.radio.permits
@@ -120,13 +116,10 @@ def a_reachable_point_is_frozen(site: Site, system: System) -> bool:
 
 
 def a_point_under_a_train_is_frozen(site: Site, system: System) -> bool:
-    """A point in a block that a car is in is frozen, and every lock on it agrees with how it lies."""
+    """A point in a block that a car is in is frozen, and every lock on it agrees with how it lies (T10)."""
     return all(
         frozen(site, system, point)
-        and all(
-            lies == system.track.lies.get(point)
-            for _run, lies in system.centre.locked.get(point, {}).items()
-        )
+        and all(lies == system.track.lies.get(point) for _run, lies in system.centre.locked.get(point, {}).items())
         for car in system.track.at
         for block in system.track.at[car]
         for point in site.layout.points_in.get(block, frozenset())

@@ -9,7 +9,7 @@ from proofs.invariants.vocabulary import genuine, reaches
 
 
 def no_two_trains_in_a_block(site: Site, system: System) -> bool:
-    """Cars in one block belong to one train."""
+    """Cars in one block belong to one train (T4, T9)."""
     return all(
         site.formation.train_of.get(car) == site.formation.train_of.get(other)
         for car in system.track.at
@@ -20,7 +20,7 @@ def no_two_trains_in_a_block(site: Site, system: System) -> bool:
 
 
 def no_two_trains_in_fouling_blocks(site: Site, system: System) -> bool:
-    """Cars in blocks that foul each other belong to one train."""
+    """Cars in blocks that foul each other belong to one train (T9)."""
     return all(
         site.formation.train_of.get(car) == site.formation.train_of.get(other)
         for car in system.track.at
@@ -32,7 +32,7 @@ def no_two_trains_in_fouling_blocks(site: Site, system: System) -> bool:
 
 
 def physical_occupancy_is_recorded(site: Site, system: System) -> bool:
-    """Where a car is, the centre holds the block: for the run it came under, or as lost."""
+    """Where a car is, the centre holds the block: for the run it came under, or as lost (T2, T8)."""
     return all(
         any(
             holder == system.track.under.get(car, {}).get(block)
@@ -46,7 +46,7 @@ def physical_occupancy_is_recorded(site: Site, system: System) -> bool:
 
 
 def no_conflicting_routes(site: Site, system: System) -> bool:
-    """Blocks, and blocks that foul each other, are held for one train."""
+    """Blocks, and blocks that foul each other, are held for one train (T9)."""
     return all(
         run.train == other.train
         for block in system.centre.claimed
@@ -62,7 +62,7 @@ def no_conflicting_routes(site: Site, system: System) -> bool:
 
 
 def points_lie_for_the_set_route(site: Site, system: System) -> bool:
-    """Where a train can be led, every point released with that block lies as needed and is locked."""
+    """Where a train can be led, every point released with that block lies as needed and is locked (T9, T10)."""
     return all(
         point in system.terminals
         and not system.terminals[point].unlocked
@@ -75,7 +75,7 @@ def points_lie_for_the_set_route(site: Site, system: System) -> bool:
 
 
 def no_point_moves_under_a_train(site: Site, system: System) -> bool:
-    """A point in a block that a car is in is locked."""
+    """A point in a block that a car is in is locked (T10)."""
     return all(
         point in system.terminals and not system.terminals[point].unlocked
         for car in system.track.at
@@ -85,7 +85,7 @@ def no_point_moves_under_a_train(site: Site, system: System) -> bool:
 
 
 def no_open_flank(site: Site, system: System) -> bool:
-    """Into a block that a train can be led into, no track is open from outside but under authority."""
+    """Into a block that a train can be led into, no track is open from outside but under authority (T9)."""
     return all(
         not track_is_open(site, system, beside, block)
         for run in system.radio.permits
@@ -99,12 +99,12 @@ def no_open_flank(site: Site, system: System) -> bool:
 
 
 def entry_only_after_first_loop(site: Site, system: System) -> bool:
-    """No car has moved under a run whose list was not echoed and whose permit was not sent after that."""
+    """No car has moved under a run whose list was not echoed and whose permit was not sent after that (T4)."""
     return all(run in system.radio.permits and run in system.radio.echoes for run in system.track.run_into)
 
 
 def released_only_on_third_loop_evidence(site: Site, system: System) -> bool:
-    """A claim that ended by tail evidence ended on a report of this run with the records of this block's tags."""
+    """A claim ended by tail evidence ended on a report of this run, with the records of this block's tags (T6, T7)."""
     return all(
         any(
             other == run and place == block and genuine(site, block, left, entered)
@@ -117,7 +117,7 @@ def released_only_on_third_loop_evidence(site: Site, system: System) -> bool:
 
 
 def every_other_release_has_its_reason(site: Site, system: System) -> bool:
-    """Standstill, acknowledgement, silence of the first loop, or a new word where the train stands: each was there."""
+    """Standstill, acknowledgement, an offer never made, or a new word where the train is: each was there (T8, T9)."""
     return all(
         (cause != Cause.STANDSTILL or (run in system.radio.stops and block in site.layout.overlap[run.route]))
         and (cause != Cause.CANCELLED or run in system.radio.returns)
@@ -133,7 +133,7 @@ def every_other_release_has_its_reason(site: Site, system: System) -> bool:
 
 
 def a_claim_ends_by_one_cause(site: Site, system: System) -> bool:
-    """A claimed block of a route is held, or its end has a cause; never both."""
+    """A claimed block of a route is held, or its end has a cause; never both (T8)."""
     return all(
         (run in system.centre.claimed.get(block, frozenset())) != (block in grant.ended)
         for run, grant in system.centre.runs.items()

@@ -35,8 +35,7 @@ def reaches(site: Site, system: System, run: Run, block: Block) -> bool:
                 and (could_proceed(system, run) or run in system.track.rolling)
             )
             or (
-                block in site.layout.overlap[run.route]
-                and (could_overrun(system, run) or run in system.track.slipping)
+                block in site.layout.overlap[run.route] and (could_overrun(system, run) or run in system.track.slipping)
             )
         )
     )

@@ -87,7 +87,7 @@ def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     layout, cab = scenario.site.layout, head_cab(scenario, run)
     orders: dict[Run, dict[str, Any]] = {}
     for other, known in scenario.system.units[run.train].orders.items():
-        if known.permitted and known.expected == tag:
+        if known.permitted and not known.given_back and known.expected == tag:
             orders[other] = {"expected": layout.tag_after[other.route].get(tag)}
             if tag != layout.first_tag[other.route]:
                 orders[other]["begun"] = True

@@ -1,0 +1,175 @@
+"""Pages that are written from the sources: ``python -m proofs.pages`` writes all of them anew."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields
+from pathlib import Path
+
+from kernel import persistence
+from kernel.centre import Centre
+from kernel.persistence import Memory
+from kernel.terminal import Terminal
+from kernel.unit import Unit
+from models.world import at_a_point, at_the_centre, nature, on_board, radio
+from proofs import assumptions
+from proofs.catalogue import STEPS
+from proofs.lints import requirements_in
+from proofs.transitions import event_types
+from proofs.usage import claims
+
+ROOT = assumptions.ROOT
+DOCS = ROOT / "docs"
+WHY = ROOT / "models" / "world" / "transitions.toml"
+PLACES = (at_the_centre, on_board, at_a_point, radio, nature)
+"""The modules of the world's transitions, in the order of the page."""
+
+WRITTEN = "Written by `python -m proofs.pages` from"
+
+
+# ---- what survives which restart
+
+
+def described(state: type) -> Mapping[str, str]:
+    """Give what a state's docstring says of each field; names that share a sentence share it here."""
+    text = " ".join((state.__doc__ or "").split())
+    found: dict[str, str] = {}
+    for names, words in re.findall(r"((?:``\w+``(?:, )?)+): (.*?)(?=\s``\w+``(?:, ``\w+``)*: |$)", text):
+        for name in re.findall(r"\w+", names):
+            found[name] = words
+    return found
+
+
+def persistence_page() -> str:
+    """Give the page on the persistence table."""
+    lines = [
+        "# What survives which restart",
+        "",
+        f"{WRITTEN} `kernel/persistence.py`; do not edit.",
+        "",
+        (
+            "The restart functions of `kernel/restarts.py` are written from the same table by"
+            " `python -m proofs.restarts`, and the proof runs over them (T8)."
+        ),
+    ]
+    for title, state, table, about in (
+        ("The centre", Centre, persistence.CENTRE, "Nothing but two counters survives; every block and point is lost."),
+        ("The on-board unit", Unit, persistence.UNIT, "Without orders it has no authority, so it stands."),
+        ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
+    ):
+        said = described(state)
+        lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]
+        for field in fields(state):
+            memory, value = table[field.name]
+            kept = memory.value if memory is not Memory.LOST else f"{memory.value}: `{value}`"
+            lines.append(f"| `{field.name}` | {plain(said.get(field.name, ''))} | {kept} |")
+    return "\n".join([*lines, ""])
+
+
+def plain(text: str) -> str:
+    """Give a docstring as Markdown."""
+    return text.replace("``", "`").replace("|", "\\|")
+
+
+# ---- what the world does
+
+
+def world_page() -> str:
+    """Give the page on the world's transitions."""
+    why: Mapping[str, Mapping[str, str]] = tomllib.loads(WHY.read_text("utf-8"))
+    lines = [
+        "# The world of the proof",
+        "",
+        f"{WRITTEN} the docstrings of `models/world/` and `models/world/transitions.toml`; do not edit.",
+        "",
+        (
+            "The proof is about a system that does nothing but these steps, in any order, any number of times, with any"
+            " values. So each must be said to be all that can happen there. A named assumption, in"
+            " [assumptions](assumptions.md), stands behind each thing that nature is trusted not to do."
+        ),
+    ]
+    for place in PLACES:
+        name = place.__name__.rsplit(".", 1)[-1]
+        steps = {step: function for step, function in STEPS.items() if function.__module__ == place.__name__}
+        lines += ["", f"## {name}", "", plain(inspect.getdoc(place) or ""), "", why[name]["about"]]
+        for step, function in steps.items():
+            event = ", ".join(event_types(function))
+            lines += [
+                "",
+                f"### {step}({event})",
+                "",
+                " ".join(plain(inspect.getdoc(function) or "").split()),
+                "",
+                f"*Why no more:* {why[name][step]}",
+            ]
+            asked = [one for one in assumptions.predicates()["world"] if step in assumptions.asking(one)]
+            if asked:
+                lines += ["", "Assumed: " + ", ".join(f"`{one}`" for one in asked) + "."]
+    return "\n".join([*lines, ""])
+
+
+# ---- from requirement to proof
+
+
+def functions_of(folder: str) -> Mapping[str, Iterable[str]]:
+    """Give the requirements that each public function of a folder names, by ``file.function``."""
+    found = {}
+    for path in sorted((ROOT / folder).glob("*.py")):
+        for node in ast.parse(path.read_text("utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                found[f"{path.stem}.{node.name}"] = requirements_in(ast.get_docstring(node))
+    return found
+
+
+def trace() -> Mapping[str, Mapping[str, list[str]]]:
+    """Give, for each requirement that is named at all, what names it: kernel, world, invariants."""
+    sources: Mapping[str, Mapping[str, Iterable[str]]] = {
+        "kernel functions": functions_of("kernel"),
+        "transitions": {step: requirements_in(inspect.getdoc(function)) for step, function in STEPS.items()},
+        "invariants": {name: requirements_in(inspect.getdoc(claim)) for name, claim in claims().items()},
+    }
+    labels = {label for each in sources.values() for named in each.values() for label in named}
+    return {
+        label: {kind: [name for name, named in each.items() if label in named] for kind, each in sources.items()}
+        for label in sorted(labels, key=lambda label: (label[0] != "T", label[0], int(label[1:])))
+    }
+
+
+def traceability_page() -> str:
+    """Give the page that leads from requirements to code and proof."""
+    lines = [
+        "# From requirement to kernel and proof",
+        "",
+        f"{WRITTEN} the requirement labels in docstrings; do not edit.",
+        "",
+        (
+            "[Requirements](requirements.md) says what each label means, and `heisoku prove --only NAME` proves the row"
+            " or column of that name."
+        ),
+    ]
+    for label, named in trace().items():
+        lines += ["", f"## {label}", ""]
+        lines += [f"- {kind}: {', '.join(f'`{name}`' for name in names)}" for kind, names in named.items() if names]
+    return "\n".join([*lines, ""])
+
+
+PAGES: Mapping[Path, Callable[[], str]] = {
+    assumptions.PAGE: assumptions.page,
+    DOCS / "persistence.md": persistence_page,
+    DOCS / "traceability.md": traceability_page,
+    DOCS / "world.md": world_page,
+}
+
+
+def main() -> None:
+    """Write every page in its place."""
+    for path, page in PAGES.items():
+        path.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,90 @@
+"""The second loop: a wrong, missing, late or early tag takes every authority away (T5)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kernel.authority import may_leave, may_proceed
+from kernel.first_loop import take_offer, take_permit, take_standing
+from kernel.names import Cab, Route, Run, Serial, Tag, UnitLife
+from kernel.second_loop import note_head_read, note_window_passed
+from kernel.unit import Unit
+from tests.world.small_site import T1, P, W, small_site, small_start, tag
+
+LAYOUT = small_site().layout
+STANDING, RUN = Run(Serial(1), T1, UnitLife(1), Route("standing")), Run(Serial(2), T1, UnitLife(1), Route("W-P"))
+OUT, IN = tag("wp", W), tag("wp", P)
+HEAD, OTHER = Cab("head"), Cab("other")
+
+
+def offered() -> Unit:
+    """A unit in W, told under which run it stands, with the list of tags to P."""
+    return take_offer(LAYOUT, take_standing(small_start(small_site()).units[T1], STANDING), RUN)
+
+
+def permitted() -> Unit:
+    """A unit in W, with a permit to P."""
+    unit = take_permit(offered(), RUN)
+    assert may_proceed(unit, RUN)
+    return replace(unit, occupied=frozenset({W}))
+
+
+def reads(unit: Unit, *tags: Tag, cab: Cab = HEAD) -> Unit:
+    for each in tags:
+        unit = note_head_read(LAYOUT, unit, cab, each, True)
+    return unit
+
+
+def test_the_expected_tags_in_order_keep_the_loop_closed_and_begin_the_run() -> None:
+    """And the block entered is occupied, the one left as well until the tail has been there (T2, T5)."""
+    unit = reads(permitted(), OUT)
+    assert may_proceed(unit, RUN)
+    assert not unit.orders[RUN].begun
+    unit = reads(unit, IN)
+    assert may_proceed(unit, RUN)
+    assert unit.orders[RUN].begun
+    assert unit.orders[RUN].expected is None
+    assert unit.occupied == {W, P}
+
+
+@pytest.mark.parametrize("wrong", [(IN,), (OUT, tag("wq", W)), (Tag("foreign"),), (OUT, IN, tag("pe", P))])
+def test_a_wrong_or_missing_tag_opens_the_loop_and_frees_nothing(wrong: tuple[Tag, ...]) -> None:
+    """Left out, of another route, of another line, or beyond the last (T5, T8)."""
+    before = permitted()
+    unit = reads(before, *wrong)
+    assert not may_proceed(unit, RUN)
+    assert not may_leave(LAYOUT, unit, RUN, W)
+    assert unit.occupied >= before.occupied
+
+
+def test_an_early_or_late_tag_opens_the_loop() -> None:
+    """Right, but not within its window of running distance (T5)."""
+    unit = note_head_read(LAYOUT, permitted(), HEAD, OUT, False)
+    assert not may_proceed(unit, RUN)
+
+
+def test_a_tag_that_does_not_come_opens_the_loop() -> None:
+    """By running distance it is overdue (T5)."""
+    assert not may_proceed(note_window_passed(permitted()), RUN)
+
+
+def test_the_same_tag_read_again_at_once_is_one_reading() -> None:
+    """By the same cab; the other cab reads it anew, and it is not expected there (T5)."""
+    assert may_proceed(reads(permitted(), OUT, OUT), RUN)
+    assert not may_proceed(reads(reads(permitted(), OUT), OUT, cab=OTHER), RUN)
+
+
+def test_an_open_loop_stays_open() -> None:
+    """Reading on as if nothing had been does not close it (T5)."""
+    unit = reads(note_window_passed(permitted()), OUT, IN)
+    assert not may_proceed(unit, RUN)
+    assert not may_proceed(take_permit(unit, RUN), RUN)
+    assert not may_proceed(take_offer(LAYOUT, unit, RUN), RUN)
+
+
+def test_nothing_is_expected_before_the_permit() -> None:
+    """The list alone lets nobody pass a tag (T4, T5)."""
+    assert not may_proceed(reads(offered(), OUT), RUN)
+    assert not may_proceed(take_permit(reads(offered(), OUT), RUN), RUN)
