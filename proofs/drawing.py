@@ -18,7 +18,7 @@ from proofs.planted.trace import Trace
 from proofs.sketch import Plan, Sign, in_words, plan, signs
 from proofs.witnesses.changes import GONE, Came, Went, changes
 
-CELL, HEIGHT, GAP = 250, 108, 34
+CELL, HEIGHT, GAP = 250, 124, 34
 """Pixels: a block's width and height, and the room between two."""
 COLUMNS = 34
 """Characters: a block's width on a terminal."""
@@ -307,11 +307,7 @@ def _block_svg(sign: Sign, placed: Plan, colours: Mapping[Train, str]) -> str:
         at = x + CELL - 62 - 62 * index
         parts.append(f'<rect x="{at}" y="{y + 20}" width="56" height="19" rx="3" fill="{colour}"/>')
         parts.append(f'<text x="{at + 28}" y="{y + 34}" text-anchor="middle" style="fill:#fff">{escape(car)}</text>')
-    lines = (["not recovered since the restart"] if sign.lost else []) + (
-        sign.held.split(", ") if sign.held else ["held for nobody"]
-    )
-    lines += list(sign.points)
-    for index, line in enumerate(lines[:4]):
+    for index, line in enumerate(sign.notes[:5]):
         kind = "bad" if "UNLOCKED" in line or (sign.in_danger and line == "held for nobody") else "note"
         parts.append(_text(x + 6, y + 56 + 15 * index, line if len(line) < 44 else line[:43] + "…", kind))
     return "".join(parts)

@@ -20,16 +20,24 @@ class Sign:
     points: tuple[str, ...]
     lost: bool
     in_danger: bool
+    fouls: str
+
+    @property
+    def notes(self) -> list[str]:
+        """What stands below the track."""
+        lost = ["not recovered since the restart"] if self.lost else []
+        fouls = [f"fouls {self.fouls}"] if self.fouls else []
+        return [*lost, *(self.held.split(", ") if self.held else ["held for nobody"]), *self.points, *fouls]
 
     def lines(self) -> list[str]:
         """The sign as text."""
-        lost = ["not recovered since the restart"] if self.lost else []
-        return [str(self.block), self.cars or "empty", self.held or "held for nobody", *lost, *self.points]
+        return [str(self.block), self.cars or "empty", *self.notes]
 
 
 def signs(site: Site, system: System) -> Mapping[Block, Sign]:
-    """A sign for every block of the layout and every block that a car is in."""
-    blocks = {*site.layout.blocks, *(block for _, there in system.track.at.items() for block in there)}
+    """A sign for every block of the layout, and every other that a car is in or that is held."""
+    taken = [block for block in system.centre.claimed if system.centre.claimed[block]]
+    blocks = {*site.layout.blocks, *taken, *(block for _, there in system.track.at.items() for block in there)}
     return {block: _sign(site, system, block) for block in sorted(blocks)}
 
 
@@ -37,7 +45,8 @@ def _sign(site: Site, system: System, block: Block) -> Sign:
     cars = sorted(car for car, there in system.track.at.items() if block in there)
     trains = tuple(sorted({site.formation.train_of[car] for car in cars if car in site.formation.train_of}))
     holders = sorted(system.centre.claimed.get(block, frozenset()))
-    strangers = [run for run in holders if trains and run.train not in trains]
+    beside = sorted(site.layout.fouls.get(block, frozenset()))
+    forgotten = bool(trains) and not holders and block not in system.centre.lost_blocks
     return Sign(
         block,
         ", ".join(f"{car} of {site.formation.train_of.get(car, '?')}" for car in cars),
@@ -45,8 +54,16 @@ def _sign(site: Site, system: System, block: Block) -> Sign:
         ", ".join(f"held for {in_words(run)}" for run in holders),
         tuple(_point(site, system, point) for point in sorted(site.layout.points_in.get(block, frozenset()))),
         block in system.centre.lost_blocks,
-        len(trains) > 1 or bool(strangers) or bool(trains and not holders and block not in system.centre.lost_blocks),
+        forgotten or len(_trains(site, system, {block, *beside})) > 1,
+        ", ".join(beside),
     )
+
+
+def _trains(site: Site, system: System, blocks: set[Block]) -> set[Train]:
+    """The trains that are in some blocks, or for which these are held."""
+    held = {run.train for block in blocks for run in system.centre.claimed.get(block, frozenset())}
+    there = {car for car, places in system.track.at.items() if places & blocks}
+    return held | {site.formation.train_of[car] for car in there if car in site.formation.train_of}
 
 
 def _point(site: Site, system: System, point: Point) -> str:

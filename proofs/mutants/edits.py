@@ -106,7 +106,7 @@ def normal(tree: ast.FunctionDef) -> str:
 
 
 class _WithoutIdleUpdates(ast.NodeTransformer):
-    def visit_Call(self, node: ast.Call) -> ast.AST:  # noqa: N802
+    def visit_Call(self, node: ast.Call) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.func, ast.Name) and node.func.id == "replace":
             record = ast.unparse(node.args[0])
@@ -145,16 +145,15 @@ def operands(place: Place, node: ast.AST) -> Iterator[Edit]:
     """One operand of ``and`` or ``or`` dropped."""
     if isinstance(node, ast.BoolOp):
         word = "and" if isinstance(node.op, ast.And) else "or"
-        for index, operand in enumerate(node.values):
+        for operand in node.values:
             rest = [other for other in node.values if other is not operand]
             instead = rest[0] if len(rest) == 1 else ast.BoolOp(node.op, rest)
-            yield Edit((*place,), f"{word}-operand", ast.unparse(operand), instead)
-            assert index < len(node.values)
+            yield Edit(place, f"{word}-operand", ast.unparse(operand), instead)
 
 
 def conditions(place: Place, node: ast.AST) -> Iterator[Edit]:
     """A condition that a function returns, or that chooses, dropped: as if it always held."""
-    if isinstance(node, ast.Return) and _is_condition(node.value):
+    if isinstance(node, ast.Return) and node.value is not None and _is_condition(node.value):
         yield Edit((*place, ("value", None)), "condition", ast.unparse(node.value), ast.Constant(True))
     if isinstance(node, ast.IfExp):
         yield Edit(place, "choice", f"{ast.unparse(node.test)} (always)", node.body)
@@ -187,9 +186,10 @@ def updates(place: Place, node: ast.AST) -> Iterator[Edit]:
 def unions(place: Place, node: ast.AST) -> Iterator[Edit]:
     """One operand of a union of sets or maps dropped, or what a difference takes away."""
     if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.BitOr, ast.Sub)):
-        yield Edit(place, "union" if isinstance(node.op, ast.BitOr) else "difference", ast.unparse(node.right), node.left)
-        if isinstance(node.op, ast.BitOr):
-            yield Edit(place, "union", ast.unparse(node.left), node.right)
+        kind = "union" if isinstance(node.op, ast.BitOr) else "difference"
+        yield Edit(place, kind, ast.unparse(node.right), node.left)
+        if kind == "union":
+            yield Edit(place, kind, ast.unparse(node.left), node.right)
 
 
 KEEPING = {"Centre": "centre", "Unit": "unit", "Terminal": "terminal"}
@@ -198,7 +198,7 @@ KEEPING = {"Centre": "centre", "Unit": "unit", "Terminal": "terminal"}
 FINDERS = (guards, operands, conditions, filters, updates, unions)
 
 
-def _is_condition(node: ast.expr | None) -> bool:
+def _is_condition(node: ast.expr) -> bool:
     if isinstance(node, (ast.BoolOp, ast.Compare)) or (isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)):
         return True
     return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("any", "all")

@@ -104,9 +104,7 @@ def any_antenna(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy:
     )
 
 
-def tail_over_a_broken_line(
-    layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read
-) -> Unit:
+def tail_over_a_broken_line(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Count the reads of the tail antenna even when the through line does not reach the tail."""
     if antenna != Antenna.TAIL:
         return unit

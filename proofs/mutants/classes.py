@@ -1,0 +1,98 @@
+"""The table of survivors: why each drop that breaks no invariant may, or must not, be made.
+
+Three classes, each of them checked: *implied* (what is dropped follows from the rest, proved on
+every layout), *service* (a named witness fails), *second line* (killed together with another drop).
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from proofs.mutants.edits import Mutant
+from proofs.mutants.onlookers import failures
+from proofs.mutants.sameness import proved, sameness
+from proofs.mutants.targets import mutants, transitions_of
+from proofs.mutants.trial import tried_with
+from proofs.workbench import Workbench
+
+FILE = Path(__file__).with_name("classes.toml")
+
+IMPLIED, SERVICE, SECOND_LINE = "implied", "service", "second_line"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """The class of a mutant: ``why`` in the field's words.
+
+    ``because``: for *implied*, the axioms and invariants it follows from.
+    ``witness``: for *service*, the witness that fails.
+    ``pair``: for *second line*, the mutant that it is killed together with.
+    """
+
+    mutant: str
+    kind: str
+    why: str
+    because: tuple[str, ...] = ()
+    witness: str = ""
+    pair: str = ""
+
+
+@cache
+def table(file: Path = FILE) -> dict[str, Entry]:
+    """Every entry by mutant."""
+    found: dict[str, Entry] = {}
+    for kind, groups in tomllib.loads(file.read_text(encoding="utf-8")).items():
+        for group in groups:
+            for name in group["mutants"]:
+                if name in found:
+                    raise ValueError(f"{file.name}: {name} stands twice")
+                found[name] = Entry(
+                    name,
+                    kind,
+                    group["why"],
+                    tuple(group.get("because", ())),
+                    group.get("witness", ""),
+                    group.get("pair", ""),
+                )
+    return found
+
+
+@cache
+def bench() -> Workbench:
+    """The workbench of this process, for proofs on every layout."""
+    return Workbench()
+
+
+def objection(entry: Entry) -> str:
+    """Check an entry; say what is wrong with it, or nothing."""
+    mutant = mutants().get(entry.mutant)
+    if mutant is None:
+        return "there is no such mutant any more"
+    if entry.kind == IMPLIED:
+        return not_implied(mutant, list(entry.because))
+    if entry.kind == SERVICE:
+        failing = [failure.witness for failure in failures(mutant.function, mutant.sources, first_only=False)]
+        return "" if entry.witness in failing else f"{entry.witness} does not fail; these do: {failing}"
+    if entry.kind == SECOND_LINE:
+        return not_second(mutant, entry.pair)
+    return f"no class {entry.kind}"
+
+
+def not_implied(mutant: Mutant, because: list[str]) -> str:
+    """Say in which transition the drop could make a difference, as far as is proved."""
+    for transition in transitions_of(mutant.function):
+        if not proved(bench(), sameness(bench(), transition, mutant.sources), because):
+            return f"not proved to make no difference in {transition}"
+    return ""
+
+
+def not_second(mutant: Mutant, pair: str) -> str:
+    """Say why a pair of drops is not one that only together is killed."""
+    other = mutants().get(pair)
+    if other is None:
+        return f"there is no mutant {pair}"
+    verdict = tried_with(mutant, {**mutant.sources, **other.sources})
+    return "" if verdict.outcome == "counterexample" else "no counterexample to both drops together"

@@ -1,0 +1,266 @@
+"""What else is lost if a guard goes: witnesses for drops that break no invariant, at the centre and at points.
+
+Each plays on the stations of the witnesses; its docstring says what service, or which second
+check, goes with the guard.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.names import Block, Car, Cause, Stage, TerminalLife, UnitLife
+from kernel.unit import Evidence
+from proofs.witnesses import running, setting, telling
+from proofs.witnesses.scenario import Scenario, Steps
+from proofs.witnesses.stations import (
+    A1,
+    A2,
+    B1,
+    EAST,
+    NORMAL,
+    ONE,
+    ONE_TO_EAST,
+    OUTLET,
+    P1,
+    P2,
+    T1,
+    THROAT,
+    WEST,
+    WEST_TO_ONE,
+    WEST_TO_TWO,
+)
+
+At = dict[Car, frozenset[Block]]
+
+
+def standing(first: Block, second: Block | None = None) -> At:
+    """Both cars of T1 in one block, and T2 in another where it matters."""
+    at = {A1: frozenset({first}), A2: frozenset({first})}
+    return at if second is None else {**at, B1: frozenset({second})}
+
+
+# ---- cancelling
+
+
+def a_run_is_cancelled_before_its_echo(steps: Steps) -> Scenario:
+    """A run whose list is out but not echoed can be wanted back, asked back, given back and freed (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.prove_all(scenario, run)
+    setting.offer(scenario, run)
+    setting.recall(scenario, run)
+    setting.return_it(scenario, run)
+    setting.at_stage(scenario, run, Stage.OVER)
+    return scenario
+
+
+def only_what_is_wanted_back_is_asked_back(steps: Steps) -> Scenario:
+    """No train is asked for a run that nobody has cancelled: it would stand for nothing (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    scenario.refuses("send_recall", run=run)
+    return scenario
+
+
+def a_run_is_given_back_only_when_asked_for(steps: Steps) -> Scenario:
+    """No unit gives a run back of itself: the train would stand with nobody knowing why (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    scenario.refuses("give_back", run=run, stands_short=True)
+    return scenario
+
+
+def a_run_that_is_over_is_not_asked_back(steps: Steps) -> Scenario:
+    """A run that was wanted back and has ended otherwise is asked for no more (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    scenario.does("cancel", run=run)
+    scenario.does("restart_unit", train=T1, life=UnitLife(run.life + 1))
+    telling.tell(scenario, T1)
+    setting.at_stage(scenario, run, Stage.OVER)
+    scenario.refuses("send_recall", run=run)
+    return scenario
+
+
+def no_permit_for_a_run_that_is_wanted_back(steps: Steps) -> Scenario:
+    """A train that is about to be asked back is not sent off: the cancellation would wait for its whole run (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.prove_all(scenario, run)
+    setting.offer(scenario, run)
+    setting.echo(scenario, run)
+    scenario.does("cancel", run=run)
+    scenario.refuses("send_permit", run=run)
+    return scenario
+
+
+def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Scenario:
+    """The tags at the end of the start block are a second check: a begun run is not given back (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.recall(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    scenario.refuses("give_back", run=run, stands_short=True)
+    return scenario
+
+
+def the_first_cause_stays_in_the_journal(steps: Steps) -> Scenario:
+    """A claim that has ended by tail evidence keeps that cause, whatever ends the rest of the run later (T8)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    first, second = (running.genuine(scenario, tag) for tag in running.pair(scenario.site.layout, OUTLET, EAST))
+    centre, radio, track = scenario.system.centre, scenario.system.radio, scenario.system.track
+    unit = scenario.system.units[T1]
+    order = replace(unit.orders[run], stopped=True, left={OUTLET: Evidence(first, second)})
+    scenario.system = replace(
+        scenario.system,
+        centre=replace(
+            centre,
+            runs=centre.runs | {run: replace(centre.runs[run], ended={OUTLET: Cause.TAIL_EVIDENCE})},
+            claimed=centre.claimed | {OUTLET: centre.claimed[OUTLET] - {run}},
+            locked=centre.locked | {P2: {}},
+        ),
+        units=scenario.system.units | {T1: replace(unit, orders=unit.orders | {run: order})},
+        radio=replace(radio, stops=frozenset({run}), tail_reports=frozenset({(run, OUTLET, first, second)})),
+        track=replace(track, behind=frozenset({(run, OUTLET)})),
+    )
+    scenario.refuses("release_overlap", run=run)
+    return scenario
+
+
+# ---- points
+
+
+def an_older_word_of_a_terminal_counts_no_more(steps: Steps) -> Scenario:
+    """A terminal's former life, heard late, does not unseat the present one: no order would be obeyed (T10)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    former = scenario.system.terminals[P1].life
+    scenario.does("restart_terminal", point=P1, life=TerminalLife(former + 1))
+    telling.hear_terminal(scenario, P1)
+    scenario.refuses("note_terminal_life", point=P1, life=former)
+    return scenario
+
+
+def only_a_train_over_a_lost_point_is_asked_how_it_lies(steps: Steps) -> Scenario:
+    """No lock id is taken from a terminal by a train that has left, for a point that is known, or in another life."""
+    scenario, runs = telling.recovered(steps, {A1: frozenset({ONE}), A2: frozenset({THROAT})})
+    life = scenario.system.terminals[P1].life
+    newer = TerminalLife(life + 1)
+    scenario.refuses("send_enquiry", run=runs[T1], point=P1, life=newer)
+    run = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, ONE, OUTLET)
+    running.enters(scenario, run, A1, ONE, OUTLET)
+    running.follows(scenario, A2, A1, THROAT, ONE)
+    running.leaves(scenario, A2, THROAT)
+    running.tail_passes(scenario, run, THROAT, ONE)
+    running.report(scenario, runs[T1], THROAT, ONE)
+    scenario.refuses("send_enquiry", run=runs[T1], point=P1, life=life)
+    return scenario
+
+
+def a_point_that_is_known_is_not_asked_for_again(steps: Steps) -> Scenario:
+    """A point that was adopted is not enquired for again in the terminal's next life (T10)."""
+    scenario, runs = telling.recovered(steps, standing(THROAT))
+    telling.adopt(scenario, runs[T1], P1)
+    newer = TerminalLife(scenario.system.terminals[P1].life + 1)
+    scenario.does("restart_terminal", point=P1, life=newer)
+    telling.hear_terminal(scenario, P1)
+    scenario.refuses("send_enquiry", run=runs[T1], point=P1, life=newer)
+    return scenario
+
+
+def an_enquiry_for_a_former_life_is_not_answered(steps: Steps) -> Scenario:
+    """A terminal that has restarted does not take a lock id meant for its former life (T10)."""
+    scenario, runs = telling.recovered(steps, standing(THROAT))
+    former = scenario.system.terminals[P1].life
+    enquiry = {"run": runs[T1], "point": P1, "life": former}
+    scenario.does("send_enquiry", **enquiry)
+    scenario.does("relay_enquiry", **enquiry)
+    scenario.does("restart_terminal", point=P1, life=TerminalLife(former + 1))
+    scenario.refuses("answer_enquiry", **enquiry)
+    return scenario
+
+
+def an_order_of_a_former_life_is_not_passed_on(steps: Steps) -> Scenario:
+    """A unit that has restarted passes on no order that came to its former life (T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    order = {"run": run, "point": P1, "life": scenario.system.terminals[P1].life}
+    scenario.does("send_order", **order)
+    scenario.does("restart_unit", train=T1, life=UnitLife(run.life + 1))
+    scenario.refuses("relay_order", **order)
+    return scenario
+
+
+def an_order_that_would_throw_the_point_below_is_kept_back(steps: Steps) -> Scenario:
+    """Over a turnout the unit keeps back a late order for the other leg: the detector locking of T10's second line."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    older = setting.reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    life = scenario.system.terminals[P1].life
+    scenario.does("send_order", run=older, point=P1, life=life)
+    scenario.does("withdraw", run=older)
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    scenario.refuses("relay_order", run=older, point=P1, life=life)
+    return scenario
+
+
+def a_run_that_was_given_back_speaks_for_no_point_below(steps: Steps) -> Scenario:
+    """Only a run that the train is on says how the point below must lie, not one that it gave back (T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    older = setting.reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    life = scenario.system.terminals[P1].life
+    scenario.does("send_order", run=older, point=P1, life=life)
+    scenario.does("relay_order", run=older, point=P1, life=life)
+    setting_again = replace(scenario.system.radio, relayed_orders=frozenset())
+    scenario.does("obey_order", run=older, point=P1, life=life, detected=NORMAL)
+    setting.lay(scenario, older, P1)
+    telling.confirm(scenario, older, P1)
+    setting.note_proved(scenario, older, P1)
+    setting.prove_all(scenario, older)
+    setting.offer(scenario, older)
+    setting.recall(scenario, older)
+    setting.return_it(scenario, older)
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.head_passes(scenario, run, WEST, THROAT)
+    scenario.system = replace(scenario.system, radio=setting_again)
+    scenario.refuses("relay_order", run=older, point=P1, life=life)
+    return scenario
+
+
+def no_order_for_a_point_that_is_proved(steps: Steps) -> Scenario:
+    """A point that the run below holds is proved already: no order goes to a point the train may stand on (T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    first = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    second = setting.reserve(scenario, T1, ONE_TO_EAST, first)
+    scenario.must(P2 in scenario.system.centre.runs[second].proved, "the outlet's point is proved")
+    scenario.refuses("send_order", run=second, point=P2, life=scenario.system.terminals[P2].life)
+    return scenario
+
+
+def a_word_of_a_point_not_needed_is_not_noted(steps: Steps) -> Scenario:
+    """What is noted as proved for a run is a point of its route, whatever a terminal has sent (T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    word = (run, P2, NORMAL)
+    radio = scenario.system.radio
+    radio = replace(radio, confirmed=radio.confirmed | {word}, confirmations=radio.confirmations | {word})
+    scenario.system = replace(scenario.system, radio=radio)
+    scenario.refuses("note_confirmation", run=run, point=P2, position=NORMAL)
+    return scenario
+
+
+def a_point_that_moves_is_locked_by_locking_only(steps: Steps) -> Scenario:
+    """A point that is unlocked and happens to lie right is not confirmed before it has been locked (T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    older = setting.reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    setting.order(scenario, older, P1)
+    scenario.does("withdraw", run=older)
+    run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.order(scenario, run, P1)
+    scenario.refuses("send_confirmation", run=run, point=P1, position=NORMAL, detected=NORMAL)
+    setting.lay(scenario, run, P1)
+    telling.confirm(scenario, run, P1)
+    return scenario

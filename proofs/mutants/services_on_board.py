@@ -1,0 +1,261 @@
+"""What else is lost if a guard goes: witnesses for drops that break no invariant, on board and in the world.
+
+As in :mod:`proofs.mutants.services`, each docstring says what service, or which second check, goes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.names import Antenna, Read, Record, Tag, UnitLife
+from kernel.refusal import Refusal
+from proofs.mutants.services import standing
+from proofs.witnesses import running, setting, telling
+from proofs.witnesses.changes import came
+from proofs.witnesses.scenario import Scenario, Steps
+from proofs.witnesses.stations import (
+    A1,
+    A2,
+    B1,
+    EAST,
+    EAST_TO_ONE,
+    ONE,
+    OUTLET,
+    P1,
+    P2,
+    T1,
+    T2,
+    THROAT,
+    TWO,
+    WEST,
+    WEST_TO_ONE,
+    WEST_TO_TWO,
+)
+
+
+def a_tag_read_before_the_permit_opens_the_loop(steps: Steps) -> Scenario:
+    """A train that sets off with the list but without the permit brakes at the first tag (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.prove_all(scenario, run)
+    setting.offer(scenario, run)
+    tag, cab = scenario.site.layout.first_tag[WEST_TO_ONE], running.head_cab(scenario, run)
+    opened = {other: {"loop_closed": False} for other in (run, runs[T1])}
+    scenario.does("head_reads", {"units": {T1: {"orders": opened}}}, train=T1, cab=cab, tag=tag, in_window=True)
+    return scenario
+
+
+def a_run_given_back_does_not_begin_with_its_successor(steps: Steps) -> Scenario:
+    """Tags read under the permitted run are not counted for one given back with the same first tag (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    older = setting.reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    setting.prove_all(scenario, older)
+    setting.offer(scenario, older)
+    setting.recall(scenario, older)
+    setting.return_it(scenario, older)
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.head_passes(scenario, run, WEST, THROAT)
+    return scenario
+
+
+def a_run_given_back_expects_no_tag(steps: Steps) -> Scenario:
+    """A train that sets off under a run it has given back brakes at the first tag, permit or not (T5, T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.recall(scenario, run)
+    setting.return_it(scenario, run)
+    tag, cab = scenario.site.layout.first_tag[WEST_TO_ONE], running.head_cab(scenario, run)
+    opened = {other: {"loop_closed": False} for other in (run, runs[T1])}
+    scenario.does("head_reads", {"units": {T1: {"orders": opened}}}, train=T1, cab=cab, tag=tag, in_window=True)
+    return scenario
+
+
+def a_run_not_yet_permitted_does_not_begin(steps: Steps) -> Scenario:
+    """Tags read under the permitted run are not counted for one that has the same first tag and no permit yet (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    second = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.prove_all(scenario, second)
+    setting.offer(scenario, second)
+    running.head_passes(scenario, run, WEST, THROAT)
+    return scenario
+
+
+def a_train_with_an_open_loop_reports_nothing(steps: Steps) -> Scenario:
+    """What a tail reads after the loop was opened is no evidence: all stays occupied (T5, T8)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    for car in running.in_order(scenario, run):
+        running.crosses(scenario, run, car, WEST, THROAT)
+    scenario.does("window_passes", train=T1)
+    for tag in running.pair(scenario.site.layout, WEST, THROAT):
+        scenario.does("tail_reads", **running.tail_read(scenario, run, tag))
+    scenario.refuses("send_tail_report", **running.reported(scenario, run, WEST, THROAT))
+    return scenario
+
+
+def a_broken_line_forgets_the_half_pair(steps: Steps) -> Scenario:
+    """When the through line breaks between two tags the first is forgotten, wherever the antenna is (T2, T3)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    running.tail_reads_first(scenario, run, first)
+    scenario.does("part", train=T1)
+    cab, read = scenario.site.formation.cab[A1], running.genuine(scenario, second)
+    event = {"run": run, "car": A1, "antenna": Antenna.TAIL, "cab": cab, "healthy": False, "read": read}
+    scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, **event)
+    return scenario
+
+
+def a_copied_tag_may_be_read_anywhere(steps: Steps) -> Scenario:
+    """Nature puts no bounds on tags with foreign records; what they say is refused by the centre (T6)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.head_passes(scenario, run, WEST, THROAT)
+    first, second = (running.genuine(scenario, tag) for tag in running.pair(scenario.site.layout, WEST, THROAT))
+    last = scenario.site.formation.last[run]
+    event = {"run": run, "car": last, "antenna": Antenna.TAIL, "cab": scenario.site.formation.cab[last]}
+    copied = [Read(read.tag, Record("copied")) for read in (first, second)]
+    for pair in ((copied[0], second), (first, copied[1])):
+        for read in pair:
+            scenario.does("tail_reads", healthy=True, read=read, **event)
+        report = {"run": run, "block": WEST, "left": pair[0], "entered": pair[1]}
+        scenario.does("send_tail_report", **report)
+        scenario.refuses("release_block", Refusal.RECORD_DIFFERS, **report)
+    return scenario
+
+
+def a_train_slips_on_when_its_unit_restarts(steps: Steps) -> Scenario:
+    """Nature does not stop a slipping train because its unit has forgotten it: it still comes into its overlap (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    for block, target in ((WEST, THROAT), (THROAT, ONE)):
+        running.enters(scenario, run, A1, block, target)
+    scenario.does("overrun", {"track": {"slipping": came(run)}}, run=run)
+    scenario.does("restart_unit", train=T1, life=UnitLife(run.life + 1))
+    running.enters(scenario, run, A1, ONE, OUTLET)
+    return scenario
+
+
+def the_end_of_authority_is_the_end_of_the_overlap(steps: Steps) -> Scenario:
+    """Until it has told that it stopped, a train under authority may come into its overlap without slipping (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    for block, target in ((WEST, THROAT), (THROAT, ONE), (ONE, OUTLET)):
+        running.enters(scenario, run, A1, block, target)
+    return scenario
+
+
+def a_run_that_has_begun_stays_begun(steps: Steps) -> Scenario:
+    """Where a route meets its own first tag again, the run is not taken for one that has not begun (T5, T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.head_passes(scenario, run, WEST, THROAT)
+    layout = scenario.site.layout
+    first, second = layout.first_tag[WEST_TO_ONE], running.pair(layout, WEST, THROAT)[1]
+    again = {**layout.tag_after, WEST_TO_ONE: {**layout.tag_after[WEST_TO_ONE], second: first}}
+    order = replace(scenario.system.units[T1].orders[run], expected=first)
+    unit = replace(scenario.system.units[T1], orders=scenario.system.units[T1].orders | {run: order})
+    scenario.site = replace(scenario.site, layout=replace(layout, tag_after=again))
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: unit})
+    scenario.does("head_reads", train=T1, cab=running.head_cab(scenario, run), tag=first, in_window=True)
+    scenario.must(scenario.system.units[T1].orders[run].begun, "the run has begun")
+    return scenario
+
+
+def a_tag_outside_the_plan_names_no_block(steps: Steps) -> Scenario:
+    """A tag that a list names and the plan does not know adds no block to those the train is in (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    stray = Tag("stray")
+    order = replace(scenario.system.units[T1].orders[run], expected=stray)
+    unit = replace(scenario.system.units[T1], orders=scenario.system.units[T1].orders | {run: order})
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: unit})
+    scenario.does("head_reads", train=T1, cab=running.head_cab(scenario, run), tag=stray, in_window=True)
+    scenario.must(scenario.system.units[T1].occupied == {WEST}, "the train is in the west")
+    return scenario
+
+
+def a_statement_never_made_does_not_arrive(steps: Steps) -> Scenario:
+    """The centre notes nothing of a statement that nobody has made (T8)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    scenario.does("open_procedure", train=T1)
+    life = scenario.system.units[T1].life
+    scenario.refuses("note_statement", train=T1, life=life, epoch=scenario.system.centre.epoch)
+    return scenario
+
+
+def a_car_follows_only_a_car_that_ran_there(steps: Steps) -> Scenario:
+    """History has no hole: a car follows another only into a block where it is known under which run that one came."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.enters(scenario, run, A1, WEST, THROAT)
+    scenario.system = replace(scenario.system, track=replace(scenario.system.track, under={}))
+    scenario.refuses("car_follows", car=A2, other=A1, block=WEST, target=THROAT)
+    return scenario
+
+
+def another_train_says_nothing_of_where_this_one_stops(steps: Steps) -> Scenario:
+    """Nature lets a train stand in its destination whoever is beyond it (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, TWO))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    track = scenario.system.track
+    beyond = replace(scenario.system, track=replace(track, at=track.at | {B1: frozenset({OUTLET})}))
+    after = scenario.steps["note_stopped"](scenario.site, beyond, run=run, within_destination=True)
+    scenario.must(after.units[T1].orders[run].stopped, "the train has told that it stopped")
+    return scenario
+
+
+# ---- two at a time
+
+
+def two_procedures_are_open_at_once(steps: Steps) -> Scenario:
+    """A second supervised procedure does not close the first, nor its statement unsay the other's (T8)."""
+    scenario, _ = telling.recovered(steps, standing(WEST, TWO))
+    epoch = scenario.system.centre.epoch
+    for train in (T1, T2):
+        scenario.does("open_procedure", {"centre": {"supervised": came(train)}}, train=train)
+    for train, block in ((T1, WEST), (T2, TWO)):
+        life = UnitLife(scenario.system.units[train].life + 1)
+        word = {"train": train, "epoch": epoch, "life": life}
+        scenario.does("take_over", blocks=frozenset({block}), **word)
+        scenario.does("note_statement", **word)
+        said = {"radio": {"confirmed_statements": came((train, life, epoch))}}
+        scenario.does("confirm_statement", said, **word)
+    scenario.must(set(scenario.system.centre.statements) == {T1, T2}, "both statements are noted")
+    return scenario
+
+
+def two_trains_at_once(steps: Steps) -> Scenario:
+    """What one train sends, or does, takes nothing back of what another did: recall, return, part, slip (T11)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, EAST))
+    first = setting.set_route(scenario, T1, WEST_TO_TWO, runs[T1])
+    second = setting.set_route(scenario, T2, EAST_TO_ONE, runs[T2])
+    for run in (first, second):
+        setting.recall(scenario, run)
+    for run in (first, second):
+        setting.return_it(scenario, run)
+    third = setting.set_route(scenario, T1, WEST_TO_TWO, runs[T1])
+    fourth = setting.set_route(scenario, T2, EAST_TO_ONE, runs[T2])
+    for run in (third, fourth):
+        scenario.does("overrun", {"track": {"rolling": came(run), "slipping": came(run)}}, run=run)
+        scenario.does("part", {"track": {"parted": came(run.train)}}, train=run.train)
+    for run in (third, fourth):
+        scenario.does("come_to_rest", run=run)
+    for run in (third, fourth):
+        scenario.does("note_stopped", run=run, within_destination=True)
+        scenario.does("send_stop", {"radio": {"stops": came(run)}}, run=run)
+    return scenario
+
+
+def two_points_are_adopted(steps: Steps) -> Scenario:
+    """Enquiries for two points are in the air together (T10, T11)."""
+    scenario, runs = telling.recovered(steps, standing(THROAT, OUTLET))
+    for run, point in ((runs[T1], P1), (runs[T2], P2)):
+        telling.adopt(scenario, run, point)
+    return scenario

@@ -1,0 +1,45 @@
+"""``python -m proofs.planted [FOLDER]``: draw every planted fault, as text and as a page, into ``out/planted``."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from proofs import drawing
+from proofs.counterexample import search
+from proofs.finite import SMALL, World
+from proofs.planted.protocols import PROTOCOLS
+from proofs.planted.weakenings import WEAKENINGS
+
+FOLDER = Path("out/planted")
+
+
+def main(folder: Path = FOLDER) -> int:
+    """Draw them, and give the number of those that were not refuted."""
+    folder.mkdir(parents=True, exist_ok=True)
+    missed = 0
+    for protocol in PROTOCOLS:
+        fault, trace = protocol.fault, protocol.trace(protocol.fault.instead)
+        missed += protocol.broken not in trace.broken
+        write(folder, fault.name, drawing.trace_as_text, drawing.trace_as_html, (fault.name, fault.story, trace))
+        print(f"{fault.name}: {trace.label}, {', '.join(trace.broken) or 'not refuted'}")
+    for fault in WEAKENINGS:
+        found = search(World(SMALL, fault.without), fault.transition, fault.sources).found
+        missed += found is None
+        if found is not None:
+            write(folder, fault.name, drawing.as_text, drawing.as_html, (found,))
+        print(f"{fault.name}: {found.finding if found else 'not refuted'}")
+    return 1 if missed else 0
+
+
+def write(folder: Path, name: str, as_text: object, as_html: object, given: tuple[object, ...]) -> None:
+    """Write one drawing in both forms."""
+    assert callable(as_text)
+    assert callable(as_html)
+    place = folder / name.replace(" ", "_")
+    place.with_suffix(".txt").write_text(as_text(*given), encoding="utf-8")
+    place.with_suffix(".html").write_text(as_html(*given), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(*map(Path, sys.argv[1:2])))

@@ -1,0 +1,86 @@
+"""Every guard, update and assumption is needed, or stands in the table of survivors with a class that is checked."""
+
+from __future__ import annotations
+
+import ast
+from functools import cache
+
+import pytest
+
+from kernel import release, route_setting
+from kernel.terminal import confirms
+from proofs.lift.sources import definition_of
+from proofs.mutants.classes import IMPLIED, SERVICE, Entry, objection, table
+from proofs.mutants.edits import Mutant, mutants_of
+from proofs.mutants.onlookers import ONLOOKERS
+from proofs.mutants.targets import mutants, transitions_of
+from proofs.mutants.trial import tried
+from proofs.witnesses.registry import WITNESSES
+
+KILLED_IN_A_SMALL_WORLD = [
+    "kernel.route_setting.conflict: guard",
+    "kernel.release.release_refusal: or-operand records.record.get(left.tag) != left.record",
+    "kernel.tail_evidence.note_tail_read: guard if antenna",
+    "kernel.terminal.obey: or-operand terminal.unlocked",
+    "kernel.restarts.restart_centre: update lost_blocks",
+    "kernel.first_loop.take_offer: or-operand run.life != unit.life",
+    "models.world.assumptions.a_healthy_line_reaches_the_tail: and-operand site.formation.last[run] == car",
+    "models.world.nature.car_leaves: guard",
+    "models.world.on_board.take_permit: or-operand run not in system.radio.permits",
+]
+"""The beginnings of names: the first mutant so named is tried."""
+
+
+def entries(kind: str) -> list[Entry]:
+    return [entry for entry in table().values() if entry.kind == kind]
+
+
+@cache
+def first(beginning: str) -> Mutant:
+    return next(mutant for name, mutant in mutants().items() if name.startswith(beginning))
+
+
+def test_mutant_drops_one_thing_and_is_still_a_function() -> None:
+    found = mutants_of(confirms)
+    assert {mutant.text for mutant in found if mutant.kind == "and-operand"} == {
+        "terminal.holds == run",
+        "not terminal.unlocked",
+        "detected == position",
+    }
+    for mutant in found:
+        assert ast.unparse(mutant.tree) != ast.unparse(definition_of(confirms))
+
+
+def test_every_guard_of_a_refusal_is_dropped_once() -> None:
+    for function in (route_setting.conflict, release.release_refusal):
+        guards = [mutant.text for mutant in mutants_of(function) if mutant.kind == "guard"]
+        assert len(guards) == len(set(guards)) == ast.unparse(definition_of(function)).count("return Refusal.")
+
+
+def test_every_mutant_takes_part_in_a_transition() -> None:
+    assert [name for name, mutant in mutants().items() if not transitions_of(mutant.function)] == []
+
+
+@pytest.mark.parametrize("beginning", KILLED_IN_A_SMALL_WORLD)
+def test_dropped_guard_is_noticed(beginning: str) -> None:
+    assert tried(first(beginning)).outcome in ("counterexample", "witness")
+
+
+def test_no_entry_speaks_of_a_mutant_that_is_no_more() -> None:
+    assert [name for name in table() if name not in mutants()] == []
+
+
+@pytest.mark.parametrize("name", [name for name in ONLOOKERS if name not in WITNESSES])
+def test_service_is_there_while_no_guard_is_dropped(name: str) -> None:
+    assert ONLOOKERS[name]({}).taken
+
+
+def test_every_guard_kept_for_service_has_a_witness_that_fails_without_it() -> None:
+    found = {entry.mutant: objection(entry) for entry in entries(SERVICE)}
+    assert {name: wrong for name, wrong in found.items() if wrong} == {}
+    assert found
+
+
+@pytest.mark.parametrize("entry", entries(IMPLIED)[::7], ids=lambda entry: entry.mutant[:80])
+def test_implied_guard_makes_no_difference_on_any_layout(entry: Entry) -> None:
+    assert objection(entry) == ""
