@@ -43,11 +43,11 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
     },
     "models/world/on_board.py": {
         "tail_reads": Leave(
-            frozenset({"track", "track.behind", "formation.ahead", "formation.cab"}),
+            frozenset({"track", "track.behind", "formation.ahead", "formation.cab", "formation.train_of"}),
             frozenset({"behind"}),
             "writes the history `behind` on, from what the unit noted; which car carries which cab's"
             " antenna is how the train is wired, not where it is",
-            frozenset({"formation.ahead", "formation.cab"}),
+            frozenset({"formation.ahead", "formation.cab", "formation.train_of"}),
         ),
     },
     "models/world/at_a_point.py": {

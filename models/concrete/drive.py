@@ -81,7 +81,7 @@ class Drive:
                     self.seen["moves"] += 1
                     return
         ahead = train.cars[: train.cars.index(what.car)]
-        event = {"car": what.car, "block": what.block, "target": what.target}
+        event = {"car": what.car, "target": what.target}
         followed = any(self.play.take("car_follows", other=other, **event) for other in ahead)
         self.seen["follows"] += followed
         self.must(followed, what)
@@ -93,7 +93,7 @@ class Drive:
         healthy = not train.standing
         read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
         unit = system.units[run.train]
-        true = a_healthy_line_reaches_the_tail(site, system, run, what.car, Antenna.TAIL, healthy)
+        true = a_healthy_line_reaches_the_tail(site, system, run, Antenna.TAIL, cab, healthy)
         if unit.tail_read is not None and unit.tail_cab == cab:
             true = true and a_pair_read_in_order_proves_the_exit(site, system, run, what.car, unit.tail_read, read)
         self.must(true, what)

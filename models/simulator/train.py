@@ -87,7 +87,7 @@ def drawn_on(play: Play, train: OnTrack, run: Run, block: Block, target: Block) 
         event = {"run": under, "car": train.rear, "block": block, "target": target}
         if block in claims and target in claims and play.take("car_moves", **event):
             return True
-    return play.take("car_follows", car=train.rear, other=train.front, block=block, target=target)
+    return play.take("car_follows", car=train.rear, other=train.front, target=target)
 
 
 def rear_must_follow(play: Play, train: OnTrack, run: Run) -> bool:

@@ -7,7 +7,7 @@ permits an event; what the kernel is then told is only the event.
 from __future__ import annotations
 
 from kernel.authority import may_leave
-from kernel.names import Antenna, Block, Car, Epoch, Point, Position, Read, Route, Run, Train, UnitLife
+from kernel.names import Antenna, Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Train, UnitLife
 from models.world.state import NO_CARS, Site, System
 
 
@@ -29,18 +29,6 @@ def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Blo
         (run, block) not in system.track.behind
         and (run, target) not in system.track.behind
         and (target not in site.layout.overlap[run.route] or run in system.track.slipping)
-    )
-
-
-def track_is_open(site: Site, system: System, block: Block, target: Block) -> bool:
-    """Rails lead from one block to the next: every point that all ways there meet facing lies so."""
-    return (
-        block in site.ground.opens
-        and target in site.ground.opens[block]
-        and all(
-            system.track.lies.get(point) == site.ground.opens[block][target][point]
-            for point in site.ground.opens[block][target]
-        )
     )
 
 
@@ -81,16 +69,18 @@ def a_pair_read_in_order_proves_the_exit(
 
 
 def a_healthy_line_reaches_the_tail(
-    site: Site, system: System, run: Run, car: Car, antenna: Antenna, healthy: bool
+    site: Site, system: System, run: Run, antenna: Antenna, cab: Cab, healthy: bool
 ) -> bool:
-    """Over a healthy through line the tail antenna is the one on the last car; a parted train has none.
+    """The tail antenna is that of the cab on the last car; a parted train may have another, but no healthy line.
 
     The line runs through every coupling, so losing a car breaks it; antenna spacing is checked
     against the measured length as well (T3, T13).
     """
-    if antenna != Antenna.TAIL or not healthy:
+    if antenna != Antenna.TAIL:
         return True
-    return run.train not in system.track.parted and run in site.formation.last and site.formation.last[run] == car
+    if run.train in system.track.parted:
+        return not healthy
+    return run in site.formation.last and site.formation.cab.get(site.formation.last[run]) == cab
 
 
 def a_train_short_of_its_run_has_not_entered(system: System, run: Run, stands_short: bool) -> bool:
@@ -140,13 +130,9 @@ def stands_exactly(site: Site, system: System, train: Train, blocks: frozenset[B
 
 
 def two_persons_do_not_err_alike(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
-    """The second person confirms a statement only if the train, still isolated in that life, stands exactly so."""
-    return (
-        train in system.units
-        and system.units[train].life == life
-        and (train, life, epoch) in system.radio.statements
-        and all(run.train != train for run in system.units[train].orders)
-        and stands_exactly(site, system, train, system.radio.statements[train, life, epoch])
+    """The second person confirms a statement only if the train stands exactly so."""
+    return (train, life, epoch) in system.radio.statements and stands_exactly(
+        site, system, train, system.radio.statements[train, life, epoch]
     )
 
 

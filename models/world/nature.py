@@ -10,7 +10,6 @@ from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
     rails_lead,
-    track_is_open,
     two_persons_do_not_err_alike,
 )
 from models.world.state import Site, System
@@ -67,8 +66,8 @@ def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, targ
     )
 
 
-def car_follows(site: Site, system: System, car: Car, other: Car, block: Block, target: Block) -> System:
-    """A car follows a car of its train that is ahead of it, on rails that are open between their blocks.
+def car_follows(site: Site, system: System, car: Car, other: Car, target: Block) -> System:
+    """A car comes into a block that another car of its train is in, by whatever rails lead there.
 
     It is pulled or pushed by a train that rolls, and comes under the run of the car it follows.
     """
@@ -77,10 +76,10 @@ def car_follows(site: Site, system: System, car: Car, other: Car, block: Block, 
         return system
     if all(run.train != train for run in system.track.rolling):
         return system
-    if block not in system.track.at.get(car, frozenset()) or target not in system.track.at.get(other, frozenset()):
+    if target not in system.track.at.get(other, frozenset()):
         return system
     run_ahead = system.track.under.get(other, {}).get(target)
-    if run_ahead is None or not track_is_open(site, system, block, target):
+    if run_ahead is None:
         return system
     return replace(
         system,

@@ -73,9 +73,9 @@ def tail_reads(
     """The antenna of a cab on ``car`` reads something while the train runs as in ``run`` (T2, T6)."""
     if run.train not in system.units or run not in site.formation.ahead:
         return system
-    if site.formation.cab.get(car) != cab:
+    if site.formation.cab.get(car) != cab or site.formation.train_of.get(car) != run.train:
         return system
-    if not a_healthy_line_reaches_the_tail(site, system, run, car, antenna, healthy):
+    if not a_healthy_line_reaches_the_tail(site, system, run, antenna, cab, healthy):
         return system
     before = system.units[run.train].tail_read
     if (

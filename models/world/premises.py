@@ -9,7 +9,7 @@ from models.world.state import Site
 
 
 def the_last_car_is_behind_all_others(site: Site) -> bool:
-    """In every run, all cars of the train but the last are ahead of the last: cars keep their order on rails."""
+    """In every run the last car is one of the train, and all its others are ahead of it: cars keep their order."""
     return all(
         car == site.formation.last[run]
         or site.formation.train_of[car] != run.train
@@ -20,6 +20,17 @@ def the_last_car_is_behind_all_others(site: Site) -> bool:
         for run in site.formation.last
         if run in site.formation.ahead
         for car in site.formation.train_of
+    ) and all(site.formation.train_of.get(site.formation.last[run]) == run.train for run in site.formation.last)
+
+
+def a_cab_is_on_one_car(site: Site) -> bool:
+    """No two cars of a train carry the same cab: the unit tells its antennas apart by their wiring (T2)."""
+    return all(
+        car == other
+        or site.formation.cab[car] != site.formation.cab[other]
+        or site.formation.train_of.get(car) != site.formation.train_of.get(other)
+        for car in site.formation.cab
+        for other in site.formation.cab
     )
 
 

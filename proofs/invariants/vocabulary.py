@@ -68,6 +68,18 @@ def frozen_at(site: Site, system: System, point: Point, position: Position) -> b
     return frozen(site, system, point) and system.track.lies.get(point) == position
 
 
+def track_is_open(site: Site, system: System, block: Block, target: Block) -> bool:
+    """Rails lead from one block to the next: every point that all ways there meet facing lies so."""
+    return (
+        block in site.ground.opens
+        and target in site.ground.opens[block]
+        and all(
+            system.track.lies.get(point) == site.ground.opens[block][target][point]
+            for point in site.ground.opens[block][target]
+        )
+    )
+
+
 def genuine(site: Site, block: Block, left: Read, entered: Read) -> bool:
     """Both reads carry what is written in the pair of tags at the end of ``block``."""
     return (

@@ -151,7 +151,7 @@ def only_a_train_over_a_lost_point_is_asked_how_it_lies(steps: Steps) -> Scenari
     running.roll(scenario, run)
     running.head_passes(scenario, run, ONE, OUTLET)
     running.enters(scenario, run, A1, ONE, OUTLET)
-    running.follows(scenario, A2, A1, THROAT, ONE)
+    running.follows(scenario, A2, A1, ONE)
     running.leaves(scenario, A2, THROAT)
     running.tail_passes(scenario, run, THROAT, ONE)
     running.report(scenario, runs[T1], THROAT, ONE)

@@ -196,7 +196,7 @@ def a_car_follows_only_a_car_that_ran_there(steps: Steps) -> Scenario:
     running.roll(scenario, run)
     running.enters(scenario, run, A1, WEST, THROAT)
     scenario.system = replace(scenario.system, track=replace(scenario.system.track, under={}))
-    scenario.refuses("car_follows", car=A2, other=A1, block=WEST, target=THROAT)
+    scenario.refuses("car_follows", car=A2, other=A1, target=THROAT)
     return scenario
 
 

@@ -189,7 +189,7 @@ def _goes_on(scenario: Scenario, stands: Run) -> None:
     close_first_loop(scenario, onward)
     roll(scenario, onward)
     head_passes(scenario, onward, THROAT, ONE)
-    follows(scenario, A2, A1, WEST, THROAT)
+    follows(scenario, A2, A1, THROAT)
     leaves(scenario, A2, WEST)
     tail_passes(scenario, onward, WEST, THROAT)
     for car in (A1, A2):

@@ -57,12 +57,12 @@ def enters(scenario: Scenario, run: Run, car: Car, block: Block, target: Block) 
     scenario.does("car_moves", effect, run=run, car=car, block=block, target=target)
 
 
-def follows(scenario: Scenario, car: Car, other: Car, block: Block, target: Block) -> None:
+def follows(scenario: Scenario, car: Car, other: Car, target: Block) -> None:
     """The first axle of a car reaches a block that a car ahead of it is in."""
     effect = {
         "track": {"at": {car: came(target)}, "under": {car: {target: scenario.system.track.under[other][target]}}}
     }
-    scenario.does("car_follows", effect, car=car, other=other, block=block, target=target)
+    scenario.does("car_follows", effect, car=car, other=other, target=target)
 
 
 def leaves(scenario: Scenario, car: Car, block: Block) -> None:

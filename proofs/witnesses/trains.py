@@ -141,17 +141,17 @@ def _behind(scenario: Scenario) -> Tag:
 
 
 def the_tail_cuts_the_corner(steps: Steps) -> Scenario:
-    """The last car is drawn after the first over rails open between their blocks, by the run of the first (T2)."""
+    """The last car is drawn after the first by whatever rails lead there, by the run of the first (T2)."""
     scenario, runs = recovered(steps, FACING_EAST)
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     roll(scenario, run)
     head_passes(scenario, run, WEST, THROAT)
     enters(scenario, run, A1, WEST, THROAT)
-    scenario.refuses("car_follows", car=A1, other=A2, block=WEST, target=ONE)
+    scenario.refuses("car_follows", car=A1, other=A2, target=ONE)
     rest(scenario, run)
-    scenario.refuses("car_follows", car=A2, other=A1, block=WEST, target=THROAT)
+    scenario.refuses("car_follows", car=A2, other=A1, target=THROAT)
     roll(scenario, run)
-    follows(scenario, A2, A1, WEST, THROAT)
+    follows(scenario, A2, A1, THROAT)
     scenario.must(scenario.system.track.under[A2][THROAT] == run, "it came under the run of the car ahead")
     return scenario
 

@@ -73,7 +73,7 @@ ECHO = "    if run not in system.radio.echoes:\n        return system\n"
         (CENTRE, ECHO, "    if site.ground.opens:\n        return system\n", "reads ground.opens"),
         (CENTRE, "    under = system", "    if system.track.at:\n        return None\n    under = system", "decides"),
         (CENTRE, "(system.track, under=under)", "(system.track, under=under, at={})", "writes more"),
-        (CENTRE, "from kernel import", f"{ASSUMED} track_is_open\nfrom kernel import", "asks track_is_open"),
+        (CENTRE, "from kernel import", f"{ASSUMED} rails_lead\nfrom kernel import", "asks rails_lead"),
         (CENTRE, "def accounted_for", "def written_down", "has leave and is not there"),
         (BOARD, BEHIND, "track=replace(system.track, at={})", "writes track"),
         (BOARD, BEHIND, "track=something", "writes track"),
