@@ -19,8 +19,7 @@ from models.world import assumptions
 from proofs import usage
 from proofs.catalogue import AXIOMS, PREMISES, STEPS
 from proofs.lints import KEPT
-from proofs.lookups import READING
-from proofs.scripts import START
+from proofs.theory import READING, START
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = ROOT / "models" / "world" / "assumptions.toml"

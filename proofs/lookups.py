@@ -7,37 +7,28 @@ invariants and transitions given the invariants too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from typing import Any
 
 import z3
 
-from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
 from proofs.lift import Lifter
 from proofs.transitions import event_types
 from proofs.workbench import Part, Workbench
 
-EVERY_LOOKUP_IS_DEFINED = "every_lookup_is_defined"
-"""The column of the matrix for transitions."""
-READING = "reading"
-"""The row of the matrix for axioms, premises and invariants."""
-
-READ: Mapping[str, Callable[..., bool]] = {**AXIOMS, **PREMISES, **INITIAL, **INVARIANTS}
-"""Every predicate that is read, by name."""
-
 
 def lookups(bench: Workbench, name: str) -> list[Any]:
     """Give the claims that make a transition or predicate run without an error, each once."""
-    lifter = Lifter(bench.scope, bench.sources, collect=True)
-    if name in STEPS:
-        event = [bench.scope.constant(kind, f"event.{field}") for field, kind in event_types(STEPS[name]).items()]
-        lifter.cases(STEPS[name], bench.site, bench.before, *event)
-    elif name in AXIOMS:
-        lifter.formula(AXIOMS[name], bench.site.fields["layout"], bench.site.fields["ground"])
-    elif name in PREMISES:
-        lifter.formula(PREMISES[name], bench.site)
+    lifter, theory = Lifter(bench.scope, bench.sources, collect=True), bench.theory
+    if name in theory.steps:
+        kinds = event_types(theory.steps[name])
+        event = [bench.scope.constant(kind, f"event.{field}") for field, kind in kinds.items()]
+        lifter.cases(theory.steps[name], bench.site, bench.before, *event)
+    elif name in theory.axioms:
+        lifter.formula(theory.axioms[name], *bench.told)
+    elif name in theory.premises:
+        lifter.formula(theory.premises[name], bench.site)
     else:
-        lifter.formula(READ[name], bench.site, bench.before)
+        lifter.formula(theory.read[name], bench.site, bench.before)
     claims = {claim.get_id(): claim for claim in (closed(obligation.claim) for obligation in lifter.obligations)}
     return list(claims.values())
 
@@ -62,7 +53,7 @@ def parts(bench: Workbench, name: str, hypotheses: list[str] | None) -> list[Par
     A predicate of the start is read after those before it, an axiom or premise with all of them.
     """
     available = dict(bench.assumed)
-    if name in STEPS or name in INVARIANTS:
+    if name in bench.theory.steps or name in bench.theory.invariants:
         available |= bench.invariants
     chosen = available if hypotheses is None else {each: available[each] for each in hypotheses}
     claims = lookups(bench, name)

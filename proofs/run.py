@@ -14,10 +14,9 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from proofs import lookups, scripts, smtlib, solvers
-from proofs.catalogue import INVARIANTS, STEPS
-from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READ, READING
 from proofs.records import Obligation, Report, Source, Verdict
-from proofs.scripts import ROWS
+from proofs.theories import ROWS, THEORIES, columns, theory_of
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.workbench import Part, Workbench
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,40 +33,44 @@ class Task:
 
 
 @cache
-def bench() -> Workbench:
-    """The workbench of this process; lifted once."""
-    return Workbench()
+def bench(theory: str = "interlocking") -> Workbench:
+    """The workbench of a theory in this process; lifted once."""
+    return Workbench(THEORIES[theory])
 
 
-def columns(row: str) -> list[str]:
-    """Give the columns of a row, in order."""
-    if row == READING:
-        return list(READ)
-    return [*INVARIANTS, EVERY_LOOKUP_IS_DEFINED] if row in STEPS else list(INVARIANTS)
+def laid_out(row: str, column: str, names: list[str] | None) -> list[Part]:
+    """Lay out one obligation with these hypotheses; ``None`` means every one there is."""
+    theory, name = theory_of(row)
+    if name == READING:
+        return lookups.parts(bench(theory.name), column, names)
+    if column == EVERY_LOOKUP_IS_DEFINED:
+        return lookups.parts(bench(theory.name), name, names)
+    return bench(theory.name).parts(name, column, names)
 
 
 def parts(row: str, column: str) -> list[Part]:
     """Lay out one obligation with the hypotheses of its script."""
-    names = scripts.hypotheses(row, column)
-    if row == READING:
-        return lookups.parts(bench(), column, names)
-    if column == EVERY_LOOKUP_IS_DEFINED:
-        return lookups.parts(bench(), row, names)
-    return bench().parts(row, column, names)
+    return laid_out(row, column, scripts.hypotheses(row, column))
 
 
 @cache
 def source(row: str, column: str) -> Source:
     """Tell where the claim of an obligation stands: the predicate's lines, or the transition's."""
-    function = STEPS[row] if column == EVERY_LOOKUP_IS_DEFINED else READ[column]
+    theory, name = theory_of(row)
+    function = theory.steps[name] if column == EVERY_LOOKUP_IS_DEFINED else theory.read[column]
     lines, first = inspect.getsourcelines(function)
     path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
     return {"file": str(path), "lines": (first, first + len(lines) - 1)}
 
 
-def settle(row: str, column: str, solver: str, seed: int, laid_out: list[Part], digest: str) -> Obligation:
+def lifting_seconds() -> float:
+    """Say how long this process has lifted so far."""
+    return sum(bench(theory).seconds for theory in THEORIES)
+
+
+def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], digest: str) -> Obligation:
     """Ask one solver for every part of one obligation; any answer but ``unsat`` leaves it unproved."""
-    replies = [solvers.ask(solver, part, seed) for part in laid_out]
+    replies = [solvers.ask(solver, part, seed) for part in asked]
     answers = {reply.answer for reply in replies}
     verdict: Verdict = "refuted" if "sat" in answers else "proved" if answers <= {"unsat"} else "undecided"
     return {
@@ -88,24 +91,24 @@ def settle(row: str, column: str, solver: str, seed: int, laid_out: list[Part], 
 
 def work(task: Task) -> tuple[list[Obligation], float]:
     """Settle a task; tell the lifting time that it took apart."""
-    before = bench().seconds
+    before = lifting_seconds()
     found = []
     for column in task.columns:
-        laid_out = parts(task.row, column)
-        text = "".join(smtlib.script(part) for part in laid_out)
+        asked = parts(task.row, column)
+        text = "".join(smtlib.script(part) for part in asked)
         digest = hashlib.sha256(text.encode()).hexdigest()
         found += [
-            settle(task.row, column, solver, seed, laid_out, digest)
+            settle(task.row, column, solver, seed, asked, digest)
             for solver in task.solvers
             for seed in range(task.seeds)
         ]
-    return found, bench().seconds - before
+    return found, lifting_seconds() - before
 
 
 def tasks(asked: tuple[str, ...], seeds: int, only: str | None) -> Iterator[Task]:
     """Cut the matrix into tasks, whole rows in a few pieces so that every process stays busy."""
     pattern = re.compile(only or "")
-    for row in (*ROWS, READING):
+    for row in ROWS:
         chosen = [column for column in columns(row) if pattern.search(f"{row} {column}")]
         for start in range(0, len(chosen), 20):
             yield Task(row, tuple(chosen[start : start + 20]), asked, seeds)

@@ -1,8 +1,8 @@
 """Proof scripts: for each transition and invariant, the named hypotheses that it follows from.
 
-One TOML file a transition, in ``proofs/scripts/``.  An invariant that is not listed follows
-from itself alone (at the start: from what holds at the start).  ``python -m proofs.search``
-finds a script; the prover only reads.
+One TOML file a transition, in ``proofs/scripts/``, with a folder for each theory beside the
+interlocking.  An invariant that is not listed follows from itself alone (at the start: from what
+holds at the start).  ``python -m proofs.search`` finds a script; the prover only reads.
 """
 
 from __future__ import annotations
@@ -12,46 +12,50 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from proofs.catalogue import INITIAL, INVARIANTS, STEPS
+from proofs.theories import theory_of
+from proofs.theory import START
 
 FOLDER = Path(__file__).with_name("scripts")
-START = "init"
-"""The name of the first row of the matrix."""
-ROWS = (START, *STEPS)
-"""The rows of the matrix, in order."""
+
+
+def file_of(row: str) -> Path:
+    """Say where the script of a row stands."""
+    return FOLDER / f"{row.replace('.', '/')}.toml"
 
 
 @cache
-def script(transition: str) -> Mapping[str, list[str]]:
-    """Read the script of one transition."""
-    path = FOLDER / f"{transition}.toml"
+def script(row: str) -> Mapping[str, list[str]]:
+    """Read the script of one row."""
+    path = file_of(row)
     if not path.exists():
         return {}
     with path.open("rb") as file:
         return {name: list(hypotheses) for name, hypotheses in tomllib.load(file).items()}
 
 
-def default(transition: str, invariant: str) -> list[str]:
+def default(row: str, column: str) -> list[str]:
     """Give the hypotheses of an obligation that the script does not list.
 
     At the start that is what holds at the start; lookups need nothing unless the script says so.
     """
-    if transition == START:
-        return list(INITIAL)
-    return [invariant] if transition in STEPS and invariant in INVARIANTS else []
+    theory, name = theory_of(row)
+    if name == START:
+        return list(theory.initial)
+    return [column] if name in theory.steps and column in theory.invariants else []
 
 
-def hypotheses(transition: str, invariant: str) -> list[str]:
+def hypotheses(row: str, column: str) -> list[str]:
     """Give the names of the hypotheses of one obligation."""
-    return script(transition).get(invariant, default(transition, invariant))
+    return script(row).get(column, default(row, column))
 
 
-def write(transition: str, found: Mapping[str, list[str]]) -> None:
-    """Write the script of one transition, sorted, without what goes without saying."""
-    FOLDER.mkdir(exist_ok=True)
+def write(row: str, found: Mapping[str, list[str]]) -> None:
+    """Write the script of one row, sorted, without what goes without saying."""
+    path = file_of(row)
+    path.parent.mkdir(parents=True, exist_ok=True)
     lines = ["# What each invariant follows from, over this transition.  Found by `python -m proofs.search`."]
-    for invariant in sorted(found):
-        if not set(found[invariant]) <= set(default(transition, invariant)):
-            names = "".join(f'\n    "{name}",' for name in found[invariant])
-            lines.append(f"{invariant} = [{names}\n]")
-    (FOLDER / f"{transition}.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    for column in sorted(found):
+        if not set(found[column]) <= set(default(row, column)):
+            names = "".join(f'\n    "{name}",' for name in found[column])
+            lines.append(f"{column} = [{names}\n]")
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

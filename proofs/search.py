@@ -9,24 +9,16 @@ from __future__ import annotations
 import re
 import sys
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
 
 import z3
 
-from proofs import lookups, scripts
-from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READING
-from proofs.run import columns
-from proofs.scripts import ROWS
-from proofs.workbench import Part, Workbench
+from proofs import scripts
+from proofs.run import bench, laid_out
+from proofs.theories import ROWS, columns, theory_of
+from proofs.workbench import Part
 
 WIDE, NARROW = 20_000_000, 4_000_000
 """Budgets in rlimit: with every hypothesis, and with few."""
-
-
-@cache
-def bench() -> Workbench:
-    """The workbench of this process."""
-    return Workbench()
 
 
 def core(part: Part, names: list[str] | None, rlimit: int, seed: int = 0) -> list[str] | None:
@@ -58,21 +50,11 @@ def thin(part: Part, names: list[str]) -> list[str]:
     return names
 
 
-def layout(transition: str, column: str) -> list[Part]:
-    """Lay out one obligation with every hypothesis there is."""
-    if transition == READING:
-        return lookups.parts(bench(), column, None)
-    if column == EVERY_LOOKUP_IS_DEFINED:
-        return lookups.parts(bench(), transition, None)
-    return bench().parts(transition, column, None)
-
-
 def find(transition: str, invariant: str) -> list[str] | None:
     """Find the hypotheses of one obligation, sorted; None if a part of it stays open."""
     found: set[str] = set()
-    laid_out = layout(transition, invariant)
-    orders = set(bench().always())
-    for part in laid_out:
+    orders = set(bench(theory_of(transition)[0].name).always())
+    for part in laid_out(transition, invariant, None):
         names = core(part, sorted(orders), NARROW // 4)
         if names is None:
             names = core(part, sorted({*orders, invariant}), NARROW // 4)
@@ -96,7 +78,7 @@ def find_row(task: tuple[str, list[str]]) -> tuple[str, dict[str, list[str] | No
 
 def main(pattern: str = "") -> int:
     """Search every obligation that matches and write the scripts."""
-    tasks = [(row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")]) for row in (*ROWS, READING)]
+    tasks = [(row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")]) for row in ROWS]
     missing = 0
     with ProcessPoolExecutor(2) as pool:
         for transition, found in pool.map(find_row, [task for task in tasks if task[1]]):

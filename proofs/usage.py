@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from proofs import scripts
-from proofs.catalogue import INITIAL, INVARIANTS, SAFETY
-from proofs.lookups import EVERY_LOOKUP_IS_DEFINED, READING
-from proofs.run import columns
-from proofs.scripts import ROWS
+from proofs.catalogue import INITIAL, INTERLOCKING, INVARIANTS, SAFETY
+from proofs.theories import columns
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 
 Cell = tuple[str, str]
 """An obligation by its row and column."""
@@ -18,8 +17,8 @@ Book = Mapping[Cell, Sequence[str]]
 
 
 def cells() -> Iterator[Cell]:
-    """Give every obligation of the matrix, in order."""
-    for row in (*ROWS, READING):
+    """Give every obligation of the interlocking's matrix, in order."""
+    for row in INTERLOCKING.rows:
         for column in columns(row):
             yield row, column
 

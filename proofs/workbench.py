@@ -8,10 +8,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from models.world.state import Site, System
-from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
+from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
-from proofs.scripts import START
+from proofs.theory import START, Theory
 from proofs.transitions import event_types
 
 
@@ -35,10 +34,12 @@ class Part:
 
 @dataclass
 class Workbench:
-    """Everything lifted in one scope; ``named`` chooses the two-vocabulary form of transitions.
+    """A theory lifted in one scope; ``named`` chooses the two-vocabulary form of transitions.
 
     ``sources`` replaces the syntax trees of functions (mutants).
     """
+
+    theory: Theory = INTERLOCKING
 
     scope: Scope = field(default_factory=UnboundedScope)
     named: bool = True
@@ -49,8 +50,8 @@ class Workbench:
         """Declare the site and the state before."""
         began = time.perf_counter()
         self.lifter = Lifter(self.scope, self.sources)
-        self.site = self.scope.fresh(Site, "site")
-        self.before = self.scope.fresh(System, "pre")
+        self.site = self.scope.fresh(self.theory.site, "site")
+        self.before = self.scope.fresh(self.theory.system, "pre")
         self._ways: dict[str, list[Way]] = {}
         self._claims: dict[tuple[int, str], list[Any]] = {}
         self._conjuncts: dict[str, Sequence[Any]] = {}
@@ -60,18 +61,24 @@ class Workbench:
     def assumed(self) -> Mapping[str, Any]:
         """The layout axioms and premises as formulas."""
         began = time.perf_counter()
-        layout, ground = self.site.fields["layout"], self.site.fields["ground"]
-        formulas = {name: self.lifter.formula(axiom, layout, ground) for name, axiom in AXIOMS.items()}
-        formulas |= {name: self.lifter.formula(premise, self.site) for name, premise in PREMISES.items()}
+        formulas = {name: self.lifter.formula(axiom, *self.told) for name, axiom in self.theory.axioms.items()}
+        formulas |= {name: self.lifter.formula(premise, self.site) for name, premise in self.theory.premises.items()}
         formulas |= {named.name: named.formula for named in self.scope.axioms()}
         self.seconds += time.perf_counter() - began
         return formulas
+
+    @property
+    def told(self) -> tuple[Any, Any]:
+        """Layout and ground, of which the axioms speak."""
+        return self.site.fields["layout"], self.site.fields["ground"]
 
     @cached_property
     def initial(self) -> Mapping[str, Any]:
         """What holds at the start."""
         began = time.perf_counter()
-        formulas = {name: self.lifter.formula(claim, self.site, self.before) for name, claim in INITIAL.items()}
+        formulas = {
+            name: self.lifter.formula(claim, self.site, self.before) for name, claim in self.theory.initial.items()
+        }
         self.seconds += time.perf_counter() - began
         return formulas
 
@@ -79,7 +86,9 @@ class Workbench:
     def invariants(self) -> Mapping[str, Any]:
         """Every invariant of the state before."""
         began = time.perf_counter()
-        formulas = {name: self.lifter.formula(claim, self.site, self.before) for name, claim in INVARIANTS.items()}
+        formulas = {
+            name: self.lifter.formula(claim, self.site, self.before) for name, claim in self.theory.invariants.items()
+        }
         self.seconds += time.perf_counter() - began
         return formulas
 
@@ -87,7 +96,7 @@ class Workbench:
         """Every way that a transition changes the state; refusals leave it as it is and prove themselves."""
         if transition not in self._ways:
             began = time.perf_counter()
-            step = STEPS[transition]
+            step = self.theory.steps[transition]
             event = [self.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()]
             found = []
             for condition, after in self.lifter.cases(step, self.site, self.before, *event):
@@ -107,7 +116,7 @@ class Workbench:
         key = (id(state), invariant)
         if key not in self._claims:
             began = time.perf_counter()
-            self._claims[key] = conjuncts(self.lifter.formula(INVARIANTS[invariant], self.site, state))
+            self._claims[key] = conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, state))
             self.seconds += time.perf_counter() - began
         return self._claims[key]
 

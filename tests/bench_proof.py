@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from proofs import scripts, solvers, usage
 from proofs.catalogue import STEPS
-from proofs.lookups import EVERY_LOOKUP_IS_DEFINED
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.workbench import Part, Workbench
 from tests.bench import Figure, percentile
 

@@ -15,7 +15,7 @@ from kernel.terminal import Terminal
 from kernel.unit import Unit
 from proofs import assumptions, lints, pages, usage
 from proofs.catalogue import AXIOMS, PREMISES, STEPS
-from proofs.scripts import START
+from proofs.theory import START
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BUILT = [f"T{number}" for number in (1, 2, 4, 5, 6, 7, 8, 9, 10)]

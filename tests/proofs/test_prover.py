@@ -21,13 +21,13 @@ from lxml import etree
 import heisoku
 from kernel.names import Epoch, Run
 from models.world.state import Site, System
-from proofs import lookups, run, scripts, smtlib, solvers
+from proofs import run, scripts, smtlib, solvers
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, STEPS
 from proofs.lift import OutsideSubset, UnboundedScope
-from proofs.lookups import EVERY_LOOKUP_IS_DEFINED
 from proofs.records import Obligation
 from proofs.run import prove_all
 from proofs.solvers import Reply
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.workbench import Workbench
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -108,8 +108,8 @@ def test_the_hypotheses_of_an_obligation_are_those_of_its_script_and_exist(sampl
 
 def test_a_whole_row_is_proved_by_both_solvers() -> None:
     report = prove_all(solver="both", jobs=1, only=f"^{ROW} ")
-    assert [one["invariant"] for one in report.obligations if one["solver"] == "z3"] == run.columns(ROW)
-    assert [one["invariant"] for one in report.obligations if one["solver"] == "cvc5"] == run.columns(ROW)
+    assert [one["invariant"] for one in report.obligations if one["solver"] == "z3"] == columns(ROW)
+    assert [one["invariant"] for one in report.obligations if one["solver"] == "cvc5"] == columns(ROW)
     assert verdicts(report.obligations) == {"proved"}
     assert report.exit_code == 0
 
@@ -199,8 +199,7 @@ def test_a_script_without_a_needed_hypothesis_proves_nothing(monkeypatch: pytest
 
 
 def test_an_invariant_that_does_not_hold_is_not_proved(monkeypatch: pytest.MonkeyPatch, fresh_bench: None) -> None:
-    for claims in (INVARIANTS, lookups.READ):
-        monkeypatch.setitem(claims, nobody_is_ever_permitted.__name__, nobody_is_ever_permitted)
+    monkeypatch.setitem(INVARIANTS, nobody_is_ever_permitted.__name__, nobody_is_ever_permitted)
     report = prove_all(solver="both", jobs=1, only="^(send_permit|send_echo) nobody_is_ever_permitted$")
     told = {(one["transition"], one["solver"]): one["verdict"] for one in report.obligations}
     assert told["send_echo", "z3"] == told["send_echo", "cvc5"] == "proved"
@@ -284,8 +283,7 @@ def test_what_cannot_be_lifted_is_an_error_and_no_proof(monkeypatch: pytest.Monk
     def counts(site: Site, system: System) -> bool:
         return len([run for run in system.radio.permits]) == 0  # noqa: C416
 
-    for claims in (INVARIANTS, lookups.READ):
-        monkeypatch.setitem(claims, "counts", counts)
+    monkeypatch.setitem(INVARIANTS, "counts", counts)
     with pytest.raises(OutsideSubset, match=r"test_prover\.py:\d+"):
         prove_all(jobs=1, only="^part counts$")
 
@@ -299,7 +297,7 @@ from proofs import run, smtlib
 first, *cells = sys.argv[1:]
 if first == "others":
     for row in ("request", "car_moves", "note_standing"):
-        for column in run.columns(row)[::7]:
+        for column in columns(row)[::7]:
             "".join(smtlib.script(part) for part in run.parts(row, column))
 for cell in cells:
     row, column = cell.split()

@@ -1,0 +1,35 @@
+"""Integer arithmetic for the machines on board, every rounding said by its name.
+
+Units go by their products: mm/s times ms is µm, mm/s² times ms is µm/s.
+"""
+
+from __future__ import annotations
+
+CYCLE_MS = 100
+"""How long one cycle of the unit lasts (paper 001, table 2: sampled every 100 ms); P1, P8."""
+
+
+def smaller(one: int, other: int) -> int:
+    """Give the smaller of two (P1)."""
+    return one if one < other else other
+
+
+def larger(one: int, other: int) -> int:
+    """Give the larger of two (P1)."""
+    return one if one > other else other
+
+
+def magnitude(value: int) -> int:
+    """Give a value without its sign (P1)."""
+    return value if value >= 0 else -value
+
+
+def limited(value: int, least: int, most: int) -> int:
+    """Give the value, or the limit that it is beyond; ``least`` where the limits are crossed (P1)."""
+    return larger(least, smaller(value, most))
+
+
+def divided_up(value: int, by: int) -> int:
+    """Divide and round up; ``by`` is more than 0 (P1)."""
+    assert by > 0
+    return -(-value // by)

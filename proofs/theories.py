@@ -1,0 +1,41 @@
+"""Every theory, and the rows of the matrix that they make together.
+
+A row is named after its transition; those of other theories than the interlocking have the theory's
+name in front, ``odometry.run_a_cycle``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from proofs.catalogue import INTERLOCKING
+from proofs.theory import READING, START, Theory
+
+THEORIES: Mapping[str, Theory] = {theory.name: theory for theory in (INTERLOCKING,)}
+"""The theories by name, in the order of the matrix."""
+
+
+def row_of(theory: Theory, name: str) -> str:
+    """Name a row of the whole matrix."""
+    return name if theory is INTERLOCKING else f"{theory.name}.{name}"
+
+
+def theory_of(row: str) -> tuple[Theory, str]:
+    """Give the theory of a row, and the name of the row within it."""
+    theory, _, name = row.rpartition(".")
+    return THEORIES[theory or INTERLOCKING.name], name
+
+
+ROWS: tuple[str, ...] = tuple(row_of(theory, name) for theory in THEORIES.values() for name in theory.rows)
+"""Every row of the matrix, in order."""
+
+
+def columns(row: str) -> list[str]:
+    """Give the columns of a row, in order."""
+    theory, name = theory_of(row)
+    return theory.columns(name)
+
+
+def is_transition(row: str) -> bool:
+    """Tell whether a row is a transition's: neither a start nor the reading of predicates."""
+    return theory_of(row)[1] not in (START, READING)
