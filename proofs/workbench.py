@@ -10,7 +10,7 @@ from typing import Any
 
 from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
-from proofs.theory import START, Theory
+from proofs.theory import START, Predicate, Theory
 from proofs.transitions import event_types
 
 
@@ -72,13 +72,15 @@ class Workbench:
         """Layout and ground, of which the axioms speak."""
         return self.site.fields["layout"], self.site.fields["ground"]
 
+    def said_before(self, claims: Mapping[str, Predicate]) -> Mapping[str, Any]:
+        """Lift what claims say of the state before."""
+        return {name: self.lifter.formula(claim, self.site, self.before) for name, claim in claims.items()}
+
     @cached_property
     def initial(self) -> Mapping[str, Any]:
         """What holds at the start."""
         began = time.perf_counter()
-        formulas = {
-            name: self.lifter.formula(claim, self.site, self.before) for name, claim in self.theory.initial.items()
-        }
+        formulas = self.said_before(self.theory.initial)
         self.seconds += time.perf_counter() - began
         return formulas
 
@@ -86,9 +88,7 @@ class Workbench:
     def invariants(self) -> Mapping[str, Any]:
         """Every invariant of the state before."""
         began = time.perf_counter()
-        formulas = {
-            name: self.lifter.formula(claim, self.site, self.before) for name, claim in self.theory.invariants.items()
-        }
+        formulas = self.said_before(self.theory.invariants)
         self.seconds += time.perf_counter() - began
         return formulas
 

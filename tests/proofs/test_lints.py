@@ -10,9 +10,9 @@ import pytest
 from kernel import persistence
 from proofs import lints, restarts, scripts, usage
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, SAFETY, STEPS
-from proofs.run import columns as columns_of
 from proofs.scripts import FOLDER
 from proofs.theories import ROWS
+from proofs.theories import columns as columns_of
 from proofs.theory import READING, START
 
 ROOT = Path(__file__).resolve().parent.parent.parent

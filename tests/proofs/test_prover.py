@@ -27,6 +27,7 @@ from proofs.lift import OutsideSubset, UnboundedScope
 from proofs.records import Obligation
 from proofs.run import prove_all
 from proofs.solvers import Reply
+from proofs.theories import columns
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.workbench import Workbench
 
@@ -364,7 +365,7 @@ def test_the_hash_is_of_the_text(sample: list[Obligation]) -> None:
 
 @pytest.mark.parametrize("named", [True, False], ids=["two vocabularies", "substituted"])
 def test_both_forms_of_a_transition_prove_the_sample(named: bool) -> None:
-    bench = Workbench(UnboundedScope(), named=named)
+    bench = Workbench(scope=UnboundedScope(), named=named)
     for row, column in SAMPLE:
         if row not in STEPS or column == EVERY_LOOKUP_IS_DEFINED:
             continue
