@@ -295,6 +295,7 @@ def test_what_cannot_be_lifted_is_an_error_and_no_proof(monkeypatch: pytest.Monk
 TEXTS = """
 import hashlib, sys
 from proofs import run, smtlib
+from proofs.theories import columns
 first, *cells = sys.argv[1:]
 if first == "others":
     for row in ("request", "car_moves", "note_standing"):
