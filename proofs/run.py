@@ -35,7 +35,7 @@ class Task:
 @cache
 def bench(theory: str = "interlocking") -> Workbench:
     """The workbench of a theory in this process; lifted once."""
-    return Workbench(THEORIES[theory])
+    return Workbench(THEORIES[theory], named=THEORIES[theory].quantified)
 
 
 def laid_out(row: str, column: str, names: list[str] | None) -> list[Part]:

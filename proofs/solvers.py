@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from dataclasses import dataclass
 from importlib import metadata
@@ -17,6 +18,8 @@ Answer = Literal["unsat", "sat", "unknown"]
 
 BUDGET = {"z3": 4_000_000, "cvc5": 400_000}
 """What a solver may spend on one question, each in its own units."""
+
+QUANTIFIER = re.compile(r"\((forall|exists) ")
 
 
 @dataclass(frozen=True)
@@ -65,19 +68,20 @@ def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
 
 
 def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
-    """Ask cvc5, by the text; where its patterns find no instance, let it enumerate them."""
-    answer, spent = _ask_cvc5_once(text, seed, saturate=False)
+    """Ask cvc5, by the text; at a loss it enumerates instances, or covers the reals by cells."""
+    answer, spent = _ask_cvc5_once(text, seed)
     if answer != "unknown":
         return answer, spent
-    answer, more = _ask_cvc5_once(text, seed, saturate=True)
+    answer, more = _ask_cvc5_once(text, seed, "full-saturate-quant" if QUANTIFIER.search(text) else "nl-cov")
     return answer, spent + more
 
 
-def _ask_cvc5_once(text: str, seed: int, *, saturate: bool) -> tuple[Answer, int]:
+def _ask_cvc5_once(text: str, seed: int, *more: str) -> tuple[Answer, int]:
     solver = cvc5.Solver()
     solver.setOption("rlimit", str(max(1, BUDGET["cvc5"] // 2)))
     solver.setOption("seed", str(seed))
-    solver.setOption("full-saturate-quant", str(saturate).lower())
+    for option in more:
+        solver.setOption(option, "true")
     parser = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, text, "obligation")
     symbols = parser.getSymbolManager()

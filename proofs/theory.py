@@ -32,6 +32,8 @@ class Theory:
     ``safety``: those of them that the safety case claims.  All of site and system.
     ``premises``: what is assumed of the site.
     ``axioms``: what is assumed of ``site.layout`` and ``site.ground``.
+    ``quantified``: it speaks of any number of things; then a transition is stated by the fields it
+    defines anew.  Plain arithmetic is easier where new values stand in place of those fields.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Theory:
     safety: Mapping[str, Predicate]
     premises: Mapping[str, Predicate] = field(default_factory=dict)
     axioms: Mapping[str, Predicate] = field(default_factory=dict)
+    quantified: bool = False
 
     @property
     def read(self) -> dict[str, Predicate]:

@@ -1,0 +1,103 @@
+"""The brake: it comes on early enough that the head stops before the end of authority (T12, P7).
+
+The rule is worked out for the worst: the train gains speed as hard as it can for this cycle and for as
+long as the brake takes to respond, and only then slows by what the brake guarantees.  If it would
+not stop before the end of its authority then, the brake comes on now.
+
+An inequality instead of a division: u² <= 2 b s, with u in µm/s, b in mm/s² and s in nm.  It fits into
+64 bits for speeds to 200 m/s, decelerations to 4 m/s² and ends at most 1000 km ahead.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.onboard.arithmetic import CYCLE_MS, smaller
+
+NM_A_MM = 1_000_000
+FARTHEST_MM = 10**9
+"""The farthest ahead that an end of authority is reckoned with; what lies beyond counts as so far."""
+GREATEST_SPEED_MM_S = 200_000
+
+
+@dataclass(frozen=True)
+class BrakeBounds:
+    """What the brake is held to, on the steepest gradient and the worst adhesion; each above 0 (T12).
+
+    ``gains_mm_s2``: the most that the train gains while the brake is not yet effective.
+    ``slows_mm_s2``: the least that the brake slows it by, once effective.
+    ``response_cycles``: from the command until then.
+    ``standstill_mm_s``: at speeds certainly below this the train counts as standing.
+    """
+
+    gains_mm_s2: int
+    slows_mm_s2: int
+    response_cycles: int
+    standstill_mm_s: int
+
+
+@dataclass(frozen=True)
+class Brake:
+    """What the brake control knows (T12).
+
+    ``applied``: the emergency brake is commanded; it stays so until released at a standstill.
+    ``end_mm``: the end of authority, on the line's kilometrage.
+    """
+
+    applied: bool
+    end_mm: int
+
+
+def worst_um_s(bounds: BrakeBounds, speed_most_mm_s: int) -> int:
+    """Give how fast the train may be when a brake commanded a cycle from now responds (T12)."""
+    return 1000 * speed_most_mm_s + (bounds.response_cycles + 1) * CYCLE_MS * bounds.gains_mm_s2
+
+
+def reach_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int) -> int:
+    """Give how far the head may be then (T12)."""
+    way_nm = (bounds.response_cycles + 1) * CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
+    return NM_A_MM * front_most_mm + way_nm
+
+
+def left_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> int:
+    """Give the way that is left then for the brake, less the one cycle in which it takes hold (T12)."""
+    end_nm = NM_A_MM * smaller(end_mm, front_most_mm + FARTHEST_MM)
+    cycle_nm = CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
+    return end_nm - reach_nm(bounds, front_most_mm, speed_most_mm_s) - cycle_nm
+
+
+def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> bool:
+    """Tell whether a train that brakes a cycle from now still stops before the end (T12).
+
+    ``front_most_mm``, ``speed_most_mm_s``: as far and as fast as it may be.  A speed out of range is too fast.
+    """
+    fast_um_s = worst_um_s(bounds, speed_most_mm_s)
+    way_nm = left_nm(bounds, front_most_mm, speed_most_mm_s, end_mm)
+    return (
+        0 <= speed_most_mm_s <= GREATEST_SPEED_MM_S
+        and way_nm >= 0
+        and fast_um_s * fast_um_s <= 2 * bounds.slows_mm_s2 * way_nm
+    )
+
+
+def supervise(
+    bounds: BrakeBounds, brake: Brake, front_most_mm: int, speed_most_mm_s: int, demanded: bool, acknowledged: bool
+) -> Brake:
+    """Decide for the cycle that begins (T12).
+
+    ``demanded``: another machine wants the emergency brake: an open loop, a split, a lost position (T5, P5).
+    ``acknowledged``: the driver has acknowledged it; it is released at a standstill, if nothing wants it any more.
+    """
+    safe = not demanded and stops_before(bounds, front_most_mm, speed_most_mm_s, brake.end_mm)
+    stands = acknowledged and speed_most_mm_s <= bounds.standstill_mm_s
+    return replace(brake, applied=not safe or (brake.applied and not stands))
+
+
+def take_end(bounds: BrakeBounds, brake: Brake, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> Brake:
+    """Take a new end of authority: farther at any time, nearer if the train can still stop before it (T4, T9, T12).
+
+    A nearer end that it could overrun is not taken; the brake comes on, and the old end stands.
+    """
+    if end_mm >= brake.end_mm or stops_before(bounds, front_most_mm, speed_most_mm_s, end_mm):
+        return replace(brake, end_mm=end_mm)
+    return replace(brake, applied=True)

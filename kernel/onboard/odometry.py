@@ -1,0 +1,290 @@
+"""Odometry: where the front of the train is, as a range, from tachometer and inertial sensor (P1, P7).
+
+While the wheel is trusted the range goes with the tachometer's pulses, counted from an anchor, so
+that its error grows with the way and never with time.  When the accelerations of inertial sensor and
+tachometer differ, the wheel slips or slides: from the cycle before on, speed and way come from the
+inertial sensor within the line's steepest gradient, and the anchor goes along (paper 001, 2.1).
+A fix narrows the range; one that lies outside it shows that a sensor is worse than its bound, and then
+no range is claimed any more.
+
+Ranges of readings: speeds to 200 m/s, ways to 10**9 mm, accelerations to 100 m/s²; what is beyond is
+no reading.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, limited, magnitude, smaller
+
+MILLION = 1_000_000
+GREATEST_SPEED_MM_S = 200_000
+GREATEST_ACCELERATION_MM_S2 = 100_000
+GREATEST_WAY_MM = 10**9
+
+
+@dataclass(frozen=True)
+class SensorBounds:
+    """The written bounds on sensors, train and line; each is 0 or more (P1, P7).
+
+    ``scale_ppm``: creep of a rolling wheel and the error of its diameter, of the way and of the speed.
+    ``pulse_mm``: the way between two pulses.
+    ``tachometer_mm_s``: error of the speed reading beside that.
+    ``inertial_mm_s2``: bias, drift, noise and mounting of the inertial sensor.
+    ``gradient_mm_s2``: gravity along the steepest gradient of the line.
+    ``gradient_rate_mm_s2``: how much the gradient estimate may change in one cycle.
+    ``slip_mm_s2``: T_a, from which on the accelerations differ.
+    ``accelerates_mm_s2``, ``brakes_mm_s2``: what the train can do at most, on the steepest gradient.
+    ``agreement_cycles``: how long the accelerations must agree before the wheel is trusted again.
+    """
+
+    scale_ppm: int
+    pulse_mm: int
+    tachometer_mm_s: int
+    inertial_mm_s2: int
+    gradient_mm_s2: int
+    gradient_rate_mm_s2: int
+    slip_mm_s2: int
+    accelerates_mm_s2: int
+    brakes_mm_s2: int
+    agreement_cycles: int
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What the sensors say at the end of a cycle (P1).
+
+    ``elapsed_ms``: since the cycle before, by the processor's clock.
+    ``tachometer_valid``, ``inertial_valid``: the sensor's own diagnosis, and that it gave a number at all.
+    ``tachometer_mm_s``: speed of the wheel; ``way_mm``: its pulses as a way, counted since power-on.
+    ``inertial_mm_s2``: along the track, gravity included.
+    """
+
+    elapsed_ms: int
+    tachometer_valid: bool
+    tachometer_mm_s: int
+    way_mm: int
+    inertial_valid: bool
+    inertial_mm_s2: int
+
+
+class Loss(Enum):
+    """Why no range is claimed any more; the train brakes, and is located anew at a standstill (P7, T8)."""
+
+    NONE = 0
+    CYCLE_IRREGULAR = 1
+    """The processor's clock did not go on by one cycle."""
+    CONTRADICTED = 2
+    """A fix lay outside the range: some sensor or tag is worse than its bound."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What the odometry knows (P1, P7).
+
+    ``front_least_mm``, ``front_most_mm``: the front is in there, on the line's kilometrage.
+    ``speed_least_mm_s``, ``speed_most_mm_s``: so is the speed.
+    ``anchor_least_mm``, ``anchor_most_mm``, ``anchor_way_mm``: range and pulses where counting began.
+    ``tachometer_mm_s``, ``way_mm``: the last readings.
+    ``trusted``: the wheel rolls; ``agreed_cycles``: for how long it has agreed, if not.
+    ``gradient_mm_s2``: gravity along the track, as estimated.
+    """
+
+    front_least_mm: int
+    front_most_mm: int
+    speed_least_mm_s: int
+    speed_most_mm_s: int
+    anchor_least_mm: int
+    anchor_most_mm: int
+    anchor_way_mm: int
+    tachometer_mm_s: int
+    way_mm: int
+    trusted: bool
+    agreed_cycles: int
+    gradient_mm_s2: int
+    loss: Loss
+
+
+def located(least_mm: int, most_mm: int, way_mm: int) -> Motion:
+    """Begin at a standstill, with the front known to be in a range (P7, T8); the wheel has yet to agree."""
+    return Motion(
+        front_least_mm=least_mm,
+        front_most_mm=most_mm,
+        speed_least_mm_s=0,
+        speed_most_mm_s=0,
+        anchor_least_mm=least_mm,
+        anchor_most_mm=most_mm,
+        anchor_way_mm=way_mm,
+        tachometer_mm_s=0,
+        way_mm=way_mm,
+        trusted=False,
+        agreed_cycles=0,
+        gradient_mm_s2=0,
+        loss=Loss.NONE,
+    )
+
+
+def is_located(motion: Motion) -> bool:
+    """Tell whether the range is claimed to contain the front (P7)."""
+    return motion.loss == Loss.NONE
+
+
+# ---- what the sensors can be held to
+
+
+def speed_error_mm_s(bounds: SensorBounds, tachometer_mm_s: int) -> int:
+    """Give how far the speed of a rolling wheel's reading may be from the train's (P1)."""
+    return tachometer_mm_s * bounds.scale_ppm // MILLION + 1 + bounds.tachometer_mm_s
+
+
+def way_error_mm(bounds: SensorBounds, way_mm: int) -> int:
+    """Give how far the pulses of a rolling wheel may be from the way that the train ran (P1)."""
+    return way_mm * bounds.scale_ppm // MILLION + 1 + bounds.pulse_mm
+
+
+def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
+    """Tell whether the tachometer gives a reading: valid, in range, and its pulses only ever more (P1)."""
+    return (
+        readings.tachometer_valid
+        and 0 <= readings.tachometer_mm_s <= GREATEST_SPEED_MM_S
+        and motion.way_mm <= readings.way_mm <= GREATEST_WAY_MM
+    )
+
+
+def inertial_speaks(readings: Readings) -> bool:
+    """Tell whether the inertial sensor gives a reading: valid and in range (P1)."""
+    return readings.inertial_valid and magnitude(readings.inertial_mm_s2) <= GREATEST_ACCELERATION_MM_S2
+
+
+def wheel_mm_s2(motion: Motion, readings: Readings) -> int:
+    """Give a_p, the acceleration of the wheel over the last cycle (P1)."""
+    return (readings.tachometer_mm_s - motion.tachometer_mm_s) * (1000 // CYCLE_MS)
+
+
+def agrees(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
+    """Tell whether the wheel's acceleration is the train's: |a_m - a_p| below T_a, both sensors speaking (P1)."""
+    measured_mm_s2 = readings.inertial_mm_s2 - motion.gradient_mm_s2
+    return (
+        tachometer_speaks(motion, readings)
+        and inertial_speaks(readings)
+        and magnitude(measured_mm_s2 - wheel_mm_s2(motion, readings)) < bounds.slip_mm_s2
+    )
+
+
+def next_gradient_mm_s2(bounds: SensorBounds, motion: Motion, readings: Readings) -> int:
+    """Follow what the inertial sensor shows beyond the wheel, slowly, within the steepest gradient (P1).
+
+    Asked only while the wheel is trusted and agrees: in a slip the estimate stays as it was.
+    """
+    seen_mm_s2 = readings.inertial_mm_s2 - wheel_mm_s2(motion, readings)
+    followed_mm_s2 = limited(
+        seen_mm_s2,
+        motion.gradient_mm_s2 - bounds.gradient_rate_mm_s2,
+        motion.gradient_mm_s2 + bounds.gradient_rate_mm_s2,
+    )
+    return limited(followed_mm_s2, -bounds.gradient_mm_s2, bounds.gradient_mm_s2)
+
+
+def least_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
+    """Give the least acceleration that the train may have: the brakes', or the inertial sensor's if it speaks (P1)."""
+    if not inertial_speaks(readings):
+        return -bounds.brakes_mm_s2
+    return larger(-bounds.brakes_mm_s2, readings.inertial_mm_s2 - bounds.gradient_mm_s2 - bounds.inertial_mm_s2)
+
+
+def most_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
+    """Give the most acceleration that the train may have: the motors', or the inertial sensor's if it speaks (P1)."""
+    if not inertial_speaks(readings):
+        return bounds.accelerates_mm_s2
+    return smaller(bounds.accelerates_mm_s2, readings.inertial_mm_s2 + bounds.gradient_mm_s2 + bounds.inertial_mm_s2)
+
+
+# ---- one cycle
+
+
+def roll(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
+    """Go on with the wheel: the range is the anchor's and the way since, with their errors (P1, P7)."""
+    since_mm = readings.way_mm - motion.anchor_way_mm
+    error_mm = way_error_mm(bounds, since_mm)
+    speed_error = speed_error_mm_s(bounds, readings.tachometer_mm_s)
+    return replace(
+        motion,
+        front_least_mm=motion.anchor_least_mm + since_mm - error_mm,
+        front_most_mm=motion.anchor_most_mm + since_mm + error_mm,
+        speed_least_mm_s=larger(0, readings.tachometer_mm_s - speed_error),
+        speed_most_mm_s=readings.tachometer_mm_s + speed_error,
+        tachometer_mm_s=readings.tachometer_mm_s,
+        way_mm=readings.way_mm,
+        gradient_mm_s2=next_gradient_mm_s2(bounds, motion, readings),
+    )
+
+
+def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
+    """Go on without the wheel, from where the train was before: by inertia within its bounds (P1, P7).
+
+    The anchor goes along.  Once the wheel has agreed long enough, at a speed that the train may
+    have, it is trusted again.
+    """
+    slowest_mm_s = larger(0, motion.speed_least_mm_s + CYCLE_MS * least_mm_s2(bounds, readings) // 1000)
+    fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, readings), 1000))
+    least_mm = motion.front_least_mm + CYCLE_MS * smaller(motion.speed_least_mm_s, slowest_mm_s) // 1000
+    most_mm = motion.front_most_mm + divided_up(CYCLE_MS * larger(motion.speed_most_mm_s, fastest_mm_s), 1000)
+    speaks = tachometer_speaks(motion, readings)
+    speed_error = speed_error_mm_s(bounds, readings.tachometer_mm_s)
+    plausible = slowest_mm_s - speed_error <= readings.tachometer_mm_s <= fastest_mm_s + speed_error
+    agreed = motion.agreed_cycles + 1 if agrees(bounds, motion, readings) and plausible else 0
+    return replace(
+        motion,
+        front_least_mm=least_mm,
+        front_most_mm=most_mm,
+        speed_least_mm_s=slowest_mm_s,
+        speed_most_mm_s=fastest_mm_s,
+        anchor_least_mm=least_mm,
+        anchor_most_mm=most_mm,
+        anchor_way_mm=readings.way_mm if speaks else motion.way_mm,
+        tachometer_mm_s=readings.tachometer_mm_s if speaks else motion.tachometer_mm_s,
+        way_mm=readings.way_mm if speaks else motion.way_mm,
+        trusted=agreed >= bounds.agreement_cycles,
+        agreed_cycles=smaller(agreed, bounds.agreement_cycles),
+    )
+
+
+def note_cycle(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
+    """Take the readings of one cycle (P1, P7)."""
+    if motion.loss != Loss.NONE:
+        return motion
+    if readings.elapsed_ms != CYCLE_MS:
+        return replace(motion, loss=Loss.CYCLE_IRREGULAR)
+    if motion.trusted and agrees(bounds, motion, readings):
+        return roll(bounds, motion, readings)
+    return glide(bounds, motion, readings)
+
+
+def note_fix(motion: Motion, least_mm: int, most_mm: int) -> Motion:
+    """Narrow the range by a fix, which says where the front is by a tag or a feature (P3, P7, T2).
+
+    A fix that lies wholly outside the range contradicts a sensor bound: no range is claimed then.
+    """
+    if motion.loss != Loss.NONE:
+        return motion
+    if most_mm < motion.front_least_mm or motion.front_most_mm < least_mm:
+        return replace(motion, loss=Loss.CONTRADICTED)
+    narrowed_least_mm = larger(motion.front_least_mm, least_mm)
+    narrowed_most_mm = smaller(motion.front_most_mm, most_mm)
+    return replace(
+        motion,
+        front_least_mm=narrowed_least_mm,
+        front_most_mm=narrowed_most_mm,
+        anchor_least_mm=narrowed_least_mm,
+        anchor_most_mm=narrowed_most_mm,
+        anchor_way_mm=motion.way_mm,
+    )
+
+
+# ---- what is reported
+
+
+def rear_least_mm(motion: Motion, length_mm: int) -> int:
+    """Give the rearmost place where the train may still be: its front at the least, less its length (P7)."""
+    return motion.front_least_mm - length_mm

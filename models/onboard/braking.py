@@ -1,0 +1,146 @@
+"""A train's head, its motors and its brake, under the brake control (T12).
+
+The head as a point: ``range_contains_train`` of the odometry says that it is no farther than the unit
+reckons.  Ways in nm, speeds in µm/s, as in ``models.onboard.odometry``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.onboard import braking
+from kernel.onboard.arithmetic import CYCLE_MS, larger
+from kernel.onboard.braking import Brake, BrakeBounds
+
+NM_A_MM = 1_000_000
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """What does not change: the bounds that the brake is held to (T12)."""
+
+    bounds: BrakeBounds
+
+
+@dataclass(frozen=True)
+class Approach:
+    """One moment of a train that runs towards the end of its authority.
+
+    ``head_nm``, ``speed_um_s``: where the head is, and how fast.
+    ``response_cycles``: how long the brake takes to respond; it counts down once commanded.
+    ``worst_um_s``, ``reach_nm``: history: how fast and how far, by the control's last decision that the
+    brake may be off, the head may be when the brake responds; then what is left of them.
+    ``left_nm``: history: the way that was left for the brake by that decision.
+    ``brake``: what the brake control knows.
+    """
+
+    head_nm: int
+    speed_um_s: int
+    response_cycles: int
+    worst_um_s: int
+    reach_nm: int
+    left_nm: int
+    brake: Brake
+
+
+# ---- premises
+
+
+def the_brake_slows(site: Vehicle) -> bool:
+    """The brake slows the train, and its response takes a cycle at least (T12).
+
+    The product follows from its factors; said, it spares the solvers the search for it.
+    """
+    return (
+        site.bounds.slows_mm_s2 > 0
+        and site.bounds.gains_mm_s2 >= 0
+        and site.bounds.response_cycles >= 1
+        and site.bounds.response_cycles * site.bounds.gains_mm_s2 >= 0
+    )
+
+
+# ---- assumptions
+
+
+def the_range_contains_the_head(system: Approach, front_most_mm: int, speed_most_mm_s: int) -> bool:
+    """The head is no farther and no faster than the odometry says: `range_contains_train`, `speed_range…` (P7)."""
+    return system.head_nm <= NM_A_MM * front_most_mm and system.speed_um_s <= 1000 * speed_most_mm_s
+
+
+def the_way_follows_the_speed(system: Approach, to_nm: int, speed_um_s: int) -> bool:
+    """Within one cycle the head gets no farther than at the greater of the speeds at its ends (P1)."""
+    return speed_um_s >= 0 and to_nm - system.head_nm <= CYCLE_MS * larger(system.speed_um_s, speed_um_s)
+
+
+def the_train_gains_no_more(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
+    """Until the brake responds the train gains no more speed than motors and descent can give it (T12)."""
+    return speed_um_s - system.speed_um_s <= CYCLE_MS * site.bounds.gains_mm_s2
+
+
+def the_brake_keeps_its_bound(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
+    """A brake that has responded slows the train by what is guaranteed, until it stands, and holds it then (T12)."""
+    return speed_um_s <= larger(0, system.speed_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
+
+
+# ---- transitions
+
+
+def run_a_cycle(
+    site: Vehicle,
+    system: Approach,
+    front_most_mm: int,
+    speed_most_mm_s: int,
+    demanded: bool,
+    acknowledged: bool,
+    to_nm: int,
+    speed_um_s: int,
+) -> Approach:
+    """The control decides, and the train runs for a cycle as the driver, the line and the brake let it (T12)."""
+    if not the_range_contains_the_head(system, front_most_mm, speed_most_mm_s):
+        return system
+    if not the_way_follows_the_speed(system, to_nm, speed_um_s):
+        return system
+    brake = braking.supervise(site.bounds, system.brake, front_most_mm, speed_most_mm_s, demanded, acknowledged)
+    responds = brake.applied and system.brake.applied and system.response_cycles == 0
+    if responds and not the_brake_keeps_its_bound(site, system, speed_um_s):
+        return system
+    if not responds and not the_train_gains_no_more(site, system, speed_um_s):
+        return system
+    if not brake.applied:
+        begun = decided(site, system, front_most_mm, speed_most_mm_s, brake)
+        return replace(begun, head_nm=to_nm, speed_um_s=speed_um_s)
+    slowed_um_s = larger(0, system.worst_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
+    return Approach(
+        head_nm=to_nm,
+        speed_um_s=speed_um_s,
+        response_cycles=system.response_cycles if responds else system.response_cycles - 1,
+        worst_um_s=slowed_um_s if responds else system.worst_um_s,
+        reach_nm=system.reach_nm + CYCLE_MS * system.worst_um_s if responds else system.reach_nm,
+        left_nm=system.left_nm - CYCLE_MS * slowed_um_s if responds else system.left_nm,
+        brake=brake,
+    )
+
+
+def decided(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s: int, brake: Brake) -> Approach:
+    """The control has found that the train would stop before the end: note by which reckoning (T12)."""
+    return replace(
+        system,
+        response_cycles=site.bounds.response_cycles,
+        worst_um_s=braking.worst_um_s(site.bounds, speed_most_mm_s),
+        reach_nm=braking.reach_nm(site.bounds, front_most_mm, speed_most_mm_s),
+        left_nm=braking.left_nm(site.bounds, front_most_mm, speed_most_mm_s, brake.end_mm),
+        brake=brake,
+    )
+
+
+def take_end(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> Approach:
+    """A new end of authority comes, any at all (T4, T9).
+
+    At a nearer end a brake that is on may take its response anew.
+    """
+    if not the_range_contains_the_head(system, front_most_mm, speed_most_mm_s):
+        return system
+    brake = braking.take_end(site.bounds, system.brake, front_most_mm, speed_most_mm_s, end_mm)
+    if brake.end_mm < system.brake.end_mm:
+        return decided(site, system, front_most_mm, speed_most_mm_s, brake)
+    return replace(system, brake=brake)

@@ -1,0 +1,94 @@
+"""What is claimed of the brake control: the head stays inside the authority, for every motion (T12)."""
+
+from __future__ import annotations
+
+from kernel.onboard.arithmetic import CYCLE_MS
+from models.onboard.braking import NM_A_MM, Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bool:
+    """At the start the train stands with its brake on, before the end of its authority (T12)."""
+    return (
+        system.brake.applied
+        and system.head_nm <= NM_A_MM * system.brake.end_mm
+        and system.speed_um_s == 0
+        and system.response_cycles == 0
+        and system.worst_um_s == 0
+        and system.reach_nm == system.head_nm
+        and system.left_nm == 0
+    )
+
+
+# ---- safety
+
+
+def head_stays_inside_authority(site: Vehicle, system: Approach) -> bool:
+    """The head does not pass the end of authority (T12)."""
+    return system.head_nm <= NM_A_MM * system.brake.end_mm
+
+
+# ---- what it rests on
+
+
+def no_speed_is_negative(site: Vehicle, system: Approach) -> bool:
+    """The train runs forward (T12)."""
+    return system.speed_um_s >= 0 and system.worst_um_s >= 0
+
+
+def the_response_ends(site: Vehicle, system: Approach) -> bool:
+    """The brake responds in no negative time, and in its full time if it is off (T12)."""
+    return system.response_cycles >= 0 and (
+        system.brake.applied or system.response_cycles == site.bounds.response_cycles
+    )
+
+
+def it_gets_no_faster_before_the_response(site: Vehicle, system: Approach) -> bool:
+    """Until the brake has responded the speed stays below the worst that was reckoned with (T12)."""
+    return system.speed_um_s + system.response_cycles * CYCLE_MS * site.bounds.gains_mm_s2 <= system.worst_um_s
+
+
+def it_gets_no_farther_before_the_response(site: Vehicle, system: Approach) -> bool:
+    """Until the brake has responded the head stays short of the place that was reckoned with (T12)."""
+    return system.head_nm + system.response_cycles * CYCLE_MS * system.worst_um_s <= system.reach_nm
+
+
+def the_way_left_lies_before_the_end(site: Vehicle, system: Approach) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the authority does (T12)."""
+    return (
+        system.left_nm >= 0
+        and system.reach_nm + CYCLE_MS * system.worst_um_s + system.left_nm <= NM_A_MM * system.brake.end_mm
+    )
+
+
+def the_way_left_is_enough(site: Vehicle, system: Approach) -> bool:
+    """The guaranteed brake stops the train from the worst speed within the way left: u² <= 2 b s (T12)."""
+    return system.worst_um_s * system.worst_um_s <= 2 * site.bounds.slows_mm_s2 * system.left_nm
+
+
+INITIAL = (the_train_stands_inside_its_authority,)
+SAFETY = (head_stays_inside_authority,)
+INVARIANTS = (
+    *SAFETY,
+    no_speed_is_negative,
+    the_response_ends,
+    it_gets_no_faster_before_the_response,
+    it_gets_no_farther_before_the_response,
+    the_way_left_lies_before_the_end,
+    the_way_left_is_enough,
+)
+PREMISES = (the_brake_slows,)
+STEPS = (run_a_cycle, take_end)
+
+THEORY = Theory(
+    "braking",
+    Vehicle,
+    Approach,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    by_name(PREMISES),
+)

@@ -1,0 +1,104 @@
+"""What is claimed of the odometry: its range contains the train, always (P1, P7)."""
+
+from __future__ import annotations
+
+from kernel.onboard import odometry
+from kernel.onboard.arithmetic import magnitude
+from models.onboard.odometry import (
+    NM_A_MM,
+    Line,
+    Running,
+    a_jolt_stands_out,
+    bounds_are_not_negative,
+    run_a_cycle,
+    take_fix,
+    the_length_used_is_no_less,
+)
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def the_train_stands_where_it_is_located(site: Line, system: Running) -> bool:
+    """At the start the train is at rest, and its front within what was told (P7, T8)."""
+    least_mm, most_mm, way_mm = (
+        system.motion.front_least_mm,
+        system.motion.front_most_mm,
+        system.motion.way_mm,
+    )
+    return (
+        system.motion == odometry.located(least_mm, most_mm, way_mm)
+        and NM_A_MM * least_mm <= system.front_nm <= NM_A_MM * most_mm
+        and system.anchor_nm == system.front_nm
+        and system.speed_um_s == 0
+    )
+
+
+# ---- safety
+
+
+def range_contains_train(site: Line, system: Running) -> bool:
+    """While a range is claimed, the whole train is in it: its front, and its rear by the length used (P7)."""
+    return not odometry.is_located(system.motion) or (
+        NM_A_MM * odometry.rear_least_mm(system.motion, site.length_used_mm)
+        <= system.front_nm - NM_A_MM * site.length_mm
+        and system.front_nm <= NM_A_MM * system.motion.front_most_mm
+    )
+
+
+def speed_range_contains_speed(site: Line, system: Running) -> bool:
+    """While a range is claimed, the train's speed is in the range of speeds; the brake reckons with it (P1, T12)."""
+    return not odometry.is_located(system.motion) or (
+        1000 * system.motion.speed_least_mm_s <= system.speed_um_s <= 1000 * system.motion.speed_most_mm_s
+    )
+
+
+# ---- what they rest on
+
+
+def range_contains_front(site: Line, system: Running) -> bool:
+    """The front is in the range (P7)."""
+    return not odometry.is_located(system.motion) or (
+        NM_A_MM * system.motion.front_least_mm <= system.front_nm <= NM_A_MM * system.motion.front_most_mm
+    )
+
+
+def anchor_contained_front(site: Line, system: Running) -> bool:
+    """At the anchor the front was in the anchor's range (P1)."""
+    return not odometry.is_located(system.motion) or (
+        NM_A_MM * system.motion.anchor_least_mm <= system.anchor_nm <= NM_A_MM * system.motion.anchor_most_mm
+    )
+
+
+def a_trusted_wheel_has_not_slipped(site: Line, system: Running) -> bool:
+    """A wheel that is trusted has not slipped since the anchor (P1)."""
+    return not odometry.is_located(system.motion) or not system.motion.trusted or not system.slipped
+
+
+def the_gradient_estimate_is_no_steeper_than_the_line(site: Line, system: Running) -> bool:
+    """The estimate stays within the steepest gradient, so that it hides no jolt (P1)."""
+    return magnitude(system.motion.gradient_mm_s2) <= site.bounds.gradient_mm_s2
+
+
+INITIAL = (the_train_stands_where_it_is_located,)
+SAFETY = (range_contains_train, speed_range_contains_speed)
+INVARIANTS = (
+    *SAFETY,
+    range_contains_front,
+    anchor_contained_front,
+    a_trusted_wheel_has_not_slipped,
+    the_gradient_estimate_is_no_steeper_than_the_line,
+)
+PREMISES = (bounds_are_not_negative, a_jolt_stands_out, the_length_used_is_no_less)
+STEPS = (run_a_cycle, take_fix)
+
+THEORY = Theory(
+    "odometry",
+    Line,
+    Running,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    by_name(PREMISES),
+)
