@@ -15,6 +15,7 @@ from models.world.assumptions import (
     a_train_short_of_its_run_has_not_entered,
     a_train_within_its_destination_is_not_beyond,
 )
+from models.world.evidence import genuine
 from models.world.state import Site, System
 
 
@@ -86,7 +87,10 @@ def tail_reads(
         return system
     unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], antenna, cab, healthy, read)
     behind = system.track.behind | frozenset(
-        (other, block) for other, order in unit.orders.items() for block in order.left
+        (other, block)
+        for other, order in unit.orders.items()
+        for block, evidence in order.left.items()
+        if genuine(site, block, evidence.left, evidence.entered)
     )
     return replace(with_unit(system, run.train, unit), track=replace(system.track, behind=behind))
 

@@ -95,7 +95,7 @@ class Track:
     ``at``: the blocks each car is in.
     ``under``: history: the run under which a car came into a block it has been in.
     ``run_into``: history: runs under which some car has moved.
-    ``behind``: history: for each run the blocks that its tail has been seen to leave.
+    ``behind``: history: for each run the blocks that its tail has been seen to leave, by what is written in their tags.
     ``rolling``: runs in which the train can no longer stop before the blocks they cover.
     ``slipping``: runs in which the train can no longer stop inside the destination.
     ``lies``: how each point lies.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from kernel.names import Stage
 from models.world.assumptions import stands_exactly
+from models.world.evidence import genuine
 from models.world.state import Site, System
-from proofs.invariants.vocabulary import genuine, reaches, told
+from proofs.invariants.vocabulary import reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
@@ -152,12 +153,15 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
             for run, block in system.track.behind
         )
         and all(
-            (run, block) in system.track.behind
+            not genuine(site, block, evidence.left, evidence.entered) or (run, block) in system.track.behind
             for train in system.units
             for run, order in system.units[train].orders.items()
-            for block in order.left
+            for block, evidence in order.left.items()
         )
-        and all((run, block) in system.track.behind for run, block, _left, _entered in system.radio.tail_reports)
+        and all(
+            not genuine(site, block, left, entered) or (run, block) in system.track.behind
+            for run, block, left, entered in system.radio.tail_reports
+        )
     )
 
 
