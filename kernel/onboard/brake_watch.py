@@ -1,0 +1,51 @@
+"""Watches whether the train keeps to what the brake control reckons with (T12, P5).
+
+The brake control is proved under two bounds: how much the train gains until the brake responds, and
+how much the brake slows it then.  A train that is certainly faster than these bounds allow has broken
+one of them: its motors are not cut, its brake is weak, or the rails are more slippery than was thought.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, smaller
+from kernel.onboard.braking import BrakeBounds
+
+
+@dataclass(frozen=True)
+class BrakeWatch:
+    """What is watched (T12).
+
+    ``limit_mm_s``: the train is no faster than this while the bounds hold.
+    ``cycles``: for how many cycles the brake has been commanded, at most its response.
+    ``broken``: a bound was found broken; it stays so until the vehicle is inspected.
+    """
+
+    limit_mm_s: int
+    cycles: int
+    broken: bool
+
+
+def watching(speed_most_mm_s: int) -> BrakeWatch:
+    """Begin to watch a train that is no faster than this (T12)."""
+    return BrakeWatch(limit_mm_s=speed_most_mm_s, cycles=0, broken=False)
+
+
+def next_limit_mm_s(bounds: BrakeBounds, watch: BrakeWatch, applied: bool) -> int:
+    """Give how fast the train may be a cycle on: slower once the brake has responded, else faster (T12)."""
+    if applied and watch.cycles >= bounds.response_cycles:
+        return larger(0, watch.limit_mm_s - CYCLE_MS * bounds.slows_mm_s2 // 1000)
+    return watch.limit_mm_s + divided_up(CYCLE_MS * bounds.gains_mm_s2, 1000)
+
+
+def note_cycle(
+    bounds: BrakeBounds, watch: BrakeWatch, applied: bool, speed_least_mm_s: int, speed_most_mm_s: int
+) -> BrakeWatch:
+    """Take one cycle: whether the brake was commanded in it, and the range of speeds after it (T12)."""
+    limit_mm_s = next_limit_mm_s(bounds, watch, applied)
+    return BrakeWatch(
+        limit_mm_s=smaller(limit_mm_s, speed_most_mm_s),
+        cycles=smaller(watch.cycles + 1, bounds.response_cycles) if applied else 0,
+        broken=watch.broken or speed_least_mm_s > limit_mm_s,
+    )
