@@ -18,6 +18,8 @@ NM_A_MM = 1_000_000
 FARTHEST_MM = 10**9
 """The farthest ahead that an end of authority is reckoned with; what lies beyond counts as so far."""
 GREATEST_SPEED_MM_S = 200_000
+GREATEST_PLACE_MM = 10**9
+"""Places are within 1000 km of the kilometrage's origin; what is beyond is no place."""
 
 
 @dataclass(frozen=True)
@@ -69,15 +71,15 @@ def left_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_m
 def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> bool:
     """Tell whether a train that brakes a cycle from now still stops before the end (T12).
 
-    ``front_most_mm``, ``speed_most_mm_s``: as far and as fast as it may be.  A speed out of range is too fast.
+    ``front_most_mm``, ``speed_most_mm_s``: as far and as fast as it may be.  Out of range, it does not.
     """
+    if not 0 <= speed_most_mm_s <= GREATEST_SPEED_MM_S or not -GREATEST_PLACE_MM <= front_most_mm <= GREATEST_PLACE_MM:
+        return False
+    if end_mm < front_most_mm:
+        return False
     fast_um_s = worst_um_s(bounds, speed_most_mm_s)
     way_nm = left_nm(bounds, front_most_mm, speed_most_mm_s, end_mm)
-    return (
-        0 <= speed_most_mm_s <= GREATEST_SPEED_MM_S
-        and way_nm >= 0
-        and fast_um_s * fast_um_s <= 2 * bounds.slows_mm_s2 * way_nm
-    )
+    return way_nm >= 0 and fast_um_s * fast_um_s <= 2 * bounds.slows_mm_s2 * way_nm
 
 
 def supervise(

@@ -144,9 +144,13 @@ def way_error_mm(bounds: SensorBounds, way_mm: int) -> int:
 
 
 def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
-    """Tell whether the tachometer gives a reading: valid, in range, and its pulses only ever more (P1)."""
+    """Tell whether the tachometer gives a reading: valid, in range, and its pulses only ever more (P1).
+
+    A speed without a pulse is no reading: a tachometer that is stuck repeats both.
+    """
     return (
         readings.tachometer_valid
+        and (readings.tachometer_mm_s == 0 or readings.way_mm != motion.way_mm)
         and 0 <= readings.tachometer_mm_s <= GREATEST_SPEED_MM_S
         and motion.way_mm <= readings.way_mm <= GREATEST_WAY_MM
     )
@@ -154,7 +158,10 @@ def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
 
 def inertial_speaks(readings: Readings) -> bool:
     """Tell whether the inertial sensor gives a reading: valid and in range (P1)."""
-    return readings.inertial_valid and magnitude(readings.inertial_mm_s2) <= GREATEST_ACCELERATION_MM_S2
+    return (
+        readings.inertial_valid
+        and -GREATEST_ACCELERATION_MM_S2 <= readings.inertial_mm_s2 <= GREATEST_ACCELERATION_MM_S2
+    )
 
 
 def wheel_mm_s2(motion: Motion, readings: Readings) -> int:
