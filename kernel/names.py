@@ -1,6 +1,6 @@
 """The nouns of the kernel: identifiers, and the few words that a state can be.
 
-Identifiers are opaque: two of them are equal or not.  Only the four numbered ones
+Identifiers are opaque: two of them are equal or not.  Only the numbered ones
 (``Serial``, ``UnitLife``, ``TerminalLife``, ``Epoch``) are ordered as well; the kernel
 compares them and never calculates with them.
 """

@@ -1,0 +1,1 @@
+"""Concrete runs of the machines on board, each step of them asserted (witnesses)."""
