@@ -1,0 +1,235 @@
+"""Runs of a train over tags: whole, split with a cab that poses as the tail, stretched, miswired (T13, T3)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import antenna_spacing as machine
+from kernel.onboard.antenna_spacing import SpacingLimits
+from kernel.onboard.way import GREATEST_MM, UNKNOWN, Way
+from models.onboard.antenna_spacing import Track, Trailing
+from proofs.onboard.antenna_spacing import THEORY
+from proofs.onboard.witnesses.play import Play
+
+TAGS = (0, 1_000, 30_000, 31_000, 60_000, 61_000, 90_000, 91_000)
+"""Four boundaries, two tags at each; numbered by their places."""
+APART_MM = 120_000
+SITE = Track(limits=SpacingLimits(tolerance_mm=1_013), tag=0, read_mm=513, preset_error_mm=500, error_mm=2_000)
+JUST_STARTED = Trailing(
+    spacing=machine.restarted(),
+    head_mm=-200_000,
+    apart_mm=APART_MM,
+    whole=False,
+    head_has_read=False,
+    tail_mm=0,
+    caught=False,
+)
+
+
+class Train(Play[Track, Trailing]):
+    """A train just made up and preset."""
+
+    def __init__(self, preset_mm: int = APART_MM) -> None:
+        """Begin."""
+        super().__init__(THEORY, SITE, JUST_STARTED)
+        self.step("preset", preset_mm=preset_mm)
+        assert self.system.whole
+        assert self.system.spacing == machine.preset(preset_mm)
+        assert not self.healthy, "not before a check"
+
+    @property
+    def healthy(self) -> bool:
+        """Whether the tail's reads count."""
+        return machine.is_healthy(self.system.spacing)
+
+    def _at(self, to_mm: int, behind_mm: int, ahead_mm: int) -> Way:
+        if to_mm != self.system.head_mm:
+            self.step("run", to_mm=to_mm)
+        assert self.system.head_mm == to_mm, "the train runs"
+        return Way(True, to_mm - behind_mm, to_mm + ahead_mm)
+
+    def head(self, tag: int, off_mm: int = 0, behind_mm: int = 0, ahead_mm: int = 0, at: Way | None = None) -> None:
+        """The head comes to a tag and reads it, off the middle; the odometry's range reaches so far."""
+        told = self._at(tag + off_mm, behind_mm, ahead_mm)
+        self.step("head_reads", uid=tag, at=told if at is None else at)
+        assert self.system.spacing.reads.first.uid == tag, "it is read"
+
+    def tail(self, tag: int, off_mm: int = 0, behind_mm: int = 0, ahead_mm: int = 0, at: Way | None = None) -> bool:
+        """The antenna for the tail comes to a tag and reads it; tells whether its read counts."""
+        told = self._at(tag + self.system.apart_mm + off_mm, behind_mm, ahead_mm)
+        self.step("tail_reads", uid=tag, at=told if at is None else at)
+        assert self.system.spacing.tail_read, "it is read"
+        assert self.system.spacing.tail_uid == tag, "it is read"
+        return self.healthy
+
+
+def a_whole_train_over_eight_tags() -> None:
+    """The head reads eight tags before the tail comes to the first; every read of the tail counts."""
+    train = Train()
+    for tag in TAGS:
+        train.head(tag)
+    for tag in TAGS:
+        assert train.tail(tag)
+    assert train.system.head_has_read
+    assert not train.system.caught
+
+
+def the_worst_of_all_errors() -> None:
+    """Reads at the ends of the windows, the preset off by its error, the odometry at its worst: never accused."""
+    for off, preset_mm in ((256, APART_MM - 500), (-256, APART_MM + 500)):
+        for behind, ahead in ((0, 0), (2_000, 0), (0, 2_000), (1_000, 1_000)):
+            train = Train(preset_mm)
+            train.head(0, -off, ahead, behind)
+            assert train.tail(0, off, behind, ahead)
+
+
+def a_cab_poses_as_the_tail() -> None:
+    """After a split the rear cab of what remains reads the tags: it is found at its first, before it counts."""
+    train = Train()
+    for tag in TAGS:
+        train.head(tag)
+    assert train.tail(0)
+    train.step("come_apart", apart_mm=60_000)
+    assert not train.system.whole
+    train.step("run", to_mm=149_000)
+    assert not train.tail(90_000)
+    assert train.system.caught
+    assert train.system.spacing.broken
+    train.step("come_apart", apart_mm=APART_MM)
+    assert not train.tail(91_000), "latched, though it fits again"
+    train.head(299_000)
+    assert train.system.caught
+    train.step("restart")
+    train.head(300_000)
+    assert not train.tail(300_000), "nor does a restart mend it"
+    train.step("preset", preset_mm=APART_MM)
+    train.head(500_000)
+    assert not train.healthy
+    assert train.tail(500_000)
+
+
+def a_stretched_train() -> None:
+    """A tail that falls back is found as well, once it is beyond what the errors hide."""
+    train = Train()
+    train.head(0)
+    train.step("come_apart", apart_mm=APART_MM + 1_013)
+    assert train.tail(0), "within the tolerance"
+    for apart_mm in (APART_MM + 1_014, APART_MM - 1_014):
+        train = Train()
+        train.head(0)
+        train.step("come_apart", apart_mm=apart_mm)
+        assert not train.tail(0)
+        assert train.system.spacing.broken
+    train = Train()
+    train.head(0, behind_mm=2_000)
+    train.step("come_apart", apart_mm=APART_MM + 1_013 + 513 + 4_001)
+    assert not train.tail(0, behind_mm=2_000)
+    assert train.system.caught
+
+
+def the_tail_came_first() -> None:
+    """With the antennas miswired, the head reads a tag that the tail has read before: latched."""
+    train = Train()
+    train.step("come_apart", apart_mm=-APART_MM)
+    train.step("run", to_mm=-120_000)
+    assert not train.tail(0)
+    assert not train.system.spacing.broken, "there was nothing to hold it against"
+    train.head(0)
+    assert train.system.caught
+    assert train.system.spacing.broken
+
+
+def nothing_to_hold_it_against() -> None:
+    """A tag that the head has not read, or a place not known, makes the line not healthy until the next check."""
+    for at in (UNKNOWN, Way(False, 0, 10**6), Way(True, GREATEST_MM + 1, GREATEST_MM + 1)):
+        train = Train()
+        train.head(0)
+        train.head(1_000)
+        assert train.tail(0)
+        if at.known:
+            train.step("tail_reads", uid=1_000, at=at)
+            assert train.healthy, "no odometer says so"
+        else:
+            assert not train.tail(1_000, at=at)
+            assert not train.system.spacing.broken
+            assert train.tail(1_000)
+    train = Train()
+    train.head(0)
+    assert train.tail(0)
+    assert not train.tail(30_000)
+    train = Train()
+    train.head(0, at=UNKNOWN)
+    assert not train.tail(0)
+    assert not train.system.spacing.broken
+
+
+def a_place_beyond_the_range() -> None:
+    """A range that cannot be is none."""
+    limits = SITE.limits
+    far = GREATEST_MM + 1
+    for then, now in (
+        (Way(True, far - APART_MM, far - APART_MM), Way(True, far, far)),
+        (Way(True, -far, -far), Way(True, -far + APART_MM, -far + APART_MM)),
+        (Way(True, 5, 4), Way(True, APART_MM, APART_MM)),
+        (Way(True, 0, 0), Way(True, APART_MM + 1, APART_MM)),
+    ):
+        spacing = machine.note_tail_read(limits, machine.note_head_read(machine.preset(APART_MM), 7, then), 7, now)
+        assert not machine.is_healthy(spacing)
+        assert not spacing.broken
+
+
+def a_train_that_stands_on_a_tag() -> None:
+    """The head reads the same tag again and again: that is one read, and pushes out none."""
+    train = Train()
+    train.head(0)
+    for _ in range(9):
+        train.head(1_000)
+    assert train.tail(0)
+
+
+def a_train_turns() -> None:
+    """After a change of ends nothing counts until the distance is preset anew, and the tags are read anew."""
+    train = Train()
+    train.head(0)
+    assert train.tail(0)
+    train.step("turn", head_mm=0, apart_mm=APART_MM - 100)
+    assert train.system == replace(JUST_STARTED, head_mm=0, apart_mm=APART_MM - 100, tail_mm=APART_MM)
+    train.head(0)
+    assert not train.tail(0)
+    train.step("turn", head_mm=0, apart_mm=APART_MM)
+    train.step("preset", preset_mm=APART_MM)
+    assert not train.tail(0), "what the head read before the change counts no more"
+
+
+def what_nature_does_not_do() -> None:
+    """No tag is read outside the window, no odometer is worse than written, no train rolls back."""
+    train = Train()
+    before = train.system
+    train.step("head_reads", uid=0, at=UNKNOWN)
+    train.step("tail_reads", uid=0, at=UNKNOWN)
+    train.step("head_reads", uid=-200_000, at=Way(True, -199_999, 0))
+    train.step("head_reads", uid=-50_000, at=Way(True, -201_000, -200_001))
+    train.step("head_reads", uid=-200_000, at=Way(True, -202_001, -200_000))
+    train.step("tail_reads", uid=-320_000, at=Way(True, -199_999, 0))
+    train.step("tail_reads", uid=-320_000, at=Way(True, -202_001, -200_000))
+    train.step("run", to_mm=-200_001)
+    train.step("preset", preset_mm=APART_MM + 501)
+    assert train.system == before
+    train.step("come_apart", apart_mm=513)
+    before = train.system
+    train.step("preset", preset_mm=513)
+    assert train.system == before, "the antennas lie farther apart than a window"
+
+
+WITNESSES = (
+    a_whole_train_over_eight_tags,
+    the_worst_of_all_errors,
+    a_cab_poses_as_the_tail,
+    a_stretched_train,
+    the_tail_came_first,
+    nothing_to_hold_it_against,
+    a_place_beyond_the_range,
+    a_train_that_stands_on_a_tag,
+    a_train_turns,
+    what_nature_does_not_do,
+)
