@@ -1,0 +1,270 @@
+"""Trains of known length, measured at a curve or a tag, at the edges of every error (P4, T3, P8)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import train_length as machine
+from kernel.onboard.train_length import LengthBounds, Passing, PointKind
+from models.onboard.train_length import Formation, Railway
+from proofs.onboard.train_length import THEORY
+from proofs.onboard.witnesses.play import Play
+
+BOUNDS = LengthBounds(
+    line_maximum_mm=250_000,
+    last_vehicle_mm=20_000,
+    averaging_mm=machine.AVERAGING_MM,
+    sensor_mm=machine.SENSOR_MM,
+    front_overhang_mm=3_000,
+    rear_overhang_mm=2_000,
+    window_mm=513,
+)
+SITE = Railway(BOUNDS)
+LENGTH_MM = 120_000
+JUST_STARTED = Formation(
+    length_um=LENGTH_MM * 1_000,
+    state=machine.UNMEASURED,
+    head_passed=False,
+    kind=PointKind.FEATURE,
+    point=0,
+    time_ms=0,
+    front_um=0,
+    speed_mm_s=0,
+    tail_passed=False,
+    both_passed=False,
+)
+CURVE = Passing(PointKind.FEATURE, 7, 1_000, 0, 0, 36_112)
+"""The head at 130 km/h, with the front known to a millimetre."""
+TAG = replace(CURVE, kind=PointKind.TAG)
+
+
+class Train(Play[Railway, Formation]):
+    """A train of 120 m, just started, and what its ends pass."""
+
+    def __init__(self) -> None:
+        """Begin."""
+        super().__init__(THEORY, SITE, JUST_STARTED)
+
+    def head(self, passing: Passing) -> None:
+        """The head passes; its front is the least of the range."""
+        before = self.system
+        self.step(
+            "head_passes",
+            front_um=passing.front_least_mm * 1_000,
+            speed_mm_s=passing.speed_most_mm_s,
+            passing=passing,
+        )
+        assert self.system.head_passed
+        assert self.system.point == passing.point
+        assert self.system.state.measured == before.state.measured
+
+    def tail(self, passing: Passing, *, sampling: int = 0, skew: int = 0, averaging: int = 0, sensor: int = 0) -> None:
+        """The tail passes, noted off by these errors in µm; the front is at ``front_most_mm`` or just above."""
+        self.step(
+            "tail_passes",
+            front_um=passing.front_most_mm * 1_000,
+            speed_mm_s=passing.speed_most_mm_s,
+            sampling_um=sampling,
+            skew_um=skew,
+            averaging_um=averaging,
+            sensor_um=sensor,
+            passing=passing,
+        )
+        assert self.system.tail_passed
+
+    @staticmethod
+    def later(passing: Passing, way_mm: int) -> Passing:
+        """The tail's pass of a point that the head has passed ``way_mm`` ago."""
+        front_mm = passing.front_least_mm + way_mm
+        return replace(passing, time_ms=passing.time_ms + 5_000, front_least_mm=front_mm, front_most_mm=front_mm)
+
+    def used_mm(self) -> int:
+        """The length that the unit reckons with."""
+        return machine.length_mm(BOUNDS, self.system.state)
+
+
+def the_error_at_130_km_h_is_13_m() -> None:
+    """The terms of paper 001, table 2, add up to what it says (P8)."""
+    assert machine.error_mm(BOUNDS, PointKind.FEATURE, 36_112) == 3_612 + 3_612 + 782 + 5_000
+    assert machine.error_mm(BOUNDS, PointKind.FEATURE, 0) == 5_782
+
+
+def a_train_is_measured_at_a_curve() -> None:
+    """Without errors, what is used is the length and E(v) (P4)."""
+    train = Train()
+    assert train.used_mm() == 250_000
+    train.head(CURVE)
+    assert train.used_mm() == 250_000
+    train.tail(train.later(CURVE, 100_000))
+    assert train.used_mm() == 120_000 + 13_006
+    assert not machine.contradicts_the_line(BOUNDS, train.system.state)
+
+
+def a_train_measured_as_short_as_can_be_is_not_underestimated() -> None:
+    """All four errors at their worst leave what is rounded up (P4, P8)."""
+    train = Train()
+    train.head(CURVE)
+    cycle = 3_611_200
+    short = Train.later(CURVE, 100_000 - 13_004)
+    train.tail(short, sampling=-cycle, skew=-cycle, averaging=-781_600, sensor=-5_000_000)
+    assert train.used_mm() == 120_002
+
+
+def a_train_is_measured_at_a_tag() -> None:
+    """Both overhangs, the window, and one cycle (T3)."""
+    train = Train()
+    train.head(TAG)
+    train.tail(train.later(TAG, 115_000))
+    assert train.used_mm() == 120_000 + 3_612 + 513
+
+
+def the_wider_range_and_the_higher_speed_count() -> None:
+    """Least place at the head's pass, most at the tail's, the higher speed of both (P4)."""
+    train = Train()
+    train.head(replace(CURVE, front_least_mm=-1_000, front_most_mm=2_000, speed_most_mm_s=10_000))
+    tail = train.later(replace(CURVE, speed_most_mm_s=20_000), 99_000)
+    train.tail(replace(tail, front_least_mm=90_000))
+    assert train.used_mm() == 120_000 + 2 * 2_000 + 5_782
+    train = Train()
+    train.head(replace(CURVE, speed_most_mm_s=20_000))
+    train.tail(replace(train.later(CURVE, 100_000), speed_most_mm_s=10_000))
+    assert train.used_mm() == 120_000 + 2 * 2_000 + 5_782
+
+
+def a_measured_length_stays() -> None:
+    """Another point measures nothing any more, until the formation changes (paper 001, 3.1; P4)."""
+    train = Train()
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 100_000))
+    slower = replace(train.later(CURVE, 500_000), speed_most_mm_s=0)
+    train.head(slower)
+    train.tail(train.later(slower, 100_000))
+    assert train.used_mm() == 133_006
+    train.step("change_formation", length_um=200_000_000)
+    assert train.system.length_um == 200_000_000
+    assert not train.system.tail_passed
+    assert not train.system.both_passed
+    assert train.used_mm() == 250_000
+    train.head(slower)
+    train.tail(train.later(slower, 180_000))
+    assert train.used_mm() == 205_782
+
+
+def a_pass_of_the_old_formation_does_not_count() -> None:
+    """Coupled, or restarted, between the head's pass and the tail's: nothing is measured (P4, T3)."""
+    for what in ({"length_um": 240_000_000}, {}):
+        train = Train()
+        train.head(CURVE)
+        train.tail(train.later(CURVE, 100_000))
+        assert train.system.state.measured
+        train.head(CURVE)
+        train.step("change_formation" if what else "restart", **what)
+        assert not train.system.head_passed
+        assert not train.system.tail_passed
+        assert not train.system.both_passed
+        train.tail(train.later(CURVE, 100_000))
+        assert train.used_mm() == 250_000
+
+
+def only_the_heads_point_counts() -> None:
+    """Another feature, a tag of the same number, or a pass no later than the head's: nothing (P4)."""
+    train = Train()
+    train.tail(train.later(CURVE, 10_000))
+    train.head(CURVE)
+    near = train.later(CURVE, 10_000)
+    train.tail(replace(near, point=8))
+    train.tail(replace(near, kind=PointKind.TAG))
+    train.tail(replace(near, time_ms=CURVE.time_ms))
+    assert train.used_mm() == 250_000
+    assert not train.system.both_passed
+    train.tail(train.later(CURVE, 100_000))
+    assert train.used_mm() == 133_006
+
+
+def the_head_waits_at_its_last_point() -> None:
+    """A later point of the head takes the place of the one before (P4)."""
+    train = Train()
+    train.head(CURVE)
+    train.head(replace(train.later(CURVE, 50_000), point=8))
+    train.tail(train.later(CURVE, 100_000))
+    assert train.used_mm() == 250_000
+
+
+def a_pass_out_of_range_is_none() -> None:
+    """What odometry cannot have told measures nothing, at the head or at the tail (P4)."""
+    far = machine.GREATEST_PLACE_MM + 1
+    wild = (
+        replace(CURVE, front_most_mm=far),
+        replace(CURVE, front_least_mm=-far),
+        replace(CURVE, front_least_mm=1),
+        replace(CURVE, speed_most_mm_s=200_001),
+        replace(CURVE, speed_most_mm_s=-1),
+    )
+    good = Train.later(CURVE, 100_000)
+    for passing in wild:
+        noted = machine.note_head_pass(machine.UNMEASURED, passing)
+        assert not noted.head_passed
+        assert not machine.note_tail_pass(BOUNDS, noted, good).measured
+        noted = machine.note_head_pass(machine.UNMEASURED, CURVE)
+        late = replace(passing, time_ms=CURVE.time_ms + 1)
+        assert not machine.note_tail_pass(BOUNDS, noted, late).measured
+        assert machine.note_tail_pass(BOUNDS, noted, good).measured
+    edge = replace(good, front_most_mm=far - 1, speed_most_mm_s=200_000)
+    begin = replace(CURVE, front_least_mm=1 - far)
+    assert machine.note_tail_pass(BOUNDS, machine.note_head_pass(machine.UNMEASURED, begin), edge).measured
+
+
+def more_than_the_line_allows_is_kept_and_shown() -> None:
+    """Bounds on top of a train near the limit: the larger is used, and the contradiction shown (P4; ours)."""
+    train = Train()
+    train.step("change_formation", length_um=236_994_000)
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 216_994))
+    assert train.used_mm() == 250_000
+    assert not machine.contradicts_the_line(BOUNDS, train.system.state)
+    train.step("change_formation", length_um=250_000_000)
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 230_000))
+    assert train.used_mm() == 263_006
+    assert machine.contradicts_the_line(BOUNDS, train.system.state)
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """A front outside its range, a speed above the one told, an error beyond its bound, a train too long."""
+    train = Train()
+    train.head(CURVE)
+    good = train.later(CURVE, 100_000)
+    nothing = {"sampling_um": 0, "skew_um": 0, "averaging_um": 0, "sensor_um": 0}
+    told = {"front_um": 100_000_000, "speed_mm_s": 36_112, "passing": good, **nothing}
+    refused: tuple[dict[str, int], ...] = (
+        {"front_um": 100_000_001},
+        {"speed_mm_s": 36_113},
+        {"sampling_um": -3_611_201},
+        {"skew_um": -3_611_201},
+        {"averaging_um": -782_001},
+        {"sensor_um": -5_000_001},
+        {"sensor_um": -1},
+    )
+    before = train.system
+    for what in refused:
+        assert train.step("tail_passes", **{**told, **what}) == before
+    assert train.step("head_passes", front_um=1, speed_mm_s=0, passing=CURVE) == before
+    assert train.step("head_passes", front_um=0, speed_mm_s=36_113, passing=CURVE) == before
+    assert train.step("change_formation", length_um=250_000_001) == before
+    assert train.step("tail_passes", **told).state.measured
+
+
+WITNESSES = (
+    the_error_at_130_km_h_is_13_m,
+    a_train_is_measured_at_a_curve,
+    a_train_measured_as_short_as_can_be_is_not_underestimated,
+    a_train_is_measured_at_a_tag,
+    the_wider_range_and_the_higher_speed_count,
+    a_measured_length_stays,
+    a_pass_of_the_old_formation_does_not_count,
+    only_the_heads_point_counts,
+    the_head_waits_at_its_last_point,
+    a_pass_out_of_range_is_none,
+    more_than_the_line_allows_is_kept_and_shown,
+    what_nature_does_not_do_does_not_happen,
+)
