@@ -1,7 +1,8 @@
 """Every assumption with its use, as a page: ``python -m proofs.assumptions`` writes ``docs/assumptions.md``.
 
-What is assumed, monitored and owed stands in ``models/world/assumptions.toml``; where it is used is
-found here: axioms and premises in the proof scripts, the rest in the source of the transitions.
+What is assumed, monitored and owed stands in ``models/world/assumptions.toml``, of the interlocking, and in
+``models/onboard/assumptions.toml``, of the theories beside it; where it is used is found here: axioms
+and premises in the proof scripts, the rest in the source of the transitions.
 """
 
 from __future__ import annotations
@@ -17,17 +18,21 @@ from typing import Any
 
 from models.world import assumptions
 from proofs import usage
-from proofs.catalogue import AXIOMS, PREMISES, STEPS
+from proofs.catalogue import AXIOMS, INTERLOCKING, PREMISES, STEPS
 from proofs.lints import KEPT
-from proofs.theory import READING, START
+from proofs.lints_on_board import OTHERS, world
+from proofs.lints_on_board import asking as asking_on_board
+from proofs.lints_on_board import assumptions as asked_on_board
+from proofs.theory import START, Theory
 
 ROOT = Path(__file__).resolve().parent.parent
-DATA = ROOT / "models" / "world" / "assumptions.toml"
+DATA = (ROOT / "models" / "world" / "assumptions.toml", ROOT / "models" / "onboard" / "assumptions.toml")
 PAGE = ROOT / "docs" / "assumptions.md"
 
 WRITTEN = (
-    "Written by `python -m proofs.assumptions` from `models/world/assumptions.toml`, the proof scripts and the"
-    " source of the world; do not edit. A proof says nothing of a railway on which one of these is false."
+    "Written by `python -m proofs.assumptions` from `models/world/assumptions.toml`, `models/onboard/assumptions.toml`,"
+    " the proof scripts and the source of the world; do not edit. A proof says nothing of a railway on which one of"
+    " these is false."
 )
 KINDS = {
     "world": ("Of nature, brake, sensors and people", "Predicates of `models/world/assumptions.py`."),
@@ -37,7 +42,17 @@ KINDS = {
         "In how the world is built",
         "No predicates: what the guards of the world's transitions, or the want of a transition, take for granted.",
     ),
+    **{
+        name: (
+            f"Of the theory {name}",
+            "Predicates of "
+            + ", ".join(f"`{module.__name__.replace('.', '/')}.py`" for module in world(theory))
+            + ": of nature, sensors and people, and, last, of the site.",
+        )
+        for name, theory in OTHERS.items()
+    },
 }
+"""The kinds of assumption, in order; those of a theory beside the interlocking are a kind of their own."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +69,10 @@ class Assumption:
 
 def read() -> list[Assumption]:
     """Read the data, in its order."""
-    data: Mapping[str, Mapping[str, Any]] = tomllib.loads(DATA.read_text("utf-8"))
+    files: list[Mapping[str, Mapping[str, Any]]] = [tomllib.loads(path.read_text("utf-8")) for path in DATA]
     return [
         Assumption(kind, name, entry["says"], entry["monitor"], entry["duty"], tuple(entry.get("stands_in", ())))
+        for data in files
         for kind, entries in data.items()
         for name, entry in entries.items()
     ]
@@ -64,12 +80,13 @@ def read() -> list[Assumption]:
 
 def predicates() -> Mapping[str, Mapping[str, Callable[..., Any]]]:
     """Give the predicates that must be described, by kind and name."""
-    world = {
+    nature = {
         name: value
         for name, value in vars(assumptions).items()
         if inspect.isfunction(value) and value.__module__ == assumptions.__name__ and not name.startswith("_")
     }
-    return {"world": world, "premise": PREMISES, "axiom": AXIOMS}
+    others = {name: {**asked_on_board(theory), **theory.premises} for name, theory in OTHERS.items()}
+    return {"world": nature, "premise": PREMISES, "axiom": AXIOMS, **others}
 
 
 @cache
@@ -92,23 +109,25 @@ def asking(name: str) -> list[str]:
     return [step for step, function in STEPS.items() if called(function) & wanted]
 
 
-def proofs_naming(name: str) -> list[usage.Cell]:
+def proofs_naming(name: str, theory: Theory = INTERLOCKING) -> list[usage.Cell]:
     """Give the obligations that name an axiom or premise as a hypothesis; reading a predicate is not one."""
-    return [(row, column) for row, column in usage.users(usage.book()).get(name, ()) if row != READING]
+    found = usage.users(usage.book(theory)).get(name, ())
+    return [(row, column) for row, column in found if not usage.is_reading(row)]
 
 
 def used(assumption: Assumption) -> str:
     """Say where an assumption is used."""
     if assumption.kind == "built_in":
         return f"in {_listed(assumption.stands_in)}"
-    if assumption.kind == "world":
-        steps = asking(assumption.name)
-        claims = [name for name, claim in usage.claims().items() if assumption.name in called(claim)]
+    theory, name = OTHERS.get(assumption.kind, INTERLOCKING), assumption.name
+    if assumption.kind == "world" or (assumption.kind in OTHERS and name not in theory.premises):
+        steps = asking(name) if assumption.kind == "world" else asking_on_board(theory, name)
+        claims = [claim for claim, function in usage.claims(theory).items() if name in called(function)]
         parts = [f"asked by {_listed(steps)}"] * bool(steps) + [f"said in {_listed(claims)}"] * bool(claims)
         return "; ".join(parts)
-    found = proofs_naming(assumption.name)
+    found = proofs_naming(name, theory)
     if not found:
-        return f"in no proof; kept because it {KEPT[assumption.name]}"
+        return f"in no proof; kept because it {KEPT[name]}" if name in KEPT else "in no proof"
     rows = list(dict.fromkeys(row for row, _ in found))
     columns = list(dict.fromkeys(column for _, column in found))
     return f"{len(found)} proofs: of {_listed(columns)}, over {_listed(rows)}"

@@ -1,4 +1,7 @@
-"""A proof run as JUnit XML, which every CI system shows: a suite a transition, a case an obligation."""
+"""A proof run as JUnit XML, which every CI system shows: a suite a transition, a case an obligation.
+
+The package of a suite is its theory.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from proofs.records import Obligation, Report, write_whole
+from proofs.records import Obligation, Report, theory_of, write_whole
 
 
 def junit_xml(report: Report) -> bytes:
@@ -31,6 +34,7 @@ def add_suite(root: etree._Element, transition: str, obligations: Sequence[Oblig
     suite = etree.SubElement(
         root,
         "testsuite",
+        package=clean(theory_of(transition)[0]),
         name=clean(transition),
         tests=str(len(obligations)),
         failures=str(sum(obligation["verdict"] != "proved" for obligation in obligations)),

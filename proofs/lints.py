@@ -10,6 +10,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from proofs.catalogue import SAFETY
 from proofs.usage import Book, Cell, needed
 
 PHYSICAL = frozenset({"track", "ground", "formation"})
@@ -58,6 +59,7 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
         ),
     },
     "models/world/radio.py": {},
+    "models/world/evidence.py": {},
 }
 """The files in which machines are told things, and the functions there that touch what is really there."""
 
@@ -74,6 +76,7 @@ ASKED: Mapping[str, frozenset[str]] = {
     ),
     "models/world/at_a_point.py": frozenset({"detection_is_true"}),
     "models/world/radio.py": frozenset({"detection_is_true"}),
+    "models/world/evidence.py": frozenset(),
 }
 """Which assumptions each of these files may ask: those on its own sensors; the centre has none."""
 
@@ -220,7 +223,7 @@ def knows_the_world(source: str) -> list[str]:
 def idle_invariants(found: Book, invariants: Iterable[str], safety: Collection[str]) -> list[str]:
     """Find invariants that no obligation proves, or that no claim of the safety case rests on."""
     columns = {column for _, column in found}
-    reached = needed(found)
+    reached = needed(found, safety)
     offences = []
     for name in invariants:
         if name not in columns:
@@ -230,9 +233,11 @@ def idle_invariants(found: Book, invariants: Iterable[str], safety: Collection[s
     return offences
 
 
-def idle_axioms(found: Book, assumed: Iterable[str], kept: Mapping[str, str]) -> list[str]:
+def idle_axioms(
+    found: Book, assumed: Iterable[str], kept: Mapping[str, str], safety: Collection[str] = tuple(SAFETY)
+) -> list[str]:
     """Find axioms and premises that no proof needs and that are not kept for a reason; and reasons that are stale."""
-    reached = needed(found)
+    reached = needed(found, safety)
     names = list(assumed)
     return [
         *(f"{name}: no proof uses it" for name in names if name not in reached and name not in kept),
@@ -261,7 +266,7 @@ def script_faults(
 ) -> list[str]:
     """Find scripts of no row, entries of no column, unknown hypotheses, and names given twice.
 
-    ``files``: for each file's stem what stands in it.
+    ``files``: for each file's row what stands in it; a row of ``theory/step.toml`` is ``theory.step``.
     """
     offences = []
     for row, entries in files.items():

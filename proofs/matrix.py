@@ -1,4 +1,4 @@
-"""The matrix of transitions and invariants, readable at 120 columns.
+"""The matrix of transitions and invariants, one for each theory, readable at 120 columns.
 
 A row a transition, a mark an invariant.  The invariants stand in groups, one for each file they
 are written in, so that a column is found without counting far.  What is not proved is spelled out
@@ -13,7 +13,7 @@ from pathlib import PurePath
 from rich.console import Console
 from rich.text import Text
 
-from proofs.records import Obligation, Report, Verdict, overall
+from proofs.records import Obligation, Report, Verdict, overall, theory_of
 
 MARK: Mapping[Verdict, tuple[str, str]] = {
     "proved": (".", "green"),
@@ -28,20 +28,36 @@ Cells = dict[tuple[str, str], Cell]
 
 
 def print_matrix(console: Console, report: Report) -> None:
-    """Print the matrix, what the columns are, every cell that is not proved, and the totals."""
+    """Print a matrix for each theory, what the columns are, every cell that is not proved, and the totals."""
+    theories = by_theory(report.obligations)
+    for theory, obligations in theories.items():
+        if len(theories) > 1:
+            console.print(Text(f"\n{theory}" if theory != next(iter(theories)) else theory, style="bold underline"))
+        print_theory(console, obligations)
     cells = cells_of(report.obligations)
-    groups = groups_of(report.obligations)
-    transitions = list(dict.fromkeys(obligation["transition"] for obligation in report.obligations))
-    name_width = min(NAMES_AT_MOST, max((len(name) for name in transitions), default=0))
-    if groups:
-        show(console, heading(groups, name_width))
+    spell_out(console, [cell for cell in cells.values() if verdict_of(cell) != "proved"])
+    for line in totals(report, theories):
+        console.print(line, highlight=False)
+
+
+def by_theory(obligations: Iterable[Obligation]) -> dict[str, list[Obligation]]:
+    """The answers of each theory, in order."""
+    found: dict[str, list[Obligation]] = {}
+    for obligation in obligations:
+        found.setdefault(theory_of(obligation["transition"])[0], []).append(obligation)
+    return found
+
+
+def print_theory(console: Console, obligations: Sequence[Obligation]) -> None:
+    """Print the matrix of one theory, and what its columns are."""
+    cells, groups = cells_of(obligations), groups_of(obligations)
+    transitions = list(dict.fromkeys(obligation["transition"] for obligation in obligations))
+    name_width = min(NAMES_AT_MOST, max(len(theory_of(name)[1]) for name in transitions))
+    show(console, heading(groups, name_width))
     for transition in transitions:
         show(console, row(transition, groups, cells, name_width))
     for letter, (group, invariants) in zip(letters(len(groups)), groups.items(), strict=True):
         console.print(Text(f"{letter} {group}: {', '.join(invariants)}", style="dim"))
-    spell_out(console, [cell for cell in cells.values() if verdict_of(cell) != "proved"])
-    for line in totals(report, cells, len(transitions)):
-        console.print(line, highlight=False)
 
 
 def cells_of(obligations: Iterable[Obligation]) -> Cells:
@@ -82,7 +98,8 @@ def heading(groups: Mapping[str, Sequence[str]], name_width: int) -> Text:
 
 def row(transition: str, groups: Mapping[str, Sequence[str]], cells: Cells, name_width: int) -> Text:
     """One transition: its name, its marks, how many are proved, and the seconds spent on it."""
-    short = transition if len(transition) <= name_width else transition[: name_width - 1] + "~"
+    own = theory_of(transition)[1]
+    short = own if len(own) <= name_width else own[: name_width - 1] + "~"
     line = Text(short.ljust(name_width))
     mine = [cell for (name, _), cell in cells.items() if name == transition]
     for invariants in groups.values():
@@ -119,23 +136,33 @@ def spell_out(console: Console, bad: Sequence[Cell]) -> None:
         console.print(f"... and {len(bad) - SPELLED_OUT_AT_MOST} more; --json F writes all of them", highlight=False)
 
 
-def totals(report: Report, cells: Cells, transitions: int) -> list[str]:
-    """How many things were checked, with what result, and how long it took."""
-    verdicts = [verdict_of(cell) for cell in cells.values()]
-    invariants = len({invariant for _, invariant in cells})
+def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list[str]:
+    """How many things were checked, with what result, and how long it took: of each theory, and over all."""
+    cells = cells_of(report.obligations)
     solvers = sorted({f"{obligation['solver']} {obligation['solver_version']}" for obligation in report.obligations})
     seeds = {obligation["seed"] for obligation in report.obligations}
     lines = [
         "",
-        f"{transitions} transitions × {invariants} invariants: {len(cells)} obligations, "
-        + ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in MARK),
+        *(f"{theory}: {counted(obligations)}" for theory, obligations in theories.items() if len(theories) > 1),
+        counted(report.obligations),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
     ]
     split = sum(len({answer["verdict"] for answer in cell}) > 1 for cell in cells.values())
     if split:
-        lines.insert(3, f"{split} obligations on which solvers or seeds differ")
+        lines.insert(-1, f"{split} obligations on which solvers or seeds differ")
     return lines
+
+
+def counted(obligations: Sequence[Obligation]) -> str:
+    """How many rows, columns and obligations there are, and what became of them."""
+    cells = cells_of(obligations)
+    verdicts = [verdict_of(cell) for cell in cells.values()]
+    rows = len({transition for transition, _ in cells})
+    columns = len({(theory_of(transition)[0], invariant) for transition, invariant in cells})
+    return f"{rows} transitions × {columns} invariants: {len(cells)} obligations, " + ", ".join(
+        f"{verdicts.count(verdict)} {verdict}" for verdict in MARK
+    )
 
 
 def show(console: Console, line: Text) -> None:

@@ -19,6 +19,10 @@ from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from proofs import assumptions
 from proofs.catalogue import STEPS
 from proofs.lints import requirements_in
+from proofs.lints_on_board import OTHERS, world
+from proofs.lints_on_board import asking as asking_on_board
+from proofs.lints_on_board import assumptions as asked_on_board
+from proofs.theories import THEORIES, row_of
 from proofs.transitions import event_types
 from proofs.usage import claims
 
@@ -84,7 +88,7 @@ def world_page() -> str:
     lines = [
         "# The world of the proof",
         "",
-        f"{WRITTEN} the docstrings of `models/world/` and `models/world/transitions.toml`; do not edit.",
+        f"{WRITTEN} the docstrings of `models/` and `models/world/transitions.toml`; do not edit.",
         "",
         (
             "The proof is about a system that does nothing but these steps, in any order, any number of times, with any"
@@ -109,6 +113,14 @@ def world_page() -> str:
             asked = [one for one in assumptions.predicates()["world"] if step in assumptions.asking(one)]
             if asked:
                 lines += ["", "Assumed: " + ", ".join(f"`{one}`" for one in asked) + "."]
+    for name, theory in OTHERS.items():
+        lines += ["", f"## {name}", "", *(plain(inspect.getdoc(module) or "") for module in world(theory))]
+        for step, function in theory.steps.items():
+            event = ", ".join(event_types(function))
+            lines += ["", f"### {name}.{step}({event})", "", " ".join(plain(inspect.getdoc(function) or "").split())]
+            asked = [one for one in asked_on_board(theory) if step in asking_on_board(theory, one)]
+            if asked:
+                lines += ["", "Assumed: " + ", ".join(f"`{one}`" for one in asked) + "."]
     return "\n".join([*lines, ""])
 
 
@@ -116,12 +128,13 @@ def world_page() -> str:
 
 
 def functions_of(folder: str) -> Mapping[str, Iterable[str]]:
-    """Give the requirements that each public function of a folder names, by ``file.function``."""
+    """Give the requirements that each public function of a folder and those in it names, by ``file.function``."""
     found = {}
-    for path in sorted((ROOT / folder).glob("*.py")):
+    for path in sorted((ROOT / folder).rglob("*.py")):
+        file = ".".join(path.relative_to(ROOT / folder).with_suffix("").parts)
         for node in ast.parse(path.read_text("utf-8")).body:
             if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
-                found[f"{path.stem}.{node.name}"] = requirements_in(ast.get_docstring(node))
+                found[f"{file}.{node.name}"] = requirements_in(ast.get_docstring(node))
     return found
 
 
@@ -129,8 +142,16 @@ def trace() -> Mapping[str, Mapping[str, list[str]]]:
     """Give, for each requirement that is named at all, what names it: kernel, world, invariants."""
     sources: Mapping[str, Mapping[str, Iterable[str]]] = {
         "kernel functions": functions_of("kernel"),
-        "transitions": {step: requirements_in(inspect.getdoc(function)) for step, function in STEPS.items()},
-        "invariants": {name: requirements_in(inspect.getdoc(claim)) for name, claim in claims().items()},
+        "transitions": {
+            row_of(theory, step): requirements_in(inspect.getdoc(function))
+            for theory in THEORIES.values()
+            for step, function in theory.steps.items()
+        },
+        "invariants": {
+            row_of(theory, name): requirements_in(inspect.getdoc(claim))
+            for theory in THEORIES.values()
+            for name, claim in claims(theory).items()
+        },
     }
     labels = {label for each in sources.values() for named in each.values() for label in named}
     return {
@@ -148,7 +169,7 @@ def traceability_page() -> str:
         "",
         (
             "[Requirements](requirements.md) says what each label means, and `heisoku prove --only NAME` proves the row"
-            " or column of that name."
+            " or column of that name; before the dot stands the theory, `heisoku prove --only '^THEORY\\.NAME '`."
         ),
     ]
     for label, named in trace().items():

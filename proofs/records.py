@@ -33,7 +33,8 @@ class Source(TypedDict):
 class Obligation(TypedDict):
     """One question put to one solver with one seed, and its answer.
 
-    ``transition`` is ``init`` for the initial state.  ``hypotheses`` names the invariants that were
+    ``transition`` is ``init`` for the initial state; a theory beside the interlocking has its name in
+    front, ``odometry.init``.  ``theory`` is written to the file.  ``hypotheses`` names the invariants that were
     assumed of the state before.  ``rlimit`` is the budget, ``rlimit_spent`` what was used, both in
     the solver's own units.  ``smt2_sha256`` is the hash of the SMT-LIB text that was solved.
     """
@@ -50,6 +51,7 @@ class Obligation(TypedDict):
     seconds: float
     smt2_sha256: str
     source: Source
+    theory: NotRequired[str]
     note: NotRequired[str]
 
 
@@ -86,12 +88,18 @@ class Report:
         """The run as it is written to a file."""
         return {
             "verdict": self.verdict,
-            "obligations": list(self.obligations),
+            "obligations": [{**each, "theory": theory_of(each["transition"])[0]} for each in self.obligations],
             "lifting_seconds": round(self.lifting_seconds, 3),
             "wall_seconds": round(self.wall_seconds, 3),
             "versions": versions(),
             "commit": commit(),
         }
+
+
+def theory_of(transition: str) -> tuple[str, str]:
+    """Give the theory that a recorded row belongs to, and the row's name within it."""
+    theory, _, name = transition.rpartition(".")
+    return theory or "interlocking", name
 
 
 def overall(verdicts: Sequence[Verdict]) -> Verdict:

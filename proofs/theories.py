@@ -9,10 +9,41 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from proofs.catalogue import INTERLOCKING
+from proofs.onboard import (
+    antenna_spacing,
+    brake_watch,
+    braking,
+    feature,
+    joint,
+    link,
+    odometry,
+    speed_limit,
+    split,
+    tag_reader,
+    tag_window,
+    train_length,
+)
 from proofs.theory import READING, START, Theory
 
-THEORIES: Mapping[str, Theory] = {theory.name: theory for theory in (INTERLOCKING,)}
-"""The theories by name, in the order of the matrix."""
+IN_ORDER: tuple[Theory, ...] = (
+    INTERLOCKING,
+    odometry.THEORY,
+    braking.THEORY,
+    brake_watch.THEORY,
+    joint.THEORY,
+    speed_limit.THEORY,
+    split.THEORY,
+    link.THEORY,
+    train_length.THEORY,
+    tag_reader.THEORY,
+    tag_window.THEORY,
+    antenna_spacing.THEORY,
+    feature.THEORY,
+)
+"""The theories, in the order of the matrix."""
+
+THEORIES: Mapping[str, Theory] = {theory.name: theory for theory in IN_ORDER}
+"""The theories by name."""
 
 
 def row_of(theory: Theory, name: str) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from proofs import scripts
-from proofs.catalogue import INITIAL, INTERLOCKING, INVARIANTS, SAFETY
-from proofs.theories import columns
-from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
+from proofs.catalogue import INTERLOCKING, SAFETY
+from proofs.theories import columns, row_of, theory_of
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING, Theory
 
 Cell = tuple[str, str]
 """An obligation by its row and column."""
@@ -16,16 +16,21 @@ Book = Mapping[Cell, Sequence[str]]
 """The names of the hypotheses of every obligation."""
 
 
-def cells() -> Iterator[Cell]:
-    """Give every obligation of the interlocking's matrix, in order."""
-    for row in INTERLOCKING.rows:
-        for column in columns(row):
-            yield row, column
+def cells(theory: Theory = INTERLOCKING) -> Iterator[Cell]:
+    """Give every obligation of a theory's matrix, in order."""
+    for row in theory.rows:
+        for column in columns(row_of(theory, row)):
+            yield row_of(theory, row), column
 
 
-def book() -> Book:
-    """Give the hypotheses of every obligation, as the scripts have them."""
-    return {(row, column): scripts.hypotheses(row, column) for row, column in cells()}
+def book(theory: Theory = INTERLOCKING) -> Book:
+    """Give the hypotheses of every obligation of a theory, as the scripts have them."""
+    return {(row, column): scripts.hypotheses(row, column) for row, column in cells(theory)}
+
+
+def is_reading(row: str) -> bool:
+    """Tell whether a row is the reading of predicates, which is no proof from them."""
+    return theory_of(row)[1] == READING
 
 
 def users(found: Book) -> Mapping[str, list[Cell]]:
@@ -38,7 +43,7 @@ def users(found: Book) -> Mapping[str, list[Cell]]:
     return using
 
 
-def needed(found: Book) -> frozenset[str]:
+def needed(found: Book, safety: Collection[str] = tuple(SAFETY)) -> frozenset[str]:
     """Give every name that a claim of the safety case, or a lookup in a transition, rests on at last.
 
     A lemma that only serves a lemma that serves nothing is not needed; nor is one that is only
@@ -46,10 +51,10 @@ def needed(found: Book) -> frozenset[str]:
     """
     below: dict[str, set[str]] = {}
     for (row, column), names in found.items():
-        if row != READING:
+        if not is_reading(row):
             below.setdefault(column, set()).update(names)
     reached: set[str] = set()
-    todo = [*SAFETY, EVERY_LOOKUP_IS_DEFINED]
+    todo = [*safety, EVERY_LOOKUP_IS_DEFINED]
     while todo:
         name = todo.pop()
         if name not in reached:
@@ -58,6 +63,6 @@ def needed(found: Book) -> frozenset[str]:
     return frozenset(reached)
 
 
-def claims() -> Mapping[str, Callable[..., bool]]:
+def claims(theory: Theory = INTERLOCKING) -> Mapping[str, Callable[..., bool]]:
     """Give every claim about a state: invariants and what holds at the start."""
-    return {**INITIAL, **INVARIANTS}
+    return {**theory.initial, **theory.invariants}

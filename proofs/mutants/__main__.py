@@ -16,7 +16,7 @@ from typing import Any
 
 from proofs.mutants.classes import SERVICE, objection, table
 from proofs.mutants.record import Trials
-from proofs.mutants.targets import mutants
+from proofs.mutants.targets import mutants, of_interlocking, theories_of, transitions_of
 from proofs.mutants.trial import tried
 
 
@@ -25,12 +25,24 @@ def trial(name: str) -> tuple[str, dict[str, Any]]:
     return name, tried(mutants()[name]).record()
 
 
-def judged(name: str, killed: bool) -> tuple[str, str, str]:
+def killed(name: str, outcome: str) -> bool:
+    """Tell whether a mutant needs no class.
+
+    In the interlocking what only a witness kills stands in the table, with what is lost; beside it a
+    witness is enough, since its docstring says so.
+    """
+    function = mutants()[name].function
+    return outcome == "counterexample" or (
+        outcome == "witness" and not any(map(of_interlocking, transitions_of(function)))
+    )
+
+
+def judged(name: str, is_killed: bool) -> tuple[str, str, str]:
     """The class of a mutant, and what is wrong with it if anything is."""
     entry = table().get(name)
-    if killed:
+    if is_killed:
         idle = entry is not None and entry.kind != SERVICE
-        return name, "", "killed by a counterexample: it needs no class" if idle else ""
+        return name, "", "killed: it needs no class" if idle else ""
     return (name, entry.kind, objection(entry)) if entry else (name, "", "stands in no class")
 
 
@@ -55,10 +67,10 @@ def main() -> int:
     with ProcessPoolExecutor(given.jobs) as pool:
         for done, future in enumerate(as_completed([pool.submit(trial, name) for name in todo]), 1):
             name, verdict = future.result()
-            trials.note(name, verdict)
+            trials.note(name, [theory.name for theory in theories_of(mutants()[name].function)], verdict)
             print(f"{done}/{len(todo)} {line(name, verdict)}", file=sys.stderr, flush=True)
-        killed = [trials.verdicts[name]["outcome"] == "counterexample" for name in names]
-        for name, kind, wrong in pool.map(judged, names, killed):
+        dead = [killed(name, trials.verdicts[name]["outcome"]) for name in names]
+        for name, kind, wrong in pool.map(judged, names, dead):
             trials.verdicts[name] |= {"class": kind, "objection": wrong}
     trials.keep()
     return told({name: trials.verdicts[name] for name in names}, time.perf_counter() - began)

@@ -7,18 +7,22 @@ every layout), *service* (a named witness fails), *second line* (killed together
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from proofs.catalogue import INTERLOCKING
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
 from proofs.mutants.sameness import proved, sameness
 from proofs.mutants.targets import mutants, transitions_of
 from proofs.mutants.trial import tried_with
+from proofs.theories import THEORIES, theory_of
 from proofs.workbench import Workbench
 
-FILE = Path(__file__).with_name("classes.toml")
+FILES = (Path(__file__).with_name("classes.toml"), Path(__file__).with_name("classes_on_board.toml"))
+"""Of the interlocking, and of the theories beside it."""
 
 IMPLIED, SERVICE, SECOND_LINE = "implied", "service", "second_line"
 
@@ -41,15 +45,22 @@ class Entry:
 
 
 @cache
-def table(file: Path = FILE) -> dict[str, Entry]:
+def table() -> dict[str, Entry]:
     """Every entry by mutant."""
     found: dict[str, Entry] = {}
+    for file in FILES:
+        for entry in _entries(file):
+            if entry.mutant in found:
+                raise ValueError(f"{file.name}: {entry.mutant} stands twice")
+            found[entry.mutant] = entry
+    return found
+
+
+def _entries(file: Path) -> Iterator[Entry]:
     for kind, groups in tomllib.loads(file.read_text(encoding="utf-8")).items():
         for group in groups:
             for name in group["mutants"]:
-                if name in found:
-                    raise ValueError(f"{file.name}: {name} stands twice")
-                found[name] = Entry(
+                yield Entry(
                     name,
                     kind,
                     group["why"],
@@ -57,13 +68,12 @@ def table(file: Path = FILE) -> dict[str, Entry]:
                     group.get("witness", ""),
                     group.get("pair", ""),
                 )
-    return found
 
 
 @cache
-def bench() -> Workbench:
-    """The workbench of this process, for proofs on every layout."""
-    return Workbench()
+def bench(theory: str = INTERLOCKING.name) -> Workbench:
+    """The workbench of a theory in this process, for proofs on every layout."""
+    return Workbench(THEORIES[theory])
 
 
 def objection(entry: Entry) -> str:
@@ -84,7 +94,9 @@ def objection(entry: Entry) -> str:
 def not_implied(mutant: Mutant, because: list[str]) -> str:
     """Say in which transition the drop could make a difference, as far as is proved."""
     for transition in transitions_of(mutant.function):
-        if not proved(bench(), sameness(bench(), transition, mutant.sources), because):
+        mine = bench(theory_of(transition)[0].name)
+        known = [name for name in because if name in {**mine.assumed, **mine.invariants}]
+        if not proved(mine, sameness(mine, transition, mutant.sources), known):
             return f"not proved to make no difference in {transition}"
     return ""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 import copy
 import inspect
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
@@ -74,35 +74,43 @@ def mutants_of(function: Code) -> list[Mutant]:
     names: dict[str, int] = {}
     for edit in edits(own):
         tree = edited(own, edit)
-        if normal(tree) in known:
+        text = normal(tree)
+        if text in known:
             continue
-        known.add(normal(tree))
+        known.add(text)
         key = f"{edit.kind} {edit.text}"
         names[key] = names.get(key, 0) + 1
-        text = edit.text if names[key] == 1 else f"{edit.text} ({names[key]})"
-        found.append(Mutant(function, edit.kind, text, tree))
+        name = edit.text if names[key] == 1 else f"{edit.text} ({names[key]})"
+        found.append(Mutant(function, edit.kind, name, tree))
     return found
 
 
 def edited(tree: ast.FunctionDef, edit: Edit) -> ast.FunctionDef:
-    """A copy of the tree with one edit."""
-    changed = copy.deepcopy(tree)
+    """The tree with one edit; what does not lie on the way to it is shared."""
+    changed = copy.copy(tree)
     node: Any = changed
     for field, index in edit.place[:-1]:
-        node = getattr(node, field) if index is None else getattr(node, field)[index]
+        below = copy.copy(getattr(node, field) if index is None else getattr(node, field)[index])
+        _put(node, field, index, below)
+        node = below
     field, index = edit.place[-1]
-    if index is None:
-        setattr(node, field, copy.deepcopy(edit.instead))
-    elif edit.instead is None:
-        getattr(node, field).pop(index)
-    else:
-        getattr(node, field)[index] = copy.deepcopy(edit.instead)
+    _put(node, field, index, copy.deepcopy(edit.instead))
     return ast.fix_missing_locations(changed)
+
+
+def _put(node: Any, field: str, index: int | None, below: Any) -> None:
+    """Put something below a node; nothing takes an item out of a list."""
+    if index is None:
+        setattr(node, field, below)
+    else:
+        items = list(getattr(node, field))
+        items[index : index + 1] = [] if below is None else [below]
+        setattr(node, field, items)
 
 
 def normal(tree: ast.FunctionDef) -> str:
     """The text of a function, an update of a field to its own value left out."""
-    return ast.unparse(_WithoutIdleUpdates().visit(copy.deepcopy(tree)))
+    return ast.unparse(_WithoutIdleUpdates().visit(ast.parse(ast.unparse(tree))))
 
 
 class _WithoutIdleUpdates(ast.NodeTransformer):
@@ -117,9 +125,13 @@ class _WithoutIdleUpdates(ast.NodeTransformer):
 
 def edits(tree: ast.FunctionDef) -> Iterator[Edit]:
     """Every edit of a function, from its first line to its last."""
+    before = {
+        ast.unparse(argument.annotation): argument.arg for argument in tree.args.args if argument.annotation is not None
+    }
     for place, node in places(tree):
-        for find in FINDERS:
+        for find in (*FINDERS, *RECKONING):
             yield from find(place, node)
+        yield from made_anew(place, node, before)
 
 
 def places(node: ast.AST, place: Place = ()) -> Iterator[tuple[Place, ast.AST]]:
@@ -179,8 +191,17 @@ def updates(place: Place, node: ast.AST) -> Iterator[Edit]:
         elif isinstance(keyword.value, ast.Constant) and isinstance(keyword.value.value, bool):
             yield Edit((*at, ("value", None)), "update", text, ast.Constant(not keyword.value.value))
         elif node.func.id in KEEPING and keyword.arg is not None:
-            kept = ast.Attribute(ast.Name(KEEPING[node.func.id]), keyword.arg)
+            kept = _field(KEEPING[node.func.id], keyword.arg)
             yield Edit((*at, ("value", None)), "update", text, kept)
+
+
+def made_anew(place: Place, node: ast.AST, before: Mapping[str, str]) -> Iterator[Edit]:
+    """One field of a state made anew by a function of such a state keeps its old value."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in before:
+        for index, keyword in enumerate(node.keywords):
+            if keyword.arg is not None:
+                kept = _field(before[node.func.id], keyword.arg)
+                yield Edit((*place, ("keywords", index), ("value", None)), "update", ast.unparse(keyword), kept)
 
 
 def unions(place: Place, node: ast.AST) -> Iterator[Edit]:
@@ -192,10 +213,54 @@ def unions(place: Place, node: ast.AST) -> Iterator[Edit]:
             yield Edit(place, kind, ast.unparse(node.left), node.right)
 
 
+def parts_of_chains(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """The first or the last part of ``a <= b <= c`` dropped."""
+    if isinstance(node, ast.Compare) and len(node.ops) > 1:
+        first = ast.Compare(node.left, node.ops[:1], node.comparators[:1])
+        last = ast.Compare(node.comparators[-2], node.ops[-1:], node.comparators[-1:])
+        yield Edit(
+            place, "part", ast.unparse(first), ast.Compare(node.comparators[0], node.ops[1:], node.comparators[1:])
+        )
+        yield Edit(place, "part", ast.unparse(last), ast.Compare(node.left, node.ops[:-1], node.comparators[:-1]))
+
+
+def limits(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """A limit, the other sign, or the rounding up of a quotient dropped."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or node.keywords:
+        return
+    text, word = ast.unparse(node), node.func.id
+    match word, node.args:
+        case (("smaller" | "larger"), [one, other]):
+            yield Edit(place, "limit", f"{text} ({ast.unparse(one)})", one)
+            yield Edit(place, "limit", f"{text} ({ast.unparse(other)})", other)
+        case "limited", [value, least, most]:
+            above = ast.IfExp(ast.Compare(value, [ast.Gt()], [least]), value, least)
+            below = ast.IfExp(ast.Compare(value, [ast.Lt()], [most]), value, most)
+            yield Edit(place, "limit", f"{text} (no most)", above)
+            yield Edit(place, "limit", f"{text} (no least)", below)
+        case "magnitude", [value]:
+            yield Edit(place, "sign", text, value)
+        case "divided_up", [value, by]:
+            yield Edit(place, "rounding", text, ast.BinOp(value, ast.FloorDiv(), by))
+
+
+def terms(place: Place, node: ast.AST) -> Iterator[Edit]:
+    """One term of a sum dropped."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        yield Edit(place, "term", ast.unparse(node.right), node.left)
+        yield Edit(place, "term", ast.unparse(node.left), node.right)
+
+
 KEEPING = {"Centre": "centre", "Unit": "unit", "Terminal": "terminal"}
 """States that are made anew by a restart, and what the state before is called there."""
 
 FINDERS = (guards, operands, conditions, filters, updates, unions)
+RECKONING = (parts_of_chains, limits, terms)
+"""What is dropped besides where integers are reckoned with."""
+
+
+def _field(record: str, field: str) -> ast.expr:
+    return ast.parse(f"{record}.{field}", mode="eval").body
 
 
 def _is_condition(node: ast.expr) -> bool:

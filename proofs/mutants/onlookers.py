@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from typing import Any
 from unittest.mock import patch
 
+from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
-from proofs.mutants import services, services_on_board
-from proofs.mutants.targets import called_by
+from proofs.mutants import plays, services, services_on_board
+from proofs.mutants.targets import called_by, theories_of
 from proofs.mutated import Sources, running, table_running
 from proofs.witnesses.registry import WITNESSES, Witness
 from proofs.witnesses.scenario import STEPS, Scenario
@@ -88,8 +89,21 @@ def steps_of(function: Code) -> frozenset[str]:
 
 
 def failures(function: Code, sources: Sources, first_only: bool = True) -> list[Failure]:
-    """The witnesses that fail with ``function`` replaced."""
-    steps, found = steps_of(function), []
+    """The witnesses that fail with ``function`` replaced, of all theories that it takes part in."""
+    found: list[Failure] = []
+    for theory in theories_of(function):
+        if theory is INTERLOCKING:
+            found += _failures(function, sources, first_only)
+        else:
+            found += [Failure(*one) for one in plays.failing(theory.name, sources, first_only)]
+        if found and first_only:
+            break
+    return found
+
+
+def _failures(function: Code, sources: Sources, first_only: bool) -> list[Failure]:
+    steps = steps_of(function)
+    found: list[Failure] = []
     for name, noted in calls().items():
         if not any(_differs(call, sources) for call in noted if call.step in steps):
             continue

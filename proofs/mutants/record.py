@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -11,15 +13,24 @@ from proofs.records import write_json
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FILE = ROOT / "out" / "mutants.json"
-ROOMS = ("kernel", "models/world", "proofs/invariants", "proofs/lift", "proofs/mutants", "proofs/witnesses")
-"""What a verdict depends on: when any of it changes, the trials begin anew."""
+COMMON = ("proofs/lift", "proofs/mutants")
+INTERLOCKED = ("models/world", "proofs/invariants", "proofs/witnesses")
+"""What a verdict depends on, beside the files at the top of kernel, models and proofs: when any of it changes,
+the trials begin anew.  Those of a theory beside the interlocking depend on its own files and on the whole kernel."""
 
 
-def digest() -> str:
-    """A hash of all sources that a verdict depends on."""
+@cache
+def digest(theory: str = "interlocking") -> str:
+    """A hash of all sources that a verdict in a theory depends on."""
     whole = hashlib.sha256()
-    files = [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
-    for path in [*files, *(ROOT / "models").glob("*.py"), *(ROOT / "proofs").glob("*.py")]:
+    own = INTERLOCKED if theory == "interlocking" else ("kernel",)
+    files = [path for room in (*COMMON, *own) for path in sorted((ROOT / room).rglob("*.py"))]
+    if theory == "interlocking":
+        files += [path for room in ("kernel", "models", "proofs") for path in sorted((ROOT / room).glob("*.py"))]
+    else:
+        files += [path for room in ("models", "proofs") for path in sorted((ROOT / room).rglob(f"{theory}.py"))]
+        files.append(ROOT / "proofs" / "onboard" / "witnesses" / "play.py")
+    for path in files:
         whole.update(path.read_bytes())
     return whole.hexdigest()
 
@@ -28,20 +39,27 @@ class Trials:
     """Verdicts by mutant, and the file they are kept in."""
 
     def __init__(self, file: Path = FILE) -> None:
-        """Read what is there, unless it is of other sources."""
+        """Read what is there, but for what is of other sources."""
         self.file = file
-        self.digest = digest()
         self.verdicts: dict[str, dict[str, Any]] = {}
         if file.exists():
             known = json.loads(file.read_text(encoding="utf-8"))
-            if known.get("digest") == self.digest:
-                self.verdicts = known["mutants"]
+            self.verdicts = {
+                name: verdict
+                for name, verdict in known["mutants"].items()
+                if verdict.get("digests") == digests(verdict.get("theories", ()))
+            }
 
-    def note(self, mutant: str, verdict: dict[str, Any]) -> None:
-        """Keep a verdict."""
-        self.verdicts[mutant] = verdict
+    def note(self, mutant: str, theories: Sequence[str], verdict: dict[str, Any]) -> None:
+        """Keep a verdict, with the theories that it is of."""
+        self.verdicts[mutant] = {**verdict, "theories": list(theories), "digests": digests(theories)}
         self.keep()
 
     def keep(self) -> None:
         """Write the file."""
-        write_json(self.file, {"digest": self.digest, "mutants": self.verdicts})
+        write_json(self.file, {"mutants": self.verdicts})
+
+
+def digests(theories: Sequence[str]) -> list[str]:
+    """The hashes of the sources of some theories."""
+    return [digest(theory) for theory in theories]

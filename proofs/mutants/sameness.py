@@ -9,12 +9,13 @@ import z3
 
 from kernel.centre import Centre
 from models.world.state import Site, System
-from proofs.catalogue import STEPS
+from proofs.catalogue import INTERLOCKING, STEPS
 from proofs.counterexample import stepped, unmet
 from proofs.finite import World
 from proofs.lift import Lifter, concretise, conjuncts
 from proofs.lift.terms import same, to_z3
 from proofs.mutated import Sources
+from proofs.theories import theory_of
 from proofs.transitions import event_types
 from proofs.workbench import Workbench
 
@@ -56,6 +57,11 @@ def holds_no_more(one: Centre, other: Centre) -> bool:
         for point in one.locked
         for run, lies in one.locked[point].items()
     )
+
+
+def are_equal(one: Any, other: Any) -> bool:
+    """Two states of another theory are equal, field by field."""
+    return one == other  # type: ignore[no-any-return]
 
 
 @dataclass(frozen=True)
@@ -101,15 +107,17 @@ class Sameness:
     goals: list[Any]
 
 
-def sameness(bench: Workbench, transition: str, sources: Sources) -> Sameness:
+def sameness(bench: Workbench, row: str, sources: Sources) -> Sameness:
     """Lay out the claim that both versions of a transition come to the same state, conjunct by conjunct."""
-    step = STEPS[transition]
-    event = [bench.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()]
+    theory, name = theory_of(row)
+    step = theory.steps[name]
+    event = [bench.scope.constant(kind, f"event.{field}") for field, kind in event_types(step).items()]
     one = bench.lifter.call(step, bench.site, bench.before, *event)
     other = Lifter(bench.scope, sources).call(step, bench.site, bench.before, *event)
     if same(one, other):
-        return Sameness(transition, [])
-    return Sameness(transition, conjuncts(bench.lifter.formula(is_the_same, one, other)))
+        return Sameness(row, [])
+    equal = is_the_same if theory is INTERLOCKING else are_equal
+    return Sameness(row, conjuncts(bench.lifter.formula(equal, one, other)))
 
 
 def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int = 8_000_000) -> bool:

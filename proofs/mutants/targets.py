@@ -2,71 +2,85 @@
 
 from __future__ import annotations
 
-import ast
-import importlib
+import importlib.util
 import pkgutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import cache
-from types import FunctionType, ModuleType
-from typing import Any
+from types import ModuleType
 
 import kernel
+import models.onboard
 import models.world
-from proofs.catalogue import STEPS
-from proofs.lift.sources import Code, definition_of
+from proofs.catalogue import INTERLOCKING
+from proofs.lift.sources import Code
 from proofs.mutants.edits import Mutant, functions_of, mutants_of
+from proofs.reach import called_by, transitions_of
+from proofs.theories import THEORIES, theory_of
+from proofs.theory import Theory
+
+__all__ = ["called_by", "modules", "mutants", "of_interlocking", "theories_of", "transitions_of"]
 
 NOT_STEPS = frozenset(
     {
+        "kernel.error_correction",
         "kernel.maps",
         "kernel.persistence",
         "kernel.tags",
+        "kernel.telegram",
         "models.world.formations",
         "models.world.premises",
         "models.world.start",
     }
 )
-"""Modules that no transition is made of: what a state is kept in, tables, tag records, premises, the start."""
+"""Modules that no transition is made of: what a state is kept in, tables, codes, premises, the start."""
+SINGLE = ("models.link",)
+"""Worlds that are one file."""
 
 
 def modules() -> list[ModuleType]:
     """The modules that transitions are made of."""
-    names = [f"{room.__name__}.{found.name}" for room in (kernel, models.world) for found in _inside(room)]
+    names = [name for room in (kernel, models.world, models.onboard) for name in _inside(room)]
+    names += [name for name in SINGLE if importlib.util.find_spec(name) is not None]
     return [importlib.import_module(name) for name in names if name not in NOT_STEPS]
 
 
-def _inside(room: ModuleType) -> Iterator[pkgutil.ModuleInfo]:
-    return pkgutil.iter_modules(room.__path__)
+def _inside(room: ModuleType) -> list[str]:
+    return [found.name for found in pkgutil.walk_packages(room.__path__, f"{room.__name__}.") if not found.ispkg]
 
 
 @cache
 def mutants() -> Mapping[str, Mutant]:
     """Every mutant by name."""
-    return {mutant.name: mutant for function in functions_of(*modules()) for mutant in mutants_of(function)}
+    return {
+        mutant.name: mutant
+        for function in functions_of(*modules())
+        if not is_said_only(function)
+        for mutant in mutants_of(function)
+    }
+
+
+def is_said_only(function: Code) -> bool:
+    """Tell whether a function of a world is no part of a step: a premise, the start, or a word of a claim."""
+    return function.__module__.startswith(("models.onboard.", *SINGLE)) and not transitions_of(function)
+
+
+def of_interlocking(row: str) -> bool:
+    """Tell whether a row is the interlocking's."""
+    return theory_of(row)[0] is INTERLOCKING
+
+
+def said(theory: Theory) -> list[Code]:
+    """What is said of a theory's states, at the start and ever after."""
+    return [*theory.initial.values(), *theory.invariants.values()]
 
 
 @cache
-def called_by(function: Code) -> frozenset[Code]:
-    """The functions of the project that this one calls, and those that they call."""
-    found: set[Code] = set()
-    for node in ast.walk(definition_of(function)):
-        target = _resolved(function, node)
-        if isinstance(target, FunctionType) and target.__module__.split(".")[0] in ("kernel", "models"):
-            found |= {target, *called_by(target)}
-    return frozenset(found)
-
-
-def _resolved(function: Code, node: ast.AST) -> Any:
-    """The object that a name, or a name in a module, stands for."""
-    if isinstance(node, ast.Name):
-        return function.__globals__.get(node.id)
-    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-        owner = function.__globals__.get(node.value.id)
-        return getattr(owner, node.attr, None) if isinstance(owner, ModuleType) else None
-    return None
-
-
-@cache
-def transitions_of(function: Code) -> tuple[str, ...]:
-    """The transitions that a function takes part in, the one it is first."""
-    return tuple(name for name, step in STEPS.items() if step is function or function in called_by(step))
+def theories_of(function: Code) -> list[Theory]:
+    """The theories that a function takes part in: in steps, or else in what is said of a machine."""
+    stepping = [theory_of(row)[0] for row in transitions_of(function)]
+    claiming = [
+        theory
+        for theory in THEORIES.values()
+        if theory is not INTERLOCKING and any(function in called_by(claim) for claim in said(theory))
+    ]
+    return list(dict.fromkeys(stepping or claiming))

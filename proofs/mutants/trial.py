@@ -1,6 +1,7 @@
-"""One mutant on trial: a finite counterexample, a failing witness, or it survives.
+"""One mutant on trial: a counterexample, a failing witness, or it survives.
 
-The order is by price: a small world, the witnesses, a larger world.
+The order is by price: a small world, the witnesses, a larger world.  Theories beside the interlocking
+reckon with integers, and have one world, which is as large as integers are.
 """
 
 from __future__ import annotations
@@ -14,16 +15,17 @@ from typing import Any
 from proofs.counterexample import Unfaithful, search
 from proofs.finite import LARGER, SMALL, Sizes, World
 from proofs.lift import Mismatch, OutsideSubset
+from proofs.mutants import steps
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
-from proofs.mutants.targets import transitions_of
+from proofs.mutants.targets import of_interlocking, theories_of, transitions_of
 from proofs.mutated import Sources
 
 NOT_LIFTED = (OutsideSubset, Mismatch, AttributeError, TypeError)
 """A mutant that no type checker would pass, such as ``None`` where a value must be: CPython alone judges it."""
 
-MILLISECONDS = {"small": 20_000, "larger": 10_000}
-"""For one question of a small and of a larger world; ``unknown`` kills nothing."""
+MILLISECONDS = {"small": 20_000, "larger": 10_000, "integers": 3_000}
+"""For one question of a small and of a larger world, and of integers; ``unknown`` kills nothing."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,7 @@ def tried_with(mutant: Mutant, sources: Sources) -> Verdict:
     """Try a mutant, perhaps with others beside it."""
     began = time.perf_counter()
     searched: dict[str, str] = {}
-    for look in (_in("small"), _by_witnesses, _in("larger")):
+    for look in (_in("small"), _in_integers, _by_witnesses, _in("larger")):
         found = look(mutant, sources, searched)
         if found is not None:
             outcome, by, finding = found
@@ -79,7 +81,7 @@ def _in(size: str) -> Look:
     """Look for a counterexample in a world of this size."""
 
     def look(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:
-        for transition in transitions_of(mutant.function):
+        for transition in filter(of_interlocking, transitions_of(mutant.function)):
             try:
                 answer = search(world(size), transition, sources, MILLISECONDS[size])
             except Unfaithful as error:
@@ -94,6 +96,30 @@ def _in(size: str) -> Look:
         return None
 
     return look
+
+
+def _in_integers(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:
+    """Look for a counterexample in the theories beside the interlocking.
+
+    What only a claim asks of a machine, and no step, is looked for in a single state.
+    """
+    rows = [row for row in transitions_of(mutant.function) if not of_interlocking(row)]
+    claimed = [] if rows else [theory.name for theory in theories_of(mutant.function)]
+    for place in [*rows, *claimed]:
+        try:
+            if place in claimed:
+                found, searched[place] = steps.lifted(place).search_claims(sources, MILLISECONDS["integers"])
+            else:
+                found, searched[place] = steps.search(place, sources, MILLISECONDS["integers"])
+        except Unfaithful as error:
+            searched[place] = f"error of ours: {error}"
+            continue
+        except NOT_LIFTED as error:
+            searched[place] = f"not lifted: {error}"
+            continue
+        if found is not None:
+            return "counterexample", place, found.finding
+    return None
 
 
 def _by_witnesses(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:

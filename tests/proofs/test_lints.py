@@ -11,12 +11,12 @@ from kernel import persistence
 from proofs import lints, restarts, scripts, usage
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, SAFETY, STEPS
 from proofs.scripts import FOLDER
-from proofs.theories import ROWS
+from proofs.theories import ROWS, THEORIES, theory_of
 from proofs.theories import columns as columns_of
 from proofs.theory import READING, START
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-KERNEL = sorted((ROOT / "kernel").glob("*.py"))
+KERNEL = sorted((ROOT / "kernel").rglob("*.py"))
 WORLD = sorted((ROOT / "models" / "world").glob("*.py"))
 INVARIANT_FILES = [path for path in sorted((ROOT / "proofs" / "invariants").glob("*.py")) if path.stem != "vocabulary"]
 REQUIREMENTS = (ROOT / "docs" / "requirements.md").read_text("utf-8")
@@ -154,19 +154,27 @@ def test_what_is_written_and_not_listed_is_seen() -> None:
 
 def faults(files: dict[str, dict[str, list[str]]]) -> list[str]:
     columns = {row: columns_of(row) for row in ROWS}
-    return lints.script_faults(files, columns, {cell: available(*cell) for cell in usage.cells()})
+    cells = [cell for theory in THEORIES.values() for cell in usage.cells(theory)]
+    return lints.script_faults(files, columns, {cell: available(*cell) for cell in cells})
 
 
 def available(row: str, column: str) -> set[str]:
     """What an obligation may name."""
-    assumed = {*AXIOMS, *PREMISES}
-    if row == START:
-        return assumed | set(INITIAL)
-    return assumed | set(INVARIANTS) if row in STEPS or column in INVARIANTS else assumed
+    theory, name = theory_of(row)
+    assumed = {*theory.axioms, *theory.premises}
+    if name == START:
+        return assumed | set(theory.initial)
+    return assumed | set(theory.invariants) if name in theory.steps or column in theory.invariants else assumed
+
+
+def row_in(path: Path) -> str:
+    """The row that a script is of."""
+    return ".".join(path.relative_to(FOLDER).with_suffix("").parts)
 
 
 def test_the_scripts_name_what_there_is() -> None:
-    files = {path.stem: tomllib.loads(path.read_text("utf-8")) for path in sorted(FOLDER.glob("*"))}
+    paths = [path for path in sorted(FOLDER.rglob("*")) if not path.is_dir()]
+    files = {row_in(path): tomllib.loads(path.read_text("utf-8")) for path in paths}
     assert len(files) > len(STEPS) // 2
     assert faults(files) == []
     assert all(dict(scripts.script(row)) == entries for row, entries in files.items())
@@ -182,6 +190,10 @@ def test_the_scripts_name_what_there_is() -> None:
         ("request", "locks_agree", ["nothing_was_ever_sent"]),
         (START, "locks_agree", ["locks_agree"]),
         (READING, "fouling_is_mutual", ["locks_agree"]),
+        ("odometry.gone", "range_contains_train", []),
+        ("odometry.take_fix", "range_contains_train", ["locks_agree"]),
+        ("odometry.init", "range_contains_train", ["range_contains_train"]),
+        ("gone.take_fix", "range_contains_train", []),
     ],
 )
 def test_a_script_that_names_what_is_not_there_is_seen(row: str, column: str, names: list[str]) -> None:

@@ -18,7 +18,10 @@ from proofs.catalogue import AXIOMS, PREMISES, STEPS
 from proofs.theory import START
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-BUILT = [f"T{number}" for number in (1, 2, 4, 5, 6, 7, 8, 9, 10)]
+BUILT = [
+    *(f"T{number}" for number in (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 16)),
+    *(f"P{number}" for number in (1, 2, 3, 4, 5, 6, 7, 8)),
+]
 """The requirements that this kernel serves."""
 
 

@@ -1,0 +1,76 @@
+"""What is claimed of the speed limit: a train too fast for anything that it is on brakes (T12)."""
+
+from __future__ import annotations
+
+from kernel.onboard import speed_limit
+from models.onboard.speed_limit import Passage, Profile, pass_tag, run_on
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def nothing_is_known_of_the_track(site: Profile, system: Passage) -> bool:
+    """At the start no tag has been read, whatever the train stands on, and the brake is on (T8)."""
+    return (
+        system.limit == speed_limit.UNKNOWN
+        and system.brakes
+        and system.left_curve_mm <= system.front_mm
+        and system.left_turnout_mm <= system.front_mm
+    )
+
+
+# ---- safety
+
+
+def a_train_too_fast_for_any_of_its_track_brakes(site: Profile, system: Passage) -> bool:
+    """Faster than line, curve or turnout allows, with any part of the train in it: the brake is demanded (T12)."""
+    rear_mm = system.front_mm - site.length_mm
+    return (
+        system.brakes
+        or (system.speed_mm_s <= site.table.line_mm_s
+        and (system.speed_mm_s <= site.table.curve_mm_s or not (system.in_curve or rear_mm <= system.left_curve_mm))
+        and (
+            system.speed_mm_s <= site.table.turnout_mm_s or not (system.at_turnout or rear_mm <= system.left_turnout_mm)
+        ))
+    )
+
+
+# ---- what it rests on
+
+
+def no_restriction_ends_before_the_rear_has_passed(site: Profile, system: Passage) -> bool:
+    """Where a curve or a turnout was left is remembered, no nearer than it was, while it does not go on (T12)."""
+    return (system.limit.in_curve or system.left_curve_mm <= system.limit.curve_until_mm) and (
+        system.limit.at_turnout or system.left_turnout_mm <= system.limit.turnout_until_mm
+    )
+
+
+def what_the_head_is_on_is_known(site: Profile, system: Passage) -> bool:
+    """In a curve, or on a turnout, the limit says so (T12)."""
+    return (system.limit.in_curve or not system.in_curve) and (system.limit.at_turnout or not system.at_turnout)
+
+
+def what_was_left_lies_behind(site: Profile, system: Passage) -> bool:
+    """The front is past all that it has left (T12)."""
+    return system.left_curve_mm <= system.front_mm and system.left_turnout_mm <= system.front_mm
+
+
+INITIAL = (nothing_is_known_of_the_track,)
+SAFETY = (a_train_too_fast_for_any_of_its_track_brakes,)
+INVARIANTS = (
+    *SAFETY,
+    no_restriction_ends_before_the_rear_has_passed,
+    what_the_head_is_on_is_known,
+    what_was_left_lies_behind,
+)
+STEPS = (run_on, pass_tag)
+
+THEORY = Theory(
+    "speed_limit",
+    Profile,
+    Passage,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+)

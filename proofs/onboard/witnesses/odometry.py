@@ -1,0 +1,572 @@
+"""A train that rolls, slips, slides, climbs, stands, and is told where it is (P1, P7)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import odometry as machine
+from kernel.onboard.odometry import Loss, Motion, Readings, SensorBounds
+from models.onboard.odometry import NM_A_MM, Line, Running
+from proofs.onboard.odometry import THEORY
+from proofs.onboard.witnesses.play import Play
+
+BOUNDS = SensorBounds(
+    scale_ppm=10_000,
+    pulse_mm=30,
+    tachometer_mm_s=20,
+    inertial_mm_s2=50,
+    gradient_mm_s2=350,
+    gradient_rate_mm_s2=5,
+    slip_mm_s2=400,
+    accelerates_mm_s2=1_200,
+    brakes_mm_s2=1_800,
+    agreement_cycles=10,
+)
+SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_150, length_mm=120_000, length_used_mm=133_000)
+START_MM = 100_000
+AT_POWER_ON = Running(
+    front_nm=START_MM * NM_A_MM,
+    speed_um_s=0,
+    slipped=False,
+    anchor_nm=START_MM * NM_A_MM,
+    motion=machine.located(START_MM - 1_000, START_MM + 1_000, 5_000),
+)
+
+
+class Train(Play[Line, Running]):
+    """A train on its line, told where it is to a metre; its wheel shows what is so, if not told otherwise."""
+
+    def __init__(self, system: Running = AT_POWER_ON) -> None:
+        """Begin."""
+        super().__init__(THEORY, SITE, system)
+        self.wheel_nm = system.motion.way_mm * NM_A_MM
+
+    @property
+    def motion(self) -> Motion:
+        """What the odometry knows."""
+        return self.system.motion
+
+    def trusted(self) -> bool:
+        """Whether the wheel is."""
+        return self.motion.trusted
+
+    def cycle(
+        self,
+        speed_mm_s: int,
+        *,
+        tachometer: int | None = None,
+        way_mm: int | None = None,
+        inertial: int | None = None,
+        gradient: int = 0,
+        tachometer_valid: bool = True,
+        inertial_valid: bool = True,
+        elapsed_ms: int = 100,
+        slips: bool = False,
+    ) -> None:
+        """Run to a speed in one cycle, evenly; ``tachometer`` is what the wheel shows, its way goes with it."""
+        before, speed_um_s = self.system, 1_000 * speed_mm_s
+        shown = speed_mm_s if tachometer is None else tachometer
+        rolled_nm = 50 * (before.speed_um_s + speed_um_s)
+        self.wheel_nm += rolled_nm if tachometer is None else 100_000 * tachometer
+        readings = Readings(
+            elapsed_ms=elapsed_ms,
+            tachometer_valid=tachometer_valid,
+            tachometer_mm_s=shown,
+            way_mm=self.wheel_nm // NM_A_MM if way_mm is None else way_mm,
+            inertial_valid=inertial_valid,
+            inertial_mm_s2=(speed_um_s - before.speed_um_s) // 100 + gradient if inertial is None else inertial,
+        )
+        self.step(
+            "run_a_cycle",
+            readings=readings,
+            to_nm=before.front_nm + rolled_nm,
+            speed_um_s=speed_um_s,
+            gradient_mm_s2=gradient,
+            slips=slips,
+        )
+        assert self.system.front_nm == before.front_nm + rolled_nm
+        assert self.system.speed_um_s == speed_um_s
+
+    def stand(self, cycles: int) -> None:
+        """Stand still."""
+        for _ in range(cycles):
+            self.cycle(0)
+
+    def run_to(self, speed_mm_s: int, by_mm_s2: int = 1_000) -> None:
+        """Gain or lose speed, by so much, rolling."""
+        now = self.system.speed_um_s // 1_000
+        step = by_mm_s2 // 10 if speed_mm_s > now else -by_mm_s2 // 10
+        for speed in range(now + step, speed_mm_s + step, step):
+            self.cycle(speed)
+
+    def run_on(self, cycles: int) -> None:
+        """Keep the speed."""
+        for _ in range(cycles):
+            self.cycle(self.system.speed_um_s // 1_000)
+
+    def fix(self, least_mm: int, most_mm: int) -> None:
+        """A tag or a feature says where the front is."""
+        before = self.motion
+        self.step("take_fix", least_mm=least_mm, most_mm=most_mm)
+        assert self.system.anchor_nm == self.system.front_nm
+        assert self.motion.anchor_way_mm == before.way_mm
+
+    def width_mm(self) -> int:
+        """How wide the range is."""
+        return self.motion.front_most_mm - self.motion.front_least_mm
+
+
+def rolling(speed_mm_s: int = 0) -> Train:
+    """A train whose wheel is trusted, at a speed, its place fixed to the millimetre."""
+    train = Train()
+    train.stand(10)
+    train.run_to(speed_mm_s)
+    assert train.trusted()
+    exact_mm = train.system.front_nm // NM_A_MM
+    train.fix(exact_mm, exact_mm)
+    return train
+
+
+# ---- trust
+
+
+def the_wheel_is_trusted_after_ten_cycles_that_agree() -> None:
+    """Nine are not enough, and a cycle that disagrees begins the count anew (P1)."""
+    train = Train()
+    train.stand(9)
+    assert not train.trusted()
+    assert train.motion.agreed_cycles == 9
+    train.cycle(0, inertial=400, gradient=350)
+    assert train.motion.agreed_cycles == 0
+    train.stand(9)
+    assert not train.trusted()
+    train.stand(1)
+    assert train.trusted()
+    assert train.motion.agreed_cycles == 10
+
+
+def an_acceleration_below_the_threshold_agrees() -> None:
+    """T_a itself is a slip, by either sign; one less is none, also with the estimated gradient taken out (P1)."""
+    for sign in (1, -1):
+        train = rolling(10_000)
+        train.cycle(10_000, inertial=sign * 399, gradient=sign * 350)
+        assert train.trusted()
+        assert train.motion.gradient_mm_s2 == sign * 5
+        train.cycle(10_000, inertial=sign * 400, gradient=sign * 350)
+        assert train.trusted()
+        train.cycle(10_000, inertial=-sign * 390, gradient=-sign * 350)
+        assert not train.trusted()
+        train = rolling(10_000)
+        train.cycle(10_000, inertial=sign * 400, gradient=sign * 350)
+        assert not train.trusted()
+
+
+def a_constant_wheel_of_another_speed_is_not_trusted() -> None:
+    """A locked wheel, or one that spins evenly, agrees in acceleration with a train that coasts: not in speed (P1)."""
+    for shown in (0, 25_000):
+        train = rolling(20_000)
+        for _ in range(20):
+            train.cycle(20_000, tachometer=shown, slips=True)
+            assert not train.trusted()
+            assert train.motion.agreed_cycles == 0
+        assert train.motion.anchor_way_mm == train.wheel_nm // NM_A_MM
+
+
+def the_speed_must_be_one_that_the_train_may_have() -> None:
+    """Within the range of speeds by inertia, and the wheel's own error, to the mm/s (P1)."""
+    for shown, plausible in ((19_483, False), (19_484, True), (20_527, True), (20_528, False)):
+        train = rolling(20_000)
+        train.cycle(20_000, tachometer=shown, slips=True)
+        train.cycle(20_000, tachometer=shown, slips=True)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_699, 20_301)
+        assert (train.motion.agreed_cycles == 1) == plausible
+
+
+def a_wheel_rolls_again_after_a_slide() -> None:
+    """Locked, then rolling again: after ten cycles it is trusted, and counts from there (P1)."""
+    train = rolling(20_000)
+    for speed in range(19_900, 19_400, -100):
+        train.cycle(speed, tachometer=0, slips=True)
+        assert train.system.slipped
+    train.cycle(19_400)
+    assert not train.system.slipped
+    train.run_on(9)
+    assert not train.trusted()
+    train.run_on(1)
+    assert train.trusted()
+    here = train.motion
+    assert (here.anchor_least_mm, here.anchor_most_mm) == (here.front_least_mm, here.front_most_mm)
+    assert train.system.anchor_nm == train.system.front_nm
+    train.run_on(10)
+    assert train.motion.anchor_way_mm == here.anchor_way_mm
+    assert train.motion.speed_most_mm_s == 19_400 + 194 + 21
+
+
+# ---- rolling
+
+
+def the_range_grows_with_the_way_and_not_with_time() -> None:
+    """An hour at a standstill adds nothing; a kilometre adds creep and diameter, and a pulse (P1, P7)."""
+    train = rolling()
+    train.stand(1)
+    assert train.width_mm() == 2 * 31
+    before = train.system
+    train.stand(100)
+    assert train.system == before
+    train = rolling(20_000)
+    train.run_on(500)
+    assert train.motion.front_least_mm == 1_300_000 - 10_000 - 31 - 0
+    assert train.motion.front_most_mm == 1_300_000 + 10_000 + 31
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (20_000 - 221, 20_000 + 221)
+    assert machine.rear_least_mm(train.motion, SITE.length_used_mm) == 1_289_969 - 133_000
+
+
+def a_wheel_off_by_creep_and_diameter_is_contained() -> None:
+    """A wheel that shows a hundredth too much, or too little, rolls all the same (P1)."""
+    for shown in (20_200, 19_800):
+        train = rolling(20_000)
+        at_mm = train.motion.front_least_mm
+        for speed in range(0, shown - 20_000, 20 if shown > 20_000 else -20):
+            train.cycle(20_000, tachometer=20_000 + speed)
+        for _ in range(100):
+            train.cycle(20_000, tachometer=shown)
+        assert train.trusted()
+        assert train.system.front_nm // NM_A_MM == at_mm + 220_000
+        assert train.motion.front_least_mm < at_mm + 220_000 < train.motion.front_most_mm
+
+
+def the_speed_is_never_less_than_nothing() -> None:
+    """Neither of a rolling wheel nor of one that is not trusted (P1)."""
+    train = rolling()
+    train.cycle(20)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 41)
+    train = rolling(1_000)
+    for speed in (820, 640, 460, 280, 100, 0, 0, 0):
+        train.cycle(speed, tachometer=0, slips=True)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 351)
+    assert train.motion.front_least_mm == 100_500 + 210
+
+
+# ---- gradient
+
+
+def the_gradient_is_followed_slowly_and_within_the_line() -> None:
+    """5 mm/s² in a cycle, up to what is seen, and never beyond the line's steepest, up or down (P1)."""
+    for sign in (1, -1):
+        train = rolling(20_000)
+        for cycle in range(1, 41):
+            train.cycle(20_000, gradient=sign * 200)
+            assert train.motion.gradient_mm_s2 == sign * 5 * cycle
+        train.cycle(20_000, gradient=sign * 200)
+        assert train.motion.gradient_mm_s2 == sign * 200
+        train.cycle(20_000, gradient=sign * 198)
+        assert train.motion.gradient_mm_s2 == sign * 198
+        for _ in range(40):
+            train.cycle(20_000, gradient=sign * 350, inertial=sign * 400)
+        assert train.motion.gradient_mm_s2 == sign * 350
+
+
+def the_gradient_is_not_what_the_train_accelerates_by() -> None:
+    """On the level the estimate stays zero while the train gains and loses speed (P1)."""
+    train = rolling(5_000)
+    train.run_to(10_000)
+    train.run_to(4_000)
+    assert train.motion.gradient_mm_s2 == 0
+
+
+def the_gradient_is_frozen_in_a_slip() -> None:
+    """What the sensors show while the wheel is not trusted teaches nothing (P1)."""
+    train = rolling(20_000)
+    for _ in range(20):
+        train.cycle(20_000, gradient=100)
+    assert train.motion.gradient_mm_s2 == 100
+    train.cycle(20_000, tachometer=0, gradient=100, slips=True)
+    for _ in range(9):
+        train.cycle(20_000, gradient=-50)
+        assert train.motion.gradient_mm_s2 == 100
+
+
+# ---- slipping
+
+
+def a_slip_goes_on_by_inertia_from_the_cycle_before() -> None:
+    """The cycle in which the wheel runs away is not counted by it: its way is dropped, its anchor goes along (P1)."""
+    train = rolling(20_000)
+    train.cycle(20_000, tachometer=25_000, slips=True)
+    assert train.motion == Motion(
+        front_least_mm=301_973,
+        front_most_mm=302_027,
+        speed_least_mm_s=19_779 - 40,
+        speed_most_mm_s=20_221 + 40,
+        anchor_least_mm=301_973,
+        anchor_most_mm=302_027,
+        anchor_way_mm=207_500,
+        tachometer_mm_s=25_000,
+        way_mm=207_500,
+        trusted=False,
+        agreed_cycles=0,
+        gradient_mm_s2=0,
+        loss=Loss.NONE,
+    )
+    assert train.system.slipped
+    train.cycle(20_000, tachometer=30_000, slips=True)
+    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (303_942, 304_058)
+    assert train.system.anchor_nm == 304_000 * NM_A_MM
+
+
+def motors_and_brakes_limit_what_inertia_leaves_open() -> None:
+    """At full brake or power, and without an inertial sensor, the train does no more than it can (P1)."""
+    train = rolling(20_000)
+    train.cycle(19_820, tachometer=0, slips=True)
+    assert train.motion.speed_least_mm_s == 19_779 - 180
+    assert train.motion.speed_most_mm_s == 20_221 - 140
+    train = rolling(20_000)
+    train.cycle(20_120, tachometer=0, slips=True)
+    assert train.motion.speed_least_mm_s == 19_779 + 80
+    assert train.motion.speed_most_mm_s == 20_221 + 120
+    for wild in (0, 100_000, -100_000, 2**62):
+        train = rolling(20_000)
+        train.cycle(20_000, inertial=wild, inertial_valid=False)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 180, 20_221 + 120)
+        assert not train.trusted()
+    for wild in (100_001, -100_001, 2**62, -(2**62)):
+        train = rolling(20_000)
+        train.cycle(20_000, inertial=wild)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 180, 20_221 + 120)
+
+
+def the_way_is_between_the_speeds_at_both_ends() -> None:
+    """Gaining: no less than at the speed before, no more than at the one after; losing: the other way (P1)."""
+    train = rolling(20_000)
+    train.cycle(20_120, tachometer=0, slips=True)
+    assert train.motion.front_least_mm == 300_000 + 1_977
+    assert train.motion.front_most_mm == 300_000 + 2_035
+    train = rolling(20_000)
+    train.cycle(19_820, tachometer=0, slips=True)
+    assert train.motion.front_least_mm == 300_000 + 1_959
+    assert train.motion.front_most_mm == 300_000 + 2_023
+
+
+def a_train_that_stops_in_a_slide_stands_in_the_range() -> None:
+    """Where brakes and descent leave nothing, the range of speeds ends at zero, and the front stays (P1)."""
+    train = rolling(300)
+    train.cycle(120, tachometer=0, inertial=-2_200, gradient=-350, slips=True)
+    train.cycle(0, tachometer=0, inertial=-1_600, gradient=-350)
+    for _ in range(5):
+        train.cycle(0, inertial=-400, gradient=-350)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 24)
+    at = train.motion
+    train.cycle(0, inertial=-400, gradient=-350)
+    assert train.motion.front_least_mm == at.front_least_mm
+
+
+# ---- sensors that do not speak
+
+
+def what_is_no_reading_of_the_tachometer_moves_nothing() -> None:
+    """Invalid, out of range, or pulses that run backward: by inertia, and what was read before stays (P1)."""
+    silent: tuple[dict[str, int | bool], ...] = (
+        {"tachometer_valid": False},
+        {"tachometer": -1},
+        {"tachometer": 200_001},
+        {"way_mm": 205_000},
+        {"way_mm": 204_999},
+        {"way_mm": -1},
+        {"way_mm": 10**9 + 1},
+    )
+    for what in silent:
+        train = rolling(20_000)
+        train.cycle(20_000, **what)  # type: ignore[arg-type]
+        assert not train.trusted()
+        assert train.motion.tachometer_mm_s == 20_000
+        assert train.motion.way_mm == train.motion.anchor_way_mm == 205_000
+        assert (train.motion.front_least_mm, train.motion.front_most_mm) == (301_973, 302_027)
+    train = rolling()
+    train.cycle(0, tachometer=-1, way_mm=train.motion.way_mm + 1)
+    assert not train.trusted()
+
+
+def a_tachometer_that_repeats_itself_does_not_speak() -> None:
+    """A speed without a pulse is that of one that is stuck; a standstill without a pulse is one (P1)."""
+    train = rolling(20_000)
+    for speed in range(19_990, 19_900, -10):
+        train.cycle(speed, tachometer=20_000, way_mm=205_000, slips=True)
+        assert not train.trusted()
+        assert train.motion.agreed_cycles == 0
+    train = rolling()
+    train.stand(3)
+    assert train.trusted()
+
+
+def nothing_is_asked_of_a_wheel_that_is_not_heard_or_not_trusted() -> None:
+    """It may slip unseen while it is silent, and its pulses be too many before it is trusted (P1)."""
+    train = rolling(20_000)
+    train.cycle(20_000, tachometer_valid=False, slips=True)
+    assert train.system.slipped
+    train = Train()
+    train.cycle(0, way_mm=9_000)
+    assert train.motion.anchor_way_mm == 9_000
+
+
+def a_silent_tachometer_does_not_agree() -> None:
+    """Nor does a silent inertial sensor: the count begins anew (P1)."""
+    for what in ({"tachometer_valid": False}, {"inertial_valid": False}, {"way_mm": 0}, {"inertial": 100_001}):
+        train = Train()
+        train.stand(9)
+        train.cycle(0, **what)
+        assert train.motion.agreed_cycles == 0
+
+
+def the_edges_of_the_ranges_are_readings() -> None:
+    """200 m/s, 10**9 mm and the same way as before are; at the start of counting a wheel may show any (P1)."""
+    train = rolling(20_000)
+    train.cycle(20_000, tachometer=200_000, way_mm=10**9, slips=True)
+    assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (200_000, 10**9)
+    train.cycle(20_000, tachometer=0, way_mm=10**9, slips=True)
+    assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (0, 10**9)
+    assert machine.inertial_speaks(Readings(100, True, 0, 0, True, 100_000))
+    assert machine.inertial_speaks(Readings(100, True, 0, 0, True, -100_000))
+
+
+# ---- fixes
+
+
+def a_fix_narrows_the_range_and_counting_begins_there() -> None:
+    """Of each end the inner one counts; the way since is counted from the fix (P3, P7)."""
+    train = rolling(20_000)
+    train.run_on(500)
+    at_mm = 1_300_000
+    train.fix(at_mm - 100_000, at_mm + 2_000)
+    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (at_mm - 10_031, at_mm + 2_000)
+    train.fix(at_mm - 3_000, at_mm + 100_000)
+    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (at_mm - 3_000, at_mm + 2_000)
+    train.run_on(50)
+    assert train.motion.front_least_mm == at_mm + 100_000 - 3_000 - 1_000 - 31
+    assert train.motion.front_most_mm == at_mm + 100_000 + 2_000 + 1_000 + 31
+
+
+def a_fix_that_touches_the_range_is_taken() -> None:
+    """One millimetre in common is no contradiction, at either end (P7)."""
+    motion = rolling(20_000).motion
+    wide = replace(motion, front_least_mm=290_000, front_most_mm=310_000)
+    assert machine.note_fix(wide, 310_000, 320_000).front_least_mm == 310_000
+    assert machine.is_located(machine.note_fix(wide, 310_000, 320_000))
+    assert machine.note_fix(wide, 280_000, 290_000).front_most_mm == 290_000
+    assert machine.is_located(machine.note_fix(wide, 280_000, 290_000))
+
+
+def a_fix_outside_the_range_loses_it_for_good() -> None:
+    """Some sensor or tag is worse than its bound: nothing is claimed any more, whatever comes (P7; ours)."""
+    motion = rolling(20_000).motion
+    wide = replace(motion, front_least_mm=290_000, front_most_mm=310_000)
+    for least_mm, most_mm in ((310_001, 320_000), (280_000, 289_999)):
+        lost = machine.note_fix(wide, least_mm, most_mm)
+        assert lost == replace(wide, loss=Loss.CONTRADICTED)
+        assert not machine.is_located(lost)
+        assert machine.note_fix(lost, 295_000, 305_000) == lost
+        assert machine.note_cycle(BOUNDS, lost, Readings(100, True, 20_000, 207_000, True, 0)) == lost
+
+
+# ---- the processor's clock
+
+
+def an_irregular_cycle_loses_the_range_for_good() -> None:
+    """Twice the time, none, less, backward, or huge: no range is claimed any more (P1, P7; ours)."""
+    for elapsed_ms in (200, 101, 99, 0, -100, 2**62):
+        train = rolling(20_000)
+        before = train.motion
+        train.cycle(20_000, elapsed_ms=elapsed_ms)
+        lost = train.motion
+        assert lost == replace(before, loss=Loss.CYCLE_IRREGULAR)
+        assert not machine.is_located(lost)
+        train.run_on(3)
+        assert train.motion == lost
+        train.step("take_fix", least_mm=0, most_mm=10**9)
+        assert train.motion == lost
+
+
+def what_has_slipped_stays_slipped_in_the_history() -> None:
+    """After the range is lost the wheel may slip and roll on; the history keeps it, since the anchor stays (P1)."""
+    train = rolling(20_000)
+    train.cycle(20_000, elapsed_ms=0)
+    train.cycle(20_000, tachometer=35_000, slips=True)
+    assert train.system.slipped
+    train.cycle(20_000, tachometer_valid=False)
+    assert train.system.slipped
+
+
+# ---- nature
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """Backward, too far, too fast, a sensor or wheel beyond its bound, a slip without a jolt, a false fix."""
+    train = rolling(20_000)
+    before = train.system
+    far_nm = before.front_nm + 2_000 * NM_A_MM
+    good = Readings(100, True, 20_000, 207_000, True, 0)
+    event = {"readings": good, "to_nm": far_nm, "speed_um_s": 20_000_000, "gradient_mm_s2": 0, "slips": False}
+    refused: tuple[dict[str, object], ...] = (
+        {"to_nm": far_nm + 1},
+        {"to_nm": far_nm - 1},
+        {"speed_um_s": 20_000_000 + 120_001, "to_nm": far_nm + 100, "readings": replace(good, inertial_valid=False)},
+        {"speed_um_s": 20_000_000 - 180_001, "to_nm": far_nm - 100, "readings": replace(good, inertial_valid=False)},
+        {"readings": replace(good, inertial_mm_s2=51)},
+        {"readings": replace(good, inertial_mm_s2=-51)},
+        {"gradient_mm_s2": 351, "readings": replace(good, inertial_mm_s2=351)},
+        {"gradient_mm_s2": -351, "readings": replace(good, inertial_mm_s2=-351)},
+        {"readings": replace(good, tachometer_mm_s=20_300)},
+        {"readings": replace(good, tachometer_mm_s=19_700)},
+        {"readings": replace(good, way_mm=207_060)},
+        {"readings": replace(good, way_mm=206_940)},
+        {"slips": True, "readings": replace(good, tachometer_mm_s=20_114)},
+        {"slips": True, "readings": replace(good, tachometer_mm_s=19_886)},
+    )
+    for what in refused:
+        assert train.step("run_a_cycle", **{**event, **what}) == before
+    for least_mm, most_mm in ((299_000, 299_999), (300_001, 310_000)):
+        assert train.step("take_fix", least_mm=least_mm, most_mm=most_mm) == before
+    after = train.step("run_a_cycle", **{**event, "slips": True, "readings": replace(good, tachometer_mm_s=20_115)})
+    assert after.slipped
+    assert not after.motion.trusted
+
+
+def a_wheel_does_not_slip_for_long_at_the_trains_own_pace() -> None:
+    """Ten cycles that agree at a speed the train may have are not slipped through (P1)."""
+    train = Train()
+    train.stand(9)
+    before = train.system
+    readings = Readings(100, True, 0, 5_000, True, 0)
+    event = {"readings": readings, "to_nm": before.front_nm, "speed_um_s": 0, "gradient_mm_s2": 0}
+    assert train.step("run_a_cycle", **event, slips=True) == before
+    assert train.step("run_a_cycle", **event, slips=False).motion.trusted
+
+
+WITNESSES = (
+    the_wheel_is_trusted_after_ten_cycles_that_agree,
+    an_acceleration_below_the_threshold_agrees,
+    a_constant_wheel_of_another_speed_is_not_trusted,
+    the_speed_must_be_one_that_the_train_may_have,
+    a_wheel_rolls_again_after_a_slide,
+    the_range_grows_with_the_way_and_not_with_time,
+    a_wheel_off_by_creep_and_diameter_is_contained,
+    the_speed_is_never_less_than_nothing,
+    the_gradient_is_followed_slowly_and_within_the_line,
+    the_gradient_is_not_what_the_train_accelerates_by,
+    the_gradient_is_frozen_in_a_slip,
+    a_slip_goes_on_by_inertia_from_the_cycle_before,
+    motors_and_brakes_limit_what_inertia_leaves_open,
+    the_way_is_between_the_speeds_at_both_ends,
+    a_train_that_stops_in_a_slide_stands_in_the_range,
+    what_is_no_reading_of_the_tachometer_moves_nothing,
+    a_tachometer_that_repeats_itself_does_not_speak,
+    nothing_is_asked_of_a_wheel_that_is_not_heard_or_not_trusted,
+    a_silent_tachometer_does_not_agree,
+    the_edges_of_the_ranges_are_readings,
+    a_fix_narrows_the_range_and_counting_begins_there,
+    a_fix_that_touches_the_range_is_taken,
+    a_fix_outside_the_range_loses_it_for_good,
+    an_irregular_cycle_loses_the_range_for_good,
+    what_has_slipped_stays_slipped_in_the_history,
+    what_nature_does_not_do_does_not_happen,
+    a_wheel_does_not_slip_for_long_at_the_trains_own_pace,
+)

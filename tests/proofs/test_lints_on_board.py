@@ -1,0 +1,146 @@
+"""The lints of the theories beside the interlocking hold, and each of them catches a planted fault."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from proofs import lints, usage
+from proofs.lints_on_board import (
+    NOTED,
+    OTHERS,
+    TOLD,
+    Open,
+    machine_fields,
+    open_to,
+    told_the_truth,
+    unlisted,
+    unregistered,
+    world,
+)
+from proofs.onboard import odometry
+from proofs.theories import THEORIES
+from proofs.theory import Theory, by_name
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+ODOMETRY = odometry.THEORY
+MAY = open_to(ODOMETRY)
+
+theories = pytest.mark.parametrize("theory", OTHERS.values(), ids=OTHERS)
+
+
+# ---- no truth by fiat
+
+
+@theories
+def test_no_machine_on_board_is_told_what_is_really_there(theory: Theory) -> None:
+    for module in world(theory):
+        assert told_the_truth(inspect.getsource(module), open_to(theory)) == []
+
+
+@theories
+def test_every_theory_has_a_machine_in_its_state(theory: Theory) -> None:
+    assert machine_fields(theory.system)
+
+
+def test_what_a_machine_may_be_told_besides_is_a_field_of_its_theory() -> None:
+    for name, fields in [*TOLD.items(), *NOTED.items()]:
+        assert set(fields) <= {
+            *inspect.get_annotations(OTHERS[name].site),
+            *inspect.get_annotations(OTHERS[name].system),
+        }
+
+
+CYCLE = "odometry.note_cycle(site.bounds, system.motion, readings)"
+NARROWED = "motion=odometry.note_fix(system.motion, least_mm, most_mm)"
+NO_FIX = "if not a_fix_contains_the_front(system, least_mm, most_mm):"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "offence"),
+    [
+        (CYCLE, "odometry.note_cycle(site.bounds, system.motion, seen(system.front_nm))", "writes system.front_nm"),
+        (CYCLE, "odometry.note_cycle(made(site), system.motion, readings)", "writes site into"),
+        (CYCLE, "odometry.note_cycle(site.bounds, system.motion, replace(readings, way_mm=to_nm))", "to_nm as true"),
+        (CYCLE, f"{CYCLE} if system.slipped else system.motion", "writes system.slipped into motion"),
+        (NARROWED, "motion=odometry.note_fix(system.motion, system.front_nm, most_mm)", "writes system.front_nm"),
+        (NARROWED, "motion=at(system)", "writes system into motion"),
+        (NARROWED, "motion=getattr(system, 'motion')", "uses getattr"),
+        (NO_FIX, "if system.slipped:", "decides by system.slipped"),
+        (NO_FIX, "if least_mm > most_mm:", "refuses events by `least_mm > most_mm`"),
+        (NO_FIX, NO_FIX.replace("if ", "if most_mm < 0 or "), "refuses events by `most_mm < 0`"),
+        (NO_FIX, "if site.length_mm > most_mm:", "decides by site.length_mm"),
+        (NO_FIX, f"slid = system.slipped\n    if slid:\n        return system\n    {NO_FIX}", "decides by system.sl"),
+        (f"{NO_FIX}\n        return system", f"{NO_FIX}\n        return again(site, system)", "does more on an assu"),
+    ],
+)
+def test_a_machine_on_board_that_is_told_the_truth_is_seen(old: str, new: str, offence: str) -> None:
+    source = inspect.getsource(world(ODOMETRY)[0])
+    assert source.count(old) >= 1, f"the odometry no longer has {old!r}"
+    found = told_the_truth(source.replace(old, new, 1), MAY)
+    assert any(offence in line for line in found), found
+
+
+def test_a_branch_of_nature_is_no_offence_where_it_ends_in_the_truth() -> None:
+    source = """
+def run(site: Site, system: System, event: int) -> System:
+    moved = system.true + event if system.apart else event
+    return replace(system, true=moved, machine=step(system.machine, event))
+"""
+    may = Open(frozenset({"machine"}), frozenset(), frozenset(), frozenset(), "System")
+    assert told_the_truth(source, may) == []
+    assert told_the_truth(source.replace("machine, event)", "machine, moved)"), may) != []
+
+
+# ---- what is proved, and what for
+
+
+@theories
+def test_every_invariant_is_a_claim_or_serves_one(theory: Theory) -> None:
+    assert set(theory.safety) <= set(theory.invariants)
+    assert theory.safety
+    assert lints.idle_invariants(usage.book(theory), theory.invariants, theory.safety) == []
+
+
+@theories
+def test_every_premise_is_used(theory: Theory) -> None:
+    assert lints.idle_axioms(usage.book(theory), theory.premises, {}, theory.safety) == []
+
+
+def test_an_invariant_or_premise_that_serves_nothing_is_seen() -> None:
+    book = {**usage.book(ODOMETRY), ("odometry.take_fix", "idle"): ["idle"]}
+    safety = ODOMETRY.safety
+    assert len(lints.idle_invariants(book, ["idle"], safety)) == 1
+    assert lints.idle_axioms(book, ["idle"], {}, safety) == ["idle: no proof uses it"]
+    used = {**book, ("odometry.take_fix", next(iter(safety))): ["idle"]}
+    assert lints.idle_invariants(used, ["idle"], safety) == []
+    assert lints.idle_axioms(used, ["idle"], {}, safety) == []
+
+
+# ---- what is written is listed
+
+
+@theories
+def test_whatever_is_written_of_a_theory_is_listed_in_it(theory: Theory) -> None:
+    assert unlisted(theory) == []
+
+
+def test_what_is_written_of_a_theory_and_not_listed_is_seen() -> None:
+    steps = by_name(step for name, step in ODOMETRY.steps.items() if name != "take_fix")
+    claims = {name: claim for name, claim in ODOMETRY.invariants.items() if name != "range_contains_train"}
+    found = unlisted(replace(ODOMETRY, steps=steps, invariants=claims))
+    assert [line.split(":")[0].rsplit(".", 1)[-1] for line in found] == [
+        "a_fix_contains_the_front",
+        "take_fix",
+        "range_contains_train",
+    ]
+
+
+def test_every_theory_is_registered(tmp_path: Path) -> None:
+    assert unregistered(ROOT / "proofs" / "onboard") == []
+    (tmp_path / "forgotten.py").write_text("THEORY = Theory()")
+    assert unregistered(tmp_path) == ["forgotten.py: no theory of this name is registered"]
+    assert all(name == theory.name for name, theory in THEORIES.items())
