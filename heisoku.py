@@ -51,6 +51,13 @@ class Solvers(StrEnum):
     both = "both"
 
 
+class Paper(StrEnum):
+    """Which paper's figures to reproduce."""
+
+    IC_TAGS = "000"
+    INERTIAL_SENSORS = "001"
+
+
 Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
@@ -172,6 +179,110 @@ def draw(
     counts = f"{len(drawn.blocks)} blocks, {len(drawn.points)} points, {len(drawn.tag_in)} tags drawn"
     which = "no route" if shown is None else f"{'route' if route is not None else 'longest route'} '{shown}'"
     print_line(console(), f"{output}: {counts}, {which} highlighted")
+
+
+@app.command()
+def reproduce(
+    paper: Annotated[Paper, typer.Argument(help="The paper's number.", show_default=False)],
+    json: Json = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="DIR", help="Put pictures and tables there.", show_default=False),
+    ] = None,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+    runs: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", min=1, max=10_000, help="Trains to run (001), passes at each speed (000).", show_default=False
+        ),
+    ] = None,
+) -> None:
+    """Set a paper's figures beside ours: sensor models, run through the kernel.
+
+    It holds where every figure that can be compared agrees by the criterion printed beside it.
+
+    Examples:
+
+    * `heisoku reproduce 000 -o out/000`
+    * `heisoku reproduce 001 --runs 10 --json out/001.json`
+    """
+    from models.reproduce import PAPERS
+    from models.reproduce.pictures import png
+    from models.reproduce.tables import show, table_as_text
+    from proofs.records import commit, versions
+
+    if output is not None and output.exists() and not output.is_dir():
+        raise Refused(f"{output}: is not a folder; name another")
+    writable(json, output / "tables.txt" if output else None)
+    described = PAPERS[paper.value]
+    with progress(f"paper {paper.value}") as step:
+        found = described.reproduce(seed, runs or described.runs, step)
+    out = console()
+    show(out, found)
+    if output:
+        write_whole(output / f"{paper.value}_tables.txt", table_as_text(found).encode())
+        for picture in found.pictures:
+            write_whole(output / f"{picture.name}.png", png(picture))
+        print_line(out, f"{output}: {len(found.pictures)} pictures and the tables")
+    if json:
+        write_json(json, {**found.record(), "versions": versions(), "commit": commit()})
+    counts = ", ".join(f"{count:,} {what}" for what, count in found.counts.items())
+    print_line(out, f"{counts}: {found.verdict}")
+    raise typer.Exit(HOLDS if found.verdict == CHECKED[HOLDS] else DOES_NOT_HOLD)
+
+
+@app.command()
+def ride(
+    rides: Annotated[int, typer.Option(metavar="N", min=1, help="Trains to run over 10 km each.")] = 1_024,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    beyond: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FAULT",
+            help="A fault to draw from beyond its declared range, in a campaign of its own; `each` for one after"
+            " the other.",
+            show_default=False,
+        ),
+    ] = None,
+    json: Json = None,
+) -> None:
+    """Run trains with faulty sensors through the machines on board, and hold what they claim against the truth.
+
+    Within the declared ranges nothing claimed may be false.  Beyond one of them something may be, and then an
+    assumption of the proofs must have been broken in that ride.
+
+    Examples:
+
+    * `heisoku ride --rides 100000 --json out/ride.json`
+    * `heisoku ride --rides 256 --beyond diameter_ppm --beyond approach_slows_m_s2`
+    """
+    from models.rides.campaign import ride_all
+    from models.rides.report import print_beyond, print_outcome, record
+    from models.rides.tally import outcome
+    from models.sensors.faults import names
+    from proofs.records import commit, versions
+
+    writable(json)
+    asked = list(names()) if beyond == ["each"] else list(beyond or ())
+    unknown = [name for name in asked if name not in names()]
+    if unknown:
+        raise Refused(f"--beyond {unknown[0]}: there is no such fault; one of {', '.join(names())}, or each")
+    out = console()
+    found = {}
+    for fault in asked or [""]:
+        with progress(fault or "rides") as step:
+            found[fault] = outcome(ride_all(seed, rides, jobs, (fault,) if fault else (), step))
+    if asked:
+        print_beyond(out, found)
+    else:
+        print_outcome(out, found[""])
+    if json:
+        write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
+    holds = all(one.holds(bool(fault)) for fault, one in found.items())
+    ridden = sum(one.rides for one in found.values())
+    print_line(out, f"{ridden:,} rides with seed {seed}: {CHECKED[HOLDS if holds else DOES_NOT_HOLD]}")
+    raise typer.Exit(HOLDS if holds else DOES_NOT_HOLD)
 
 
 def print_check(out: Console, path: Path, result: CheckResult) -> None:

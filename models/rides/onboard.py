@@ -1,0 +1,43 @@
+"""The compiled machines that rides go through, and their parameters."""
+
+from __future__ import annotations
+
+from kernel.onboard import (
+    antenna_spacing,
+    brake_watch,
+    braking,
+    odometry,
+    split,
+    tag_reader,
+    tag_window,
+    train_length,
+    way,
+)
+from kernel.onboard.odometry import Loss
+from models.compiled import compile_machines, packed
+from models.rides.plan import PLAN
+
+MADE = compile_machines(
+    (antenna_spacing, brake_watch, braking, odometry, split, tag_reader, tag_window, train_length, way)
+)
+"""Each function is compiled when it is first called."""
+
+SENSORS = packed(PLAN.sensors)
+SPLIT_LIMITS = packed(PLAN.split)
+BRAKE = packed(PLAN.brake)
+READER_LIMITS = packed(PLAN.reader)
+WINDOW_LIMITS = packed(PLAN.window)
+SPACING_LIMITS = packed(PLAN.spacing)
+LENGTH_BOUNDS = packed(PLAN.length)
+
+LOCATED = packed(Loss.NONE)
+CONTRADICTED = packed(Loss.CONTRADICTED)
+IN_WINDOW = packed(tag_window.Verdict.IN_WINDOW)
+KIND_TAG = packed(train_length.PointKind.TAG)
+
+SPLIT_ERROR_MM_S2 = 260
+"""What the errors of head and tail may hide of a difference: bias, drift, mounting and scale, 2 × 79, noise 50."""
+UNSEEN_CYCLES = PLAN.split.age_ms // 100 + PLAN.split.gap_ms // 100 + split.SAMPLES
+"""The declared bound: 1.5 s of samples, an old telegram, and a gap that is still tolerated."""
+TAIL_MOST_MM_S2 = 79 + 4 * 30 + 1
+"""The most that a tail sensor may be off: bias, drift, mounting, scale, and noise of four deviations."""

@@ -1,0 +1,62 @@
+"""What every ride of a campaign has in common: bounds that the machines reckon with, and how rides are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kernel.onboard.antenna_spacing import SpacingLimits
+from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.odometry import SensorBounds
+from kernel.onboard.split import SplitLimits
+from kernel.onboard.tag_reader import ReaderLimits
+from kernel.onboard.tag_window import WindowLimits
+from kernel.onboard.train_length import LengthBounds
+from models.sensors.faults import BOUNDS, SPLIT_LIMITS
+from models.sensors.tag_reader import AIR_MS, ASKS_MS, WINDOW_MM, Reader
+
+LINE_M = 13_000.0
+"""Long enough that a train gets 10 km from where it began."""
+LEAST_WAY_M = 10_000.0
+"""A ride that gets less far is counted apart."""
+CYCLES = 9_000
+"""Fifteen minutes: nearly every train has run 10 km by then."""
+LENGTH_MM = 120_000
+"""The paper's train of six cars (001, 4.3.2)."""
+TAG_ERROR_MM = 300
+"""How far from the plan a tag may be, and be read: half the window of 513 mm, and 43 mm of laying."""
+
+READER = Reader(WINDOW_MM, AIR_MS, 2.0, ASKS_MS, 0.0)
+"""A reader that receives 4 frames at the line's speed, as two of four needs; `heisoku reproduce 000` says why."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The parameters of the machines on board (P1, P4, P5, T5, T12, T13)."""
+
+    sensors: SensorBounds
+    split: SplitLimits
+    brake: BrakeBounds
+    reader: ReaderLimits
+    window: WindowLimits
+    spacing: SpacingLimits
+    length: LengthBounds
+
+
+PLAN = Plan(
+    sensors=BOUNDS,
+    split=SPLIT_LIMITS,
+    brake=BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700),
+    reader=ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=8),
+    window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM),
+    spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM),
+    length=LengthBounds(
+        line_maximum_mm=200_000,
+        last_vehicle_mm=20_000,
+        averaging_mm=782,
+        sensor_mm=5_000,
+        front_overhang_mm=0,
+        rear_overhang_mm=0,
+        window_mm=2 * TAG_ERROR_MM,
+    ),
+)
+"""Brake: an emergency brake of 0.6 m/s² at the least, net of a gradient of 35 per mille, within 1.5 s (ours)."""

@@ -1,0 +1,292 @@
+"""One ride, cycle by cycle: readings into the compiled machines, what they say against the truth.
+
+The machines' part is integer, in their units; the truth is in m and s.  numba compiles all of it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+
+from models.rides import onboard, tally
+from models.rides.onboard import (
+    CONTRADICTED,
+    IN_WINDOW,
+    KIND_TAG,
+    LENGTH_BOUNDS,
+    LOCATED,
+    MADE,
+    READER_LIMITS,
+    SENSORS,
+    SPACING_LIMITS,
+    SPLIT_LIMITS,
+    WINDOW_LIMITS,
+)
+from models.rides.plan import LEAST_WAY_M, LENGTH_MM, TAG_ERROR_MM
+
+STARTS_WITHIN_MM = 500
+"""The train is located at the start to so much either way."""
+GOOD_LEVEL_MV = 1_000
+FRAMES_FED = 4
+"""Frames of one passage after the fourth change nothing any more."""
+HALF_MM = 0.5
+"""Readings are rounded to whole units."""
+
+located, note_readings, note_fix = MADE.odometry.located, MADE.odometry.note_cycle, MADE.odometry.note_fix
+rear_least_mm = MADE.odometry.rear_least_mm
+inertial_speaks, speed_error_mm_s = MADE.odometry.inertial_speaks, MADE.odometry.speed_error_mm_s
+way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
+note_telegram, is_intact, made_up = MADE.split.note_cycle, MADE.split.is_intact, MADE.split.made_up
+Acceleration, Telegram = MADE.split.Acceleration, MADE.split.Readings
+note_frame, delivers, mended = MADE.tag_reader.note_frame, MADE.tag_reader.delivers, MADE.tag_reader.mended
+Frame, NO_FRAME, LEVEL = MADE.tag_reader.Frame, MADE.tag_reader.NO_FRAME, MADE.tag_reader.Level(GOOD_LEVEL_MV, True)
+judge, note_window, await_tag = MADE.tag_window.judge, MADE.tag_window.note_cycle, MADE.tag_window.await_tag
+NONE_AWAITED = MADE.tag_window.NONE_AWAITED
+note_head_read, note_tail_read = MADE.antenna_spacing.note_head_read, MADE.antenna_spacing.note_tail_read
+preset, is_healthy = MADE.antenna_spacing.preset, MADE.antenna_spacing.is_healthy
+note_head_pass, note_tail_pass = MADE.train_length.note_head_pass, MADE.train_length.note_tail_pass
+length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
+UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
+between, Way = MADE.way.between, MADE.way.Way
+
+(
+    FRONT_OUTSIDE,
+    REAR_OUTSIDE,
+    SPEED_OUTSIDE,
+    LENGTH_SHORT,
+    SPLIT_UNSEEN,
+    FALSE_TAIL_ACCEPTED,
+    _,
+    POWERS_BROKEN,
+    INERTIAL_BROKEN,
+    WHEEL_BROKEN,
+    FIX_BROKEN,
+    TAIL_BROKEN,
+) = range(tally.BRAKE_BROKEN)
+UNTRUSTED, SPLIT_FOUND, NOT_INTACT = tally.UNTRUSTED, tally.SPLIT_FOUND, tally.NOT_INTACT
+WAS_CONTRADICTED, TAG_OVERDUE = tally.CONTRADICTED, tally.TAG_OVERDUE
+TAG_OUTSIDE_WINDOW, SPACING_BROKEN = tally.TAG_OUTSIDE_WINDOW, tally.SPACING_BROKEN
+LENGTH_CONTRADICTS, CYCLES, WAY_MM = tally.LENGTH_CONTRADICTS, tally.CYCLES, tally.WAY_MM
+TAGS_READ, TAGS_MISSED, LENGTHS, PARTED = tally.TAGS_READ, tally.TAGS_MISSED, tally.LENGTHS, tally.PARTED
+SEEN_AFTER_CYCLES, WIDEST_MM = tally.SEEN_AFTER_CYCLES, tally.WIDEST_MM
+SLIP_CYCLES, FALSE_SPLITS = tally.SLIP_CYCLES, tally.FALSE_SPLITS
+SPLIT_ERROR_MM_S2, UNSEEN_CYCLES = onboard.SPLIT_ERROR_MM_S2, onboard.UNSEEN_CYCLES
+TAIL_MOST_MM_S2 = onboard.TAIL_MOST_MM_S2
+
+
+class Ends(NamedTuple):
+    """What is known of tags and length: window, last tag's place, spacing, length, readers, and which tags are next."""
+
+    window: Any
+    last_at: Any
+    spacing: Any
+    length: Any
+    head_reader: Any
+    tail_reader: Any
+    next_head: int
+    next_tail: int
+
+
+class Apart(NamedTuple):
+    """What is known of wholeness, and since when the parts have visibly differed."""
+
+    wholeness: Any
+    was_intact: bool
+    streak: int
+    first_seen: int
+
+
+@numba.njit
+def place(motion: Any) -> Any:
+    """Where the front is, as the machines on board tell one another."""
+    return Way(motion.loss == LOCATED, motion.front_least_mm, motion.front_most_mm)
+
+
+@numba.njit
+def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: Any, anchor_m: float, out: Any) -> None:
+    """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1)."""
+    gained = (trace.speed_m_s[cycle] - (trace.speed_m_s[cycle - 1] if cycle else 0.0)) * 10_000
+    if not -SENSORS.brakes_mm_s2 - HALF_MM <= gained <= SENSORS.accelerates_mm_s2 + HALF_MM:
+        out[POWERS_BROKEN] += 1
+    slope = trace.slope_m_s2[cycle] * 1000
+    off = abs(readings.inertial_mm_s2 - slope - gained)
+    if (inertial_speaks(readings) and off > SENSORS.inertial_mm_s2) or abs(slope) > SENSORS.gradient_mm_s2:
+        out[INERTIAL_BROKEN] += 1
+    if before.trusted and after.trusted:
+        speed_off = abs(readings.tachometer_mm_s - trace.speed_m_s[cycle] * 1000)
+        since_mm = readings.way_mm - before.anchor_way_mm
+        way_off = abs((trace.head_m[cycle] - anchor_m) * 1000 - since_mm)
+        if speed_off > speed_error_mm_s(SENSORS, readings.tachometer_mm_s) or way_off > way_error_mm(SENSORS, since_mm):
+            out[WHEEL_BROKEN] += 1
+
+
+@numba.njit
+def passes(reader: Any, uid: int, frames: int) -> Any:
+    """An antenna passes a tag: frames into the reader; is its record delivered (T16)."""
+    delivered = False
+    for _ in range(READER_LIMITS.gap_frames):
+        reader = note_frame(READER_LIMITS, reader, NO_FRAME, LEVEL)
+    for _ in range(min(frames, FRAMES_FED)):
+        reader = note_frame(READER_LIMITS, reader, Frame(True, uid, 0, 0, 0), LEVEL)
+        delivered = delivered or delivers(reader)
+    return reader, delivered
+
+
+@numba.njit
+def passing(motion: Any, tag: int, cycle: int) -> Any:
+    """What the length is measured by when an antenna has read a tag (T3)."""
+    return Passing(KIND_TAG, tag + 1, cycle * 100, motion.front_least_mm, motion.front_most_mm, motion.speed_most_mm_s)
+
+
+@numba.njit
+def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+    """The head's antenna passes a tag: the second loop's window, a fix, the spacing, the length (T5, T13, T3)."""
+    tag = ends.next_head
+    reader, delivered = passes(ends.head_reader, tag + 1, trace.tag_frames[tag])
+    out[TAGS_READ] += delivered
+    out[TAGS_MISSED] += not delivered
+    if not delivered:
+        return motion, Ends(
+            ends.window, ends.last_at, ends.spacing, ends.length, reader, ends.tail_reader, tag + 1, ends.next_tail
+        )
+    was_located = motion.loss == LOCATED
+    if ends.window.expected and judge(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion))) != IN_WINDOW:
+        out[TAG_OUTSIDE_WINDOW] += 1
+    run_on_mm = motion.speed_most_mm_s // 10 + 1
+    least_mm, most_mm = trace.tags_mm[tag] - TAG_ERROR_MM, trace.tags_mm[tag] + TAG_ERROR_MM + run_on_mm
+    motion = note_fix(motion, least_mm, most_mm)
+    if was_located:
+        out[FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
+        out[WAS_CONTRADICTED] += motion.loss == CONTRADICTED
+    window, length = NONE_AWAITED, ends.length
+    if tag + 1 < len(trace.tags_mm):
+        away_mm = trace.tags_mm[tag + 1] - trace.tags_mm[tag]
+        window = await_tag(away_mm, away_mm)
+    if motion.loss == LOCATED:
+        length = note_head_pass(length, passing(motion, tag, cycle))
+    spacing = note_head_read(ends.spacing, tag + 1, place(motion))
+    return motion, Ends(window, place(motion), spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
+
+
+@numba.njit
+def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+    """The tail's antenna passes a tag: is it one antenna distance behind the head; then the length (T13, T3)."""
+    tag, spacing, length = ends.next_tail, ends.spacing, ends.length
+    reader, delivered = passes(ends.tail_reader, tag + 1, trace.tag_frames[tag])
+    if delivered:
+        spacing = note_tail_read(SPACING_LIMITS, spacing, tag + 1, place(motion))
+        out[SPACING_BROKEN] += spacing.broken
+        hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
+        out[FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
+        if motion.loss == LOCATED and is_healthy(spacing):
+            length = note_tail_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
+            out[LENGTHS] += length.measured and not ends.length.measured
+            out[LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length)
+    return Ends(ends.window, ends.last_at, spacing, length, ends.head_reader, reader, ends.next_head, tag + 1)
+
+
+@numba.njit
+def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+    """Everything that the antennas have read in this cycle, and whether a tag is overdue (T2, T5)."""
+    window = note_window(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion)))
+    if window.passed:
+        out[TAG_OVERDUE] += 1
+        window = NONE_AWAITED
+    ends = Ends(
+        window, ends.last_at, ends.spacing, ends.length, ends.head_reader, ends.tail_reader, ends.next_head,
+        ends.next_tail,
+    )  # fmt: skip
+    while ends.next_head < len(trace.tags_mm) and trace.tag_cycle[ends.next_head] == cycle:
+        motion, ends = under_the_head(trace, cycle, motion, ends, out)
+    while ends.next_tail < len(trace.tags_mm) and 0 <= trace.tail_cycle[ends.next_tail] <= cycle:
+        ends = under_the_tail(trace, cycle, motion, ends, out)
+    return motion, ends
+
+
+@numba.njit
+def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
+    """Compare head and tail, each at the time of the tail's measurement (P5, P6)."""
+    told = max(trace.source[cycle], 0)
+    left_mm_s2, right_mm_s2 = trace.left.numbers[told], trace.right.numbers[told]
+    wholeness = note_telegram(
+        SPLIT_LIMITS,
+        apart.wholeness,
+        Telegram(
+            Acceleration(trace.force.numbers[told], trace.force.valid[told]),
+            trace.arrived[cycle],
+            Acceleration(left_mm_s2, trace.left.valid[told]),
+            Acceleration(right_mm_s2, trace.right.valid[told]),
+            trace.age_ms[cycle],
+        ),
+    )
+    truth_mm_s2 = (trace.tail_gain_m_s2[told] + trace.tail_slope_m_s2[told]) * 1000
+    parted, first_seen, streak = cycle >= trace.parted_at, apart.first_seen, 0
+    if told + 1 < trace.parted_at:
+        off_mm_s2 = max(abs(left_mm_s2 - truth_mm_s2), abs(right_mm_s2 - truth_mm_s2))
+        out[TAIL_BROKEN] += trace.arrived[cycle] and off_mm_s2 > TAIL_MOST_MM_S2
+    intact = is_intact(SPLIT_LIMITS, wholeness)
+    out[NOT_INTACT] += apart.was_intact and not intact
+    if wholeness.split and first_seen < 0:
+        first_seen = cycle
+        out[SPLIT_FOUND] = 1
+        out[FALSE_SPLITS] = not parted
+    if parted:
+        slope = trace.slope_m_s2[cycle] - trace.tail_slope_m_s2[cycle]
+        differs_mm_s2 = abs(trace.gain_m_s2[cycle] - trace.tail_gain_m_s2[cycle] + slope) * 1000
+        streak = apart.streak + 1 if differs_mm_s2 > SPLIT_LIMITS.threshold_mm_s2 + SPLIT_ERROR_MM_S2 else 0
+        out[SPLIT_UNSEEN] += streak > UNSEEN_CYCLES and intact
+    return Apart(wholeness, intact, streak, first_seen)
+
+
+@numba.njit
+def compare(trace: Any, cycle: int, motion: Any, length: Any, out: Any) -> None:
+    """Hold what is claimed against the truth (P1, P4, P7)."""
+    if motion.loss != LOCATED:
+        return
+    front_mm, speed_mm_s = trace.head_m[cycle] * 1000, trace.speed_m_s[cycle] * 1000
+    out[FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
+    out[SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
+    if cycle < trace.parted_at:
+        used_mm = length_mm(LENGTH_BOUNDS, length)
+        out[REAR_OUTSIDE] += rear_least_mm(motion, used_mm) > front_mm - LENGTH_MM
+        out[LENGTH_SHORT] += used_mm < LENGTH_MM
+    out[WIDEST_MM] = max(out[WIDEST_MM], motion.front_most_mm - motion.front_least_mm)
+
+
+@numba.njit
+def ride(trace: Any, out: Any) -> Any:
+    """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and motion."""
+    start_mm = int(trace.head_m[0] * 1000)
+    motion = located(start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM, 0)
+    ends = Ends(NONE_AWAITED, Way(False, 0, 0), preset(LENGTH_MM), UNMEASURED, mended(), mended(), 0, 0)
+    apart = Apart(made_up(SPLIT_LIMITS), False, 0, -1)
+    anchor_m, cycle = trace.head_m[0], 0
+    for cycle in range(len(trace.head_m)):
+        readings = Readings(
+            100,
+            trace.wheel.valid[cycle] and trace.way.valid[cycle],
+            trace.wheel.numbers[cycle],
+            trace.way.numbers[cycle],
+            trace.force.valid[cycle],
+            trace.force.numbers[cycle],
+        )
+        before = motion
+        motion = note_readings(SENSORS, motion, readings)
+        hold_assumptions(trace, cycle, before, motion, readings, anchor_m, out)
+        out[UNTRUSTED] += before.trusted and not motion.trusted
+        out[SLIP_CYCLES] += not motion.trusted
+        tags_before, anchor_way_mm = ends.next_head, motion.anchor_way_mm
+        motion, ends = at_the_ends(trace, cycle, motion, ends, out)
+        is_new = motion.anchor_way_mm != anchor_way_mm or ends.next_head != tags_before
+        if is_new or not (before.trusted and motion.trusted):
+            anchor_m = trace.head_m[cycle]
+        apart = is_it_whole(trace, cycle, apart, out)
+        compare(trace, cycle, motion, ends.length, out)
+        if (trace.head_m[cycle] - trace.head_m[0]) >= LEAST_WAY_M or apart.wholeness.split:
+            break
+    out[CYCLES], out[WAY_MM] = cycle + 1, int((trace.head_m[cycle] - trace.head_m[0]) * 1000)
+    out[PARTED] = cycle >= trace.parted_at
+    if apart.first_seen >= trace.parted_at:
+        out[SEEN_AFTER_CYCLES] = apart.first_seen - trace.parted_at
+    return cycle, motion
