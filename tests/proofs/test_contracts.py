@@ -1,0 +1,66 @@
+"""The page of contracts names what is there, and leaves no assumption of a machine out."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from models.world import assumptions as world
+from proofs.theories import THEORIES
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+PAGE = (ROOT / "docs" / "contracts.md").read_text("utf-8")
+ASSUMED = tomllib.loads((ROOT / "models" / "onboard" / "assumptions.toml").read_text("utf-8"))
+NAME = re.compile(r"`(\w+)\.(\w+)`")
+
+
+def rows(heading: str) -> list[list[str]]:
+    """The rows of the table under a heading, cell by cell."""
+    part = PAGE.split(f"## {heading}", 1)[1].split("\n## ", 1)[0]
+    lines = [line for line in part.splitlines() if line.startswith("|")]
+    return [line.strip("|").split("|") for line in lines[2:]]
+
+
+JOINTS = [
+    row
+    for heading in (
+        "The head: no train leaves what is secured for it",
+        "The tail: nothing is released that a train is still in",
+    )
+    for row in rows(heading)
+]
+REMAINING = rows("What is still assumed of the machines' world")
+
+
+def assumptions_of(theory: str) -> set[str]:
+    """The names that a theory assumes; the interlocking's are functions of its world."""
+    if theory == "interlocking":
+        return {name for name in vars(world) if not name.startswith("_")}
+    return set(ASSUMED.get(theory, {}))
+
+
+def test_the_tables_are_read() -> None:
+    assert len(JOINTS) > 10
+    assert len(REMAINING) > 5
+
+
+@pytest.mark.parametrize("row", JOINTS, ids=lambda row: row[0].strip())
+def test_a_joint_names_a_proved_invariant_and_a_real_assumption(row: list[str]) -> None:
+    guaranteed = NAME.findall(row[1])
+    assert guaranteed
+    assert [(theory, name) for theory, name in guaranteed if name not in THEORIES[theory].invariants] == []
+    assumed = NAME.findall(row[2])
+    assert assumed or "–" in row[2] or "built-in" in row[2]
+    assert [(theory, name) for theory, name in assumed if name not in assumptions_of(theory)] == []
+
+
+def test_every_assumption_of_a_machine_is_discharged_or_said_to_remain() -> None:
+    discharged = {pair for row in JOINTS for pair in NAME.findall(row[2])}
+    remaining = {pair for row in REMAINING for pair in NAME.findall(row[1])}
+    there = {(theory, name) for theory, entries in ASSUMED.items() for name in entries}
+    assert there - discharged - remaining == set()
+    assert remaining - there == set()
+    assert discharged & remaining == set()
