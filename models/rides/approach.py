@@ -78,10 +78,11 @@ def rolled(rolling: Any, ending: Any, braked_cycles: int) -> Any:
 
 @numba.njit
 def read(before: Any, after: Any, ending: Any, way_before_mm: int) -> Any:
-    """What the sensors say at the end of a cycle."""
+    """What the sensors say at the end of a cycle: speed by the pulses' times, so the mean; without pulses none."""
     way_mm = int(after.turned_m / PULSE_M) * PULSE_MM
+    mean_mm_s = round((before.wheel_m_s + after.wheel_m_s) * 500) if way_mm > way_before_mm else 0
     force = (after.speed_m_s - before.speed_m_s) / CYCLE_S + GRAVITY_M_S2 * ending.gradient + ending.bias_m_s2
-    return Readings(100, True, (way_mm - way_before_mm) * 10, way_mm, True, round(force * 1000))
+    return Readings(100, True, mean_mm_s, way_mm, True, round(force * 1000))
 
 
 @numba.njit

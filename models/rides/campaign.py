@@ -71,7 +71,7 @@ def ride_all(
     found = []
     for done, rows in enumerate(_results(todo, jobs), 1):
         found.append(rows)
-        progress(done * RUNS_A_BATCH, rides, "rides")
+        progress(min(done * RUNS_A_BATCH, rides), rides, "rides")
     return np.concatenate(found)
 
 

@@ -11,7 +11,7 @@ from models.rides.plan import LENGTH_MM
 from models.sensors.dynamics import slope_m_s2
 from models.sensors.faults import CYCLE_S, FAULTS
 from models.sensors.traces import Traces, Whole
-from models.sensors.track import Track, at
+from models.sensors.track import Track, read, spots
 
 Floats = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
@@ -80,8 +80,8 @@ def traces_of(made: Traces, track: Track) -> list[Trace]:
     """Give the rides of some traces, one by one."""
     truth, sensors = made.truth, made.sensors
     tail_m = truth.head_m - LENGTH_MM / 1000 - truth.tail_gap_m
-    slope = slope_m_s2(at(track.gradient, truth.head_m)).astype(np.float64)
-    tail_slope = slope_m_s2(at(track.gradient, tail_m)).astype(np.float64)
+    slope = slope_m_s2(read(track.gradient, spots(track, truth.head_m))).astype(np.float64)
+    tail_slope = slope_m_s2(read(track.gradient, spots(track, tail_m))).astype(np.float64)
     tags_mm = np.rint(track.tags_m * 1000).astype(np.int64)
     parted = np.clip(made.values["split_at_s"] / CYCLE_S, 1, 2**31).astype(np.int64)
     speed, gain, tail_gain, gap = (

@@ -25,13 +25,12 @@ def nothing_is_known_of_the_track(site: Profile, system: Passage) -> bool:
 def a_train_too_fast_for_any_of_its_track_brakes(site: Profile, system: Passage) -> bool:
     """Faster than line, curve or turnout allows, with any part of the train in it: the brake is demanded (T12)."""
     rear_mm = system.front_mm - site.length_mm
-    return (
-        system.brakes
-        or (system.speed_mm_s <= site.table.line_mm_s
+    return system.brakes or (
+        system.speed_mm_s <= site.table.line_mm_s
         and (system.speed_mm_s <= site.table.curve_mm_s or not (system.in_curve or rear_mm <= system.left_curve_mm))
         and (
             system.speed_mm_s <= site.table.turnout_mm_s or not (system.at_turnout or rear_mm <= system.left_turnout_mm)
-        ))
+        )
     )
 
 

@@ -32,6 +32,7 @@ def over(spacing: Spacing, uid: int, place_mm: int, apart_mm: int) -> Spacing:
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 

@@ -25,6 +25,7 @@ READINGS = st.builds(
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 
@@ -84,6 +85,7 @@ def test_invariants_hold_in_drawn_worlds(data: st.DataObject) -> None:
             train.cycle(shown, rolling=number != spoilt or data.draw(st.booleans()))
             if data.draw(st.integers(0, 300)) == 0:
                 train.step("await_feature")
+    assert train.system.cycle == number
 
 
 @settings(max_examples=200, deadline=None)
@@ -91,4 +93,6 @@ def test_invariants_hold_in_drawn_worlds(data: st.DataObject) -> None:
 def test_invariants_hold_in_wild_worlds(history: list[tuple[Readings, int]]) -> None:
     play = Play(THEORY, SITE, Train().system)
     for readings, front_um in history:
-        play.step("run_a_cycle", front_um=front_um, readings=readings)
+        before = play.system
+        after = play.step("run_a_cycle", front_um=front_um, readings=readings)
+        assert after == before or (after.front_um, after.cycle) == (front_um, before.cycle + 1)

@@ -41,6 +41,7 @@ def heard(state: Split, cycles: int, head: int = 0, tail: int = 0) -> Split:
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 
@@ -98,6 +99,7 @@ def test_invariants_hold_in_drawn_worlds(data: st.DataObject) -> None:
             )
         else:
             play.step(what)
+            assert not machine.is_intact(LIMITS, play.system.state)
 
 
 @settings(max_examples=200, deadline=None)

@@ -32,6 +32,7 @@ def hear(reader: Reader, *frames: Frame, level: Level = SOUND) -> Reader:
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 

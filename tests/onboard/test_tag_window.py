@@ -27,6 +27,7 @@ NEAR = (
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 

@@ -22,6 +22,7 @@ PASSINGS = st.builds(Passing, KINDS, st.integers(0, 2), WILD, WILD, WILD, WILD)
 
 @pytest.mark.parametrize("witness", WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
+    assert witness.__doc__
     witness()
 
 

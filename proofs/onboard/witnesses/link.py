@@ -150,8 +150,13 @@ def deletion_is_counted_and_silence_noticed() -> None:
     order = radio.send(CENTRE, UNIT, GO)
     assert radio.arrive(UNIT, CENTRE, order) == Outcome.DELIVERED
     assert radio.link(UNIT, CENTRE).missed == 2
+    radio.send(CENTRE, UNIT, STOP)
+    assert radio.arrive(UNIT, CENTRE, radio.send(CENTRE, UNIT, GO)) == Outcome.DELIVERED
+    assert radio.link(UNIT, CENTRE).missed == 3
     radio.wait(5_000)
     assert radio.trusts(UNIT, CENTRE)
+    assert radio.trusts(CENTRE, UNIT)
+    assert set(radio.play.system.trusted) == {(UNIT, CENTRE), (CENTRE, UNIT)}
     radio.wait(1)
     assert not radio.trusts(UNIT, CENTRE)
 

@@ -126,9 +126,12 @@ def a_split_stays_found_until_the_train_is_made_up() -> None:
     train.heard(40)
     assert train.brakes()
     assert not train.intact()
+    assert train.system.found
     train.step("make_up")
     assert not train.brakes()
     assert not train.intact()
+    assert not train.system.found
+    assert not train.system.due
     train.heard()
     assert train.intact()
 
@@ -196,6 +199,7 @@ def a_doubtful_telegram_is_not_intact_until_a_good_one() -> None:
         assert train.intact()
         train.cycle(**what)  # type: ignore[arg-type]
         assert not train.intact()
+        assert train.system.disagreed == ("left" in what or "right" in what)
         train.silence()
         assert not train.intact()
         assert not train.brakes()
@@ -245,6 +249,7 @@ def a_long_silence_is_latched_until_the_train_is_made_up() -> None:
     assert train.intact()
     train.silence(31)
     train.heard(40)
+    assert train.system.unheard_ms == 3_100
     assert not train.intact()
     assert not train.brakes()
     train.step("make_up")
@@ -262,6 +267,57 @@ def an_old_value_hides_nothing() -> None:
     assert not train.brakes()
     train.cycle(301, 0)
     assert train.brakes()
+
+
+def true_shocks_go_down_in_history() -> None:
+    """Beyond limit and errors, of a sensor with a reading or of a difference that counts, until made up (P5)."""
+    for sign in (1, -1):
+        for tail, speaks, shaken in ((3_051, True, True), (3_050, True, False), (3_051, False, False)):
+            for other in ("left_valid", "right_valid"):
+                train = Train()
+                valid = {"left_valid": speaks, "right_valid": speaks} | {other: False}
+                train.cycle(0, sign * tail, **valid)  # type: ignore[arg-type]
+                assert train.system.shocked == shaken
+        for head, shaken in ((1_576, True), (1_575, False)):
+            train = Train()
+            train.cycle(sign * head, -sign * 1_575)
+            train.cycle()
+            assert train.system.shocked == shaken
+            train.step("make_up")
+            assert not train.system.shocked
+
+
+def an_alarm_is_due_only_near_a_limit() -> None:
+    """Neither a sensor that says that it has no reading, nor one too low, nor what is not compared is a reason (P5)."""
+    for left, right in ((True, True), (True, False), (False, True), (False, False)):
+        train = Train()
+        train.cycle(2_951, 2_951, left_valid=left, right_valid=right)
+        assert train.system.due == (left or right)
+        assert not train.brakes()
+    for value, due in ((2_000, False), (3_000, False), (3_001, True), (-3_001, True)):
+        for sensor in ("left", "right"):
+            train = Train()
+            train.cycle(**{sensor: value})
+            assert train.system.due == due
+            assert train.brakes() == due
+    train = Train()
+    train.cycle(2_000, -2_000, age_ms=301)
+    left_over = Readings(Acceleration(0, True), False, Acceleration(9_000, True), Acceleration(9_000, True), 0)
+    train.step("run_a_cycle", head_mm_s2=0, tail_mm_s2=9_000, measured_ms=0, readings=left_over)
+    assert not train.system.due
+
+
+def a_sensor_without_a_reading_may_show_anything() -> None:
+    """At the head, or at both sides of the tail; the train is then not intact (P5)."""
+    good, wild = Acceleration(0, True), Acceleration(9_000, False)
+    for head, tail in ((wild, good), (good, wild)):
+        train = Train()
+        train.heard()
+        readings = Readings(head, True, tail, tail, 0)
+        train.step("run_a_cycle", head_mm_s2=0, tail_mm_s2=0, measured_ms=1_600, readings=readings)
+        assert train.system.now_ms == 1_600
+        assert not train.intact()
+        assert not train.brakes()
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
@@ -289,5 +345,8 @@ WITNESSES = (
     a_short_gap_is_tolerated_and_a_longer_one_is_not,
     a_long_silence_is_latched_until_the_train_is_made_up,
     an_old_value_hides_nothing,
+    true_shocks_go_down_in_history,
+    an_alarm_is_due_only_near_a_limit,
+    a_sensor_without_a_reading_may_show_anything,
     what_nature_does_not_do_does_not_happen,
 )

@@ -131,6 +131,16 @@ def the_wider_range_and_the_higher_speed_count() -> None:
     assert train.used_mm() == 120_000 + 2 * 2_000 + 5_782
 
 
+def a_pass_is_off_by_a_cycle_at_the_higher_speed() -> None:
+    """Sampling at 20 m/s may err by 2 m, whichever end was the faster, and no more than that (P8)."""
+    for head_mm_s, tail_mm_s in ((20_000, 10_000), (10_000, 20_000)):
+        train = Train()
+        train.head(replace(CURVE, speed_most_mm_s=head_mm_s))
+        late = replace(train.later(CURVE, 102_000), speed_most_mm_s=tail_mm_s)
+        train.tail(late, sampling=2_000_000)
+        assert train.used_mm() == 120_000 + 2_000 + 2 * 2_000 + 5_782
+
+
 def a_measured_length_stays() -> None:
     """Another point measures nothing any more, until the formation changes (paper 001, 3.1; P4)."""
     train = Train()
@@ -171,14 +181,17 @@ def only_the_heads_point_counts() -> None:
     train = Train()
     train.tail(train.later(CURVE, 10_000))
     train.head(CURVE)
-    near = train.later(CURVE, 10_000)
-    train.tail(replace(near, point=8))
-    train.tail(replace(near, kind=PointKind.TAG))
-    train.tail(replace(near, time_ms=CURVE.time_ms))
     assert train.used_mm() == 250_000
-    assert not train.system.both_passed
-    train.tail(train.later(CURVE, 100_000))
-    assert train.used_mm() == 133_006
+    near = train.later(CURVE, 10_000)
+    for other in (replace(near, point=8), replace(near, kind=PointKind.TAG), replace(near, time_ms=CURVE.time_ms)):
+        train = Train()
+        train.head(CURVE)
+        train.tail(other)
+        assert train.used_mm() == 250_000
+        assert not train.system.both_passed
+        train.tail(train.later(CURVE, 100_000))
+        assert train.used_mm() == 133_006
+        assert train.system.both_passed
 
 
 def the_head_waits_at_its_last_point() -> None:
@@ -260,6 +273,7 @@ WITNESSES = (
     a_train_measured_as_short_as_can_be_is_not_underestimated,
     a_train_is_measured_at_a_tag,
     the_wider_range_and_the_higher_speed_count,
+    a_pass_is_off_by_a_cycle_at_the_higher_speed,
     a_measured_length_stays,
     a_pass_of_the_old_formation_does_not_count,
     only_the_heads_point_counts,

@@ -1,0 +1,88 @@
+"""How fast the train may run, by the kinds of the tags that it has passed; unknown is the worst case (T12).
+
+A kind speaks of the track from its tag to the next one that is read.  The restriction counts for the
+whole train: it ends when the rear has passed the tag where it ended, and the rear is where the
+odometry's range puts it at the least.  One end is remembered for curves and one for turnouts, the last
+of each; an earlier end lies behind it, and is passed before.
+
+That no tag is missed is the second loop's to watch (T5).  What lies ahead of the next tag is not known
+here: a driver slows down before, or the brake does from the tag on (ours).  Nothing is calculated, so
+that every number of 64 bits is answered.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kernel.onboard.arithmetic import smaller
+
+
+@dataclass(frozen=True)
+class SpeedTable:
+    """The speeds of the line (T12).
+
+    ``line_mm_s``: where nothing restricts; ``curve_mm_s``: in the line's sharpest curve;
+    ``turnout_mm_s``: over its sharpest turnout.
+    """
+
+    line_mm_s: int
+    curve_mm_s: int
+    turnout_mm_s: int
+
+
+@dataclass(frozen=True)
+class SpeedLimit:
+    """What the train knows of the track that it is on (T12).
+
+    ``in_curve``, ``at_turnout``: the last tag's kind, of the track that the head is on.
+    ``curve_until_mm``, ``turnout_until_mm``: the last that ended did so no farther than here.
+    """
+
+    in_curve: bool
+    at_turnout: bool
+    curve_until_mm: int
+    turnout_until_mm: int
+
+
+UNKNOWN = SpeedLimit(in_curve=True, at_turnout=True, curve_until_mm=0, turnout_until_mm=0)
+"""Before the first tag everything restricts (T8, T12); where it ends is set by that tag."""
+
+
+def note_tag(limit: SpeedLimit, in_curve: bool, at_turnout: bool, front_most_mm: int) -> SpeedLimit:
+    """Take a tag that the head reads: what it was on ends here, and what the kind says begins (T12).
+
+    ``in_curve``, ``at_turnout``: by :func:`kernel.tags.traits`, both for a kind that is unknown or not read.
+    ``front_most_mm``: the front is no farther than this, so the tag is not either (P7).
+    """
+    return SpeedLimit(
+        in_curve=in_curve,
+        at_turnout=at_turnout,
+        curve_until_mm=front_most_mm if limit.in_curve else limit.curve_until_mm,
+        turnout_until_mm=front_most_mm if limit.at_turnout else limit.turnout_until_mm,
+    )
+
+
+def permitted_mm_s(table: SpeedTable, in_curve: bool, at_turnout: bool) -> int:
+    """Give the smallest speed that applies (T12)."""
+    curve_mm_s = smaller(table.line_mm_s, table.curve_mm_s) if in_curve else table.line_mm_s
+    return smaller(curve_mm_s, table.turnout_mm_s) if at_turnout else curve_mm_s
+
+
+def limit_mm_s(table: SpeedTable, limit: SpeedLimit, rear_least_mm: int) -> int:
+    """Give how fast the train may run, from its head to its rear (T12).
+
+    ``rear_least_mm``: the rear is no less far than this (P7).
+    """
+    return permitted_mm_s(
+        table,
+        limit.in_curve or rear_least_mm <= limit.curve_until_mm,
+        limit.at_turnout or rear_least_mm <= limit.turnout_until_mm,
+    )
+
+
+def is_overspeed(table: SpeedTable, limit: SpeedLimit, rear_least_mm: int, speed_most_mm_s: int) -> bool:
+    """Tell whether the train may be too fast, so that the emergency brake is demanded (T12).
+
+    ``speed_most_mm_s``: the upper end of the odometry's range (P1); a negative one is no speed.
+    """
+    return not 0 <= speed_most_mm_s <= limit_mm_s(table, limit, rear_least_mm)

@@ -1,0 +1,186 @@
+"""A train that keeps to the bounds of its brake and motors, and one that does not (T12)."""
+
+from __future__ import annotations
+
+from kernel.onboard import brake_watch as machine
+from kernel.onboard.braking import BrakeBounds
+from models.onboard.brake_watch import Vehicle, Watched
+from proofs.onboard.brake_watch import THEORY
+from proofs.onboard.witnesses.play import Play
+
+BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=705, response_cycles=3, standstill_mm_s=25)
+"""In a cycle motors gain 120 mm/s at most, and the brake takes 70.5 mm/s at least."""
+SITE = Vehicle(BOUNDS)
+
+
+class Train(Play[Vehicle, Watched]):
+    """A train at 20 m/s, and how its watch sees it."""
+
+    def __init__(self, mm_s: int = 20_000) -> None:
+        """Begin, the speed known to a millimetre per second."""
+        super().__init__(THEORY, SITE, Watched(1_000 * mm_s, 0, True, machine.watching(mm_s)))
+
+    def cycle(self, um_s: int, *, applied: bool, off_mm_s: int = 0) -> None:
+        """A cycle, and the speed after it; what odometry gives is rounded and ``off_mm_s`` wide on both sides."""
+        self.step(
+            "run_a_cycle",
+            applied=applied,
+            speed_least_mm_s=um_s // 1_000 - off_mm_s,
+            speed_most_mm_s=-(-um_s // 1_000) + off_mm_s,
+            speed_um_s=um_s,
+        )
+        assert self.system.speed_um_s == um_s
+
+    def respond(self) -> None:
+        """The brake is commanded, and has responded after this."""
+        for _ in range(3):
+            self.cycle(self.system.speed_um_s, applied=True)
+
+    def is_accused(self) -> bool:
+        """Whether the watch has found a bound broken."""
+        return self.system.watch.broken
+
+    def limit_mm_s(self) -> int:
+        """The limit that the watch knows."""
+        return self.system.watch.limit_mm_s
+
+
+def motors_may_gain_as_much_as_written() -> None:
+    """For as long as they will, the brake being off: at the bound nobody is accused (T12)."""
+    train = Train()
+    for cycle in range(1, 50):
+        train.cycle(20_000_000 + cycle * 120_000, applied=False)
+        assert not train.is_accused()
+        assert train.system.kept
+        assert train.limit_mm_s() == 20_000 + cycle * 120
+
+
+def motors_that_gain_more_are_accused() -> None:
+    """By a whole mm/s more than is written, in one cycle, with the brake commanded or not (T12)."""
+    for applied in (False, True):
+        train = Train()
+        train.cycle(20_120_001, applied=applied)
+        assert not train.system.kept
+        assert not train.is_accused()
+        train = Train()
+        train.cycle(20_121_000, applied=applied)
+        assert not train.system.kept
+        assert train.is_accused()
+
+
+def motors_not_cut_are_accused() -> None:
+    """What gains speed although the brake should have responded (T12)."""
+    train = Train()
+    train.respond()
+    assert not train.is_accused()
+    train.cycle(20_001_000, applied=True)
+    assert train.is_accused()
+
+
+def a_brake_that_slows_as_guaranteed_is_not_accused() -> None:
+    """Down to a standstill, and there; a limit is no lower than zero (T12)."""
+    train = Train(1_000)
+    train.respond()
+    for cycle in range(1, 20):
+        train.cycle(max(0, 1_000_000 - cycle * 70_500), applied=True)
+        assert not train.is_accused()
+        assert train.system.kept
+    assert train.limit_mm_s() == 0
+    assert train.system.speed_um_s == 0
+
+
+def a_weak_brake_is_accused() -> None:
+    """One that slows by less than is guaranteed, as soon as the difference shows in whole mm/s (T12)."""
+    train = Train()
+    train.respond()
+    train.cycle(19_930_000, applied=True)
+    assert not train.system.kept
+    assert not train.is_accused()
+    assert train.limit_mm_s() == 19_930
+    train = Train()
+    train.respond()
+    train.cycle(19_931_000, applied=True)
+    assert not train.system.kept
+    assert train.is_accused()
+    train = Train(50)
+    train.respond()
+    train.cycle(1_000, applied=True)
+    assert not train.system.kept
+    assert train.is_accused()
+
+
+def a_weak_brake_is_found_through_a_wide_range() -> None:
+    """The longer it brakes, the more it lags behind; a range of 1 m/s hides 20 mm/s a cycle for 2.5 s (T12)."""
+    train = Train()
+    train.respond()
+    cycles = 0
+    while not train.is_accused():
+        cycles += 1
+        train.cycle(20_000_000 - cycles * 50_000, applied=True, off_mm_s=500)
+    assert cycles == 26
+
+
+def the_response_is_waited_for() -> None:
+    """Three cycles after the command the brake must have responded, and not before; released, it begins anew (T12)."""
+    train = Train()
+    for cycle in range(1, 4):
+        train.cycle(20_000_000 + cycle * 120_000, applied=True)
+        assert train.system.watch.cycles == cycle
+        assert not train.is_accused()
+    train.cycle(20_289_000, applied=True)
+    assert train.system.watch.cycles == 3
+    assert train.system.kept
+    train.cycle(20_409_000, applied=False)
+    assert train.system.watch.cycles == 0
+    train.cycle(20_529_000, applied=True)
+    assert train.system.watch.cycles == 1
+    assert train.system.kept
+    assert not train.is_accused()
+
+
+def an_accusation_stays() -> None:
+    """However well it brakes then: until the vehicle is inspected (T12)."""
+    train = Train()
+    train.cycle(20_200_000, applied=False)
+    assert train.is_accused()
+    train.cycle(19_000_000, applied=False)
+    train.respond()
+    train.cycle(18_000_000, applied=True)
+    assert train.is_accused()
+    assert not train.system.kept
+
+
+def the_limit_is_never_above_what_is_measured() -> None:
+    """A train that was slower than it might have been is judged from there (T12)."""
+    train = Train()
+    train.cycle(15_000_000, applied=False, off_mm_s=10)
+    assert train.limit_mm_s() == 15_010
+    train.cycle(15_000_000, applied=False, off_mm_s=300)
+    assert train.limit_mm_s() == 15_130
+    train.cycle(15_252_000, applied=False)
+    assert train.is_accused()
+
+
+def a_train_outside_its_range_is_not_looked_at() -> None:
+    """What odometry does not say does not happen; at both ends of the range it does."""
+    train = Train()
+    before = train.system
+    told = {"applied": False, "speed_least_mm_s": 19_000, "speed_most_mm_s": 20_000}
+    for um_s in (18_999_999, 20_000_001):
+        assert train.step("run_a_cycle", **told, speed_um_s=um_s) == before
+    for um_s in (19_000_000, 20_000_000):
+        assert train.step("run_a_cycle", **told, speed_um_s=um_s).speed_um_s == um_s
+
+
+WITNESSES = (
+    motors_may_gain_as_much_as_written,
+    motors_that_gain_more_are_accused,
+    motors_not_cut_are_accused,
+    a_brake_that_slows_as_guaranteed_is_not_accused,
+    a_weak_brake_is_accused,
+    a_weak_brake_is_found_through_a_wide_range,
+    the_response_is_waited_for,
+    an_accusation_stays,
+    the_limit_is_never_above_what_is_measured,
+    a_train_outside_its_range_is_not_looked_at,
+)

@@ -1,0 +1,53 @@
+"""Contracts on the brake control for CrossHair (`make crosshair`): leading asserts assume, later ones claim."""
+
+from __future__ import annotations
+
+from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds, stops_before, supervise, take_end
+
+BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+ON, OFF = Brake(applied=True, end_mm=1_000_000), Brake(applied=False, end_mm=1_000_000)
+
+
+def what_is_no_speed_is_too_fast(speed_mm_s: int) -> None:
+    """Negative, or beyond 200 m/s (T12)."""
+    assert speed_mm_s < 0 or speed_mm_s > 200_000
+    assert not stops_before(BOUNDS, 0, speed_mm_s, FARTHEST_MM)
+
+
+def an_end_behind_is_never_stopped_before(front_mm: int, speed_mm_s: int) -> None:
+    """At any speed (T12)."""
+    assert front_mm >= 0
+    assert 0 <= speed_mm_s <= 200_000
+    assert not stops_before(BOUNDS, front_mm, speed_mm_s, 0)
+
+
+def a_demand_is_obeyed(applied: bool, acknowledged: bool) -> None:
+    """Whatever else is (T5, P5)."""
+    assert isinstance(applied, bool)
+    assert supervise(BOUNDS, Brake(applied, 1_000_000), 0, 0, True, acknowledged).applied
+
+
+def a_brake_that_is_on_goes_off_at_an_acknowledged_standstill(speed_mm_s: int, acknowledged: bool) -> None:
+    """And not before (T12)."""
+    assert 0 <= speed_mm_s <= 10_000
+    after = supervise(BOUNDS, ON, 0, speed_mm_s, False, acknowledged)
+    assert after.applied == (not acknowledged or speed_mm_s > 25)
+
+
+def with_room_it_stays_off(speed_mm_s: int) -> None:
+    """A kilometre before the end, up to 30 m/s (T12)."""
+    assert 0 <= speed_mm_s <= 30_000
+    assert supervise(BOUNDS, OFF, 0, speed_mm_s, False, False) == OFF
+
+
+def a_farther_end_is_taken(end_mm: int, front_mm: int, speed_mm_s: int) -> None:
+    """At any place and speed (T4)."""
+    assert end_mm >= 1_000_000
+    assert take_end(BOUNDS, OFF, front_mm, speed_mm_s, end_mm) == Brake(False, end_mm)
+
+
+def a_nearer_end_is_taken_or_brakes(end_mm: int) -> None:
+    """At a standstill: with the way of 17 cycles' gain and of the brake before it, 5.9 m (T9, T12)."""
+    assert end_mm < 1_000_000
+    after = take_end(BOUNDS, OFF, 0, 0, end_mm)
+    assert after == (Brake(False, end_mm) if end_mm >= 5_898 else Brake(True, 1_000_000))
