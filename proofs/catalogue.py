@@ -24,5 +24,7 @@ INVARIANTS: Mapping[str, Predicate] = predicates(safety, bookkeeping, messages, 
 STEPS: Mapping[str, Transition] = {transition.__name__: transition for transition in TRANSITIONS}
 """The transitions by name."""
 
-INTERLOCKING = Theory("interlocking", Site, System, STEPS, INITIAL, INVARIANTS, SAFETY, PREMISES, AXIOMS, quantified=True)
+INTERLOCKING = Theory(
+    "interlocking", Site, System, STEPS, INITIAL, INVARIANTS, SAFETY, PREMISES, AXIOMS, quantified=True
+)
 """All of it together."""

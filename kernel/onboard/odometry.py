@@ -7,8 +7,8 @@ inertial sensor within the line's steepest gradient, and the anchor goes along (
 A fix narrows the range; one that lies outside it shows that a sensor is worse than its bound, and then
 no range is claimed any more.
 
-Ranges of readings: speeds to 200 m/s, ways to 10**9 mm, accelerations to 100 m/s²; what is beyond is
-no reading.
+Ranges of readings: speeds to 200 m/s, ways to 10**9 mm, accelerations that the train can have on the
+steepest gradient; what is beyond is no reading.
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, limited, mag
 
 MILLION = 1_000_000
 GREATEST_SPEED_MM_S = 200_000
-GREATEST_ACCELERATION_MM_S2 = 100_000
 GREATEST_WAY_MM = 10**9
 
 
@@ -156,11 +155,12 @@ def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
     )
 
 
-def inertial_speaks(readings: Readings) -> bool:
-    """Tell whether the inertial sensor gives a reading: valid and in range (P1)."""
+def inertial_speaks(bounds: SensorBounds, readings: Readings) -> bool:
+    """Tell whether the inertial sensor gives a reading: valid, and what the train on its line can show at all (P1)."""
+    beside_mm_s2 = bounds.gradient_mm_s2 + bounds.inertial_mm_s2
     return (
         readings.inertial_valid
-        and -GREATEST_ACCELERATION_MM_S2 <= readings.inertial_mm_s2 <= GREATEST_ACCELERATION_MM_S2
+        and -bounds.brakes_mm_s2 - beside_mm_s2 <= readings.inertial_mm_s2 <= bounds.accelerates_mm_s2 + beside_mm_s2
     )
 
 
@@ -174,7 +174,7 @@ def agrees(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
     measured_mm_s2 = readings.inertial_mm_s2 - motion.gradient_mm_s2
     return (
         tachometer_speaks(motion, readings)
-        and inertial_speaks(readings)
+        and inertial_speaks(bounds, readings)
         and magnitude(measured_mm_s2 - wheel_mm_s2(motion, readings)) < bounds.slip_mm_s2
     )
 
@@ -195,14 +195,14 @@ def next_gradient_mm_s2(bounds: SensorBounds, motion: Motion, readings: Readings
 
 def least_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
     """Give the least acceleration that the train may have: the brakes', or the inertial sensor's if it speaks (P1)."""
-    if not inertial_speaks(readings):
+    if not inertial_speaks(bounds, readings):
         return -bounds.brakes_mm_s2
     return larger(-bounds.brakes_mm_s2, readings.inertial_mm_s2 - bounds.gradient_mm_s2 - bounds.inertial_mm_s2)
 
 
 def most_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
     """Give the most acceleration that the train may have: the motors', or the inertial sensor's if it speaks (P1)."""
-    if not inertial_speaks(readings):
+    if not inertial_speaks(bounds, readings):
         return bounds.accelerates_mm_s2
     return smaller(bounds.accelerates_mm_s2, readings.inertial_mm_s2 + bounds.gradient_mm_s2 + bounds.inertial_mm_s2)
 
@@ -234,7 +234,7 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
     have, it is trusted again.
     """
     slowest_mm_s = larger(0, motion.speed_least_mm_s + CYCLE_MS * least_mm_s2(bounds, readings) // 1000)
-    fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, readings), 1000))
+    fastest_mm_s = motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, readings), 1000)
     least_mm = motion.front_least_mm + CYCLE_MS * smaller(motion.speed_least_mm_s, slowest_mm_s) // 1000
     most_mm = motion.front_most_mm + divided_up(CYCLE_MS * larger(motion.speed_most_mm_s, fastest_mm_s), 1000)
     speaks = tachometer_speaks(motion, readings)
@@ -253,7 +253,7 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
         tachometer_mm_s=readings.tachometer_mm_s if speaks else motion.tachometer_mm_s,
         way_mm=readings.way_mm if speaks else motion.way_mm,
         trusted=agreed >= bounds.agreement_cycles,
-        agreed_cycles=smaller(agreed, bounds.agreement_cycles),
+        agreed_cycles=agreed,
     )
 
 

@@ -101,10 +101,10 @@ def run_a_cycle(
     if not the_way_follows_the_speed(system, to_nm, speed_um_s):
         return system
     brake = braking.supervise(site.bounds, system.brake, front_most_mm, speed_most_mm_s, demanded, acknowledged)
-    responds = brake.applied and system.brake.applied and system.response_cycles == 0
+    responds = brake.applied and system.response_cycles == 0
     if responds and not the_brake_keeps_its_bound(site, system, speed_um_s):
         return system
-    if not responds and not the_train_gains_no_more(site, system, speed_um_s):
+    if not the_train_gains_no_more(site, system, speed_um_s):
         return system
     if not brake.applied:
         begun = decided(site, system, front_most_mm, speed_most_mm_s, brake)

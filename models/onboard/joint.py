@@ -77,7 +77,7 @@ def the_head_runs_forward(system: Joint, run: Run, to_mm: int) -> bool:
 
 def the_brake_takes_the_end(system: Joint, run: Run, end_mm: int) -> bool:
     """The brake control takes no end that the head is beyond, or could not stop before (T12)."""
-    return run in system.head_mm and system.head_mm[run] <= end_mm
+    return system.head_mm[run] <= end_mm
 
 
 def the_range_contains_the_head(system: Joint, run: Run, front_least_mm: int) -> bool:

@@ -101,7 +101,7 @@ def the_inertial_sensor_keeps_its_bound(
     """A valid reading is acceleration and gravity along the track, within the error; the line is no steeper (P1)."""
     gained_um_s = speed_um_s - system.speed_um_s
     return magnitude(gradient_mm_s2) <= site.bounds.gradient_mm_s2 and (
-        not odometry.inertial_speaks(readings)
+        not odometry.inertial_speaks(site.bounds, readings)
         or magnitude(CYCLE_MS * (readings.inertial_mm_s2 - gradient_mm_s2) - gained_um_s)
         <= CYCLE_MS * site.bounds.inertial_mm_s2
     )
@@ -119,6 +119,7 @@ def a_rolling_wheel_measures(
     way_error = odometry.way_error_mm(site.bounds, since_mm)
     return (
         slips
+        or system.slipped
         or not system.motion.trusted
         or not odometry.tachometer_speaks(system.motion, readings)
         or (

@@ -111,7 +111,7 @@ def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: 
         out[POWERS_BROKEN] += 1
     slope = trace.slope_m_s2[cycle] * 1000
     off = abs(readings.inertial_mm_s2 - slope - gained)
-    if (inertial_speaks(readings) and off > SENSORS.inertial_mm_s2) or abs(slope) > SENSORS.gradient_mm_s2:
+    if (inertial_speaks(SENSORS, readings) and off > SENSORS.inertial_mm_s2) or abs(slope) > SENSORS.gradient_mm_s2:
         out[INERTIAL_BROKEN] += 1
     if before.trusted and after.trusted:
         speed_off = abs(readings.tachometer_mm_s - trace.speed_m_s[cycle] * 1000)

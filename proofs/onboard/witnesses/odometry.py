@@ -292,7 +292,7 @@ def nothing_is_asked_of_a_wheel_that_is_not_heard_or_not_trusted() -> None:
 
 def a_silent_tachometer_does_not_agree() -> None:
     """Nor does a silent inertial sensor: the count begins anew (P1)."""
-    for what in ({"tachometer_valid": False}, {"inertial_valid": False}, {"way_mm": 0}, {"inertial": 100_001}):
+    for what in ({"tachometer_valid": False}, {"inertial_valid": False}, {"way_mm": 0}, {"inertial": 1_601}):
         train = Train()
         train.stand(9)
         train.cycle(0, **what)
@@ -306,8 +306,10 @@ def the_edges_of_the_ranges_are_readings() -> None:
     assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (200_000, 10**9)
     train.cycle(20_000, tachometer=0, way_mm=10**9, slips=True)
     assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (0, 10**9)
-    assert machine.inertial_speaks(Readings(100, True, 0, 0, True, 100_000))
-    assert machine.inertial_speaks(Readings(100, True, 0, 0, True, -100_000))
+    assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_600))
+    assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, -2_200))
+    assert not machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_601))
+    assert not machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, -2_201))
 
 
 # ---- fixes
@@ -373,7 +375,7 @@ def what_has_slipped_stays_slipped_in_the_history() -> None:
     train.cycle(20_000, elapsed_ms=0)
     train.cycle(20_000, tachometer=35_000, slips=True)
     assert train.system.slipped
-    train.cycle(20_000, tachometer_valid=False)
+    train.cycle(20_000, tachometer=40_000)
     assert train.system.slipped
 
 
