@@ -1,4 +1,7 @@
-# make assure   prove the kernel, check the sample layouts, write the records under out/
+# make assure   prove the kernel, check the sample layouts, ride some trains; write the records under out/
+# make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
+# make beyond   the same with one fault after the other beyond its declared range
+# make papers   the papers' figures beside ours, with pictures
 # make test     ruff, mypy, pytest
 # make bench    print the measured figures
 #
@@ -14,16 +17,18 @@ TESTS  ?= tests
 CONTRACTS := $(sort $(wildcard tests/contracts_*.py tests/*/contracts_*.py))
 # Tests run on this many processes.
 JOBS   ?= auto
+RIDES  ?= 512
+BEYOND ?= 128
 
 .DELETE_ON_ERROR:
-.PHONY: help assure prove check test lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure prove check ride beyond papers test lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
 
 # ---- what it is for
 
-assure: prove check
+assure: prove check ride
 
 prove: setup
 	@mkdir -p out
@@ -33,6 +38,19 @@ check: setup
 	@mkdir -p out
 	@test -n "$(LAYOUTS)" || { echo "make check: no layouts/*.toml to check" >&2; exit 2; }
 	$(BIN)/heisoku check $(LAYOUTS) --json out/check.json
+
+ride: setup
+	@mkdir -p out
+	$(BIN)/heisoku ride --rides $(RIDES) --json out/ride.json
+
+beyond: setup
+	@mkdir -p out
+	$(BIN)/heisoku ride --rides $(BEYOND) --beyond each --json out/beyond.json
+
+papers: setup
+	@mkdir -p out
+	$(BIN)/heisoku reproduce 000 -o out/000 --json out/000.json
+	$(BIN)/heisoku reproduce 001 -o out/001 --json out/001.json
 
 # ---- checks on ourselves
 
