@@ -17,7 +17,7 @@ from models.rides.tally import COLUMNS, FAULTS, Numbers
 from models.sensors.traces import Setup, traces
 from models.sensors.track import line
 
-RUNS_A_BATCH = 64
+RUNS_A_BATCH = 128
 """So many rides share a line, and are made together."""
 
 

@@ -6,6 +6,7 @@ from kernel.onboard import (
     antenna_spacing,
     brake_watch,
     braking,
+    feature,
     odometry,
     split,
     tag_reader,
@@ -18,7 +19,7 @@ from models.compiled import compile_machines, packed
 from models.rides.plan import PLAN
 
 MADE = compile_machines(
-    (antenna_spacing, brake_watch, braking, odometry, split, tag_reader, tag_window, train_length, way)
+    (antenna_spacing, brake_watch, braking, feature, odometry, split, tag_reader, tag_window, train_length, way)
 )
 """Each function is compiled when it is first called."""
 
@@ -33,6 +34,8 @@ LENGTH_BOUNDS = packed(PLAN.length)
 LOCATED = packed(Loss.NONE)
 CONTRADICTED = packed(Loss.CONTRADICTED)
 IN_WINDOW = packed(tag_window.Verdict.IN_WINDOW)
+FIXED = packed(feature.Progress.FIXED)
+AXIS_YAW = packed(feature.TurnAxis.YAW)
 KIND_TAG = packed(train_length.PointKind.TAG)
 
 SPLIT_ERROR_MM_S2 = 260

@@ -8,10 +8,14 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numba
+import numpy as np
 
+from models.reproduce.fixes import MIDDLE
 from models.rides import onboard, tally
 from models.rides.onboard import (
+    AXIS_YAW,
     CONTRADICTED,
+    FIXED,
     IN_WINDOW,
     KIND_TAG,
     LENGTH_BOUNDS,
@@ -30,6 +34,8 @@ STARTS_WITHIN_MM = 500
 GOOD_LEVEL_MV = 1_000
 FRAMES_FED = 4
 """Frames of one passage after the fourth change nothing any more."""
+LATE_CYCLES = MIDDLE
+"""The average over 15 cycles is known so many after its middle."""
 HALF_MM = 0.5
 """Readings are rounded to whole units."""
 
@@ -48,6 +54,8 @@ preset, is_healthy = MADE.antenna_spacing.preset, MADE.antenna_spacing.is_health
 note_head_pass, note_tail_pass = MADE.train_length.note_head_pass, MADE.train_length.note_tail_pass
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
 UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
+note_yaw, is_over, AWAITED = MADE.feature.note_cycle, MADE.feature.is_over, MADE.feature.AWAITED
+Feature, Band, Turning = MADE.feature.Feature, MADE.feature.Band, MADE.feature.Readings
 between, Way = MADE.way.between, MADE.way.Way
 
 (
@@ -70,6 +78,7 @@ TAG_OUTSIDE_WINDOW, SPACING_BROKEN = tally.TAG_OUTSIDE_WINDOW, tally.SPACING_BRO
 LENGTH_CONTRADICTS, CYCLES, WAY_MM = tally.LENGTH_CONTRADICTS, tally.CYCLES, tally.WAY_MM
 TAGS_READ, TAGS_MISSED, LENGTHS, PARTED = tally.TAGS_READ, tally.TAGS_MISSED, tally.LENGTHS, tally.PARTED
 SEEN_AFTER_CYCLES, WIDEST_MM = tally.SEEN_AFTER_CYCLES, tally.WIDEST_MM
+FEATURES_FIXED, FEATURES_FAILED = tally.FEATURES_FIXED, tally.FEATURES_FAILED
 SLIP_CYCLES, FALSE_SPLITS = tally.SLIP_CYCLES, tally.FALSE_SPLITS
 SPLIT_ERROR_MM_S2, UNSEEN_CYCLES = onboard.SPLIT_ERROR_MM_S2, onboard.UNSEEN_CYCLES
 TAIL_MOST_MM_S2 = onboard.TAIL_MOST_MM_S2
@@ -86,6 +95,14 @@ class Ends(NamedTuple):
     tail_reader: Any
     next_head: int
     next_tail: int
+
+
+class Curve(NamedTuple):
+    """Which feature is awaited, what is known of it, and how long the wheel has been trusted."""
+
+    feature: int
+    detection: Any
+    trusted_cycles: int
 
 
 class Apart(NamedTuple):
@@ -205,6 +222,42 @@ def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any
 
 
 @numba.njit
+def feature_at(row: Any) -> Any:
+    """A feature of the line, from its numbers."""
+    return Feature(
+        AXIS_YAW, row[0], row[1], row[2], Band(row[3], row[4]), Band(row[5], row[6]), Band(row[7], row[8]),
+        Band(row[9], row[10]), row[11], row[12], row[13], row[14], row[15], row[16], row[17], row[18],
+    )  # fmt: skip
+
+
+@numba.njit
+def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: Any, trusted: Any, out: Any) -> Any:
+    """Match the yaw rate's average, which is some cycles old; a fix is carried on to now by the wheel (P2, P3)."""
+    trusted_cycles = curve.trusted_cycles + 1 if motion.trusted else 0
+    then = cycle - LATE_CYCLES
+    if curve.feature >= len(trace.features) or then < 0:
+        return motion, Curve(curve.feature, curve.detection, trusted_cycles)
+    readings = Turning(
+        fronts_mm[then], trusted[then], trace.wheel.numbers[then], trace.way.numbers[then], trace.yaw.valid[then],
+        trace.yaw.numbers[then], False, 0,
+    )  # fmt: skip
+    detection = note_yaw(SENSORS, feature_at(trace.features[curve.feature]), curve.detection, readings)
+    if detection.stage == FIXED and trusted_cycles > LATE_CYCLES and motion.loss == LOCATED:
+        since_mm = trace.way.numbers[cycle] - trace.way.numbers[then]
+        error_mm = way_error_mm(SENSORS, since_mm)
+        least_mm = detection.fix_least_mm + since_mm - error_mm
+        most_mm = detection.fix_most_mm + since_mm + error_mm
+        motion = note_fix(motion, least_mm, most_mm)
+        out[FEATURES_FIXED] += 1
+        out[FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
+        out[WAS_CONTRADICTED] += motion.loss == CONTRADICTED
+    if is_over(detection):
+        out[FEATURES_FAILED] += curve.detection.stage != FIXED
+        return motion, Curve(curve.feature + 1, AWAITED, trusted_cycles)
+    return motion, Curve(curve.feature, detection, trusted_cycles)
+
+
+@numba.njit
 def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
     """Compare head and tail, each at the time of the tail's measurement (P5, P6)."""
     told = max(trace.source[cycle], 0)
@@ -261,7 +314,8 @@ def ride(trace: Any, out: Any) -> Any:
     motion = located(start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM, 0)
     ends = Ends(NONE_AWAITED, Way(False, 0, 0), preset(LENGTH_MM), UNMEASURED, mended(), mended(), 0, 0)
     apart = Apart(made_up(SPLIT_LIMITS), False, 0, -1)
-    anchor_m, cycle = trace.head_m[0], 0
+    curve, anchor_m, cycle = Curve(0, AWAITED, 0), trace.head_m[0], 0
+    fronts_mm, trusted = np.empty(len(trace.head_m), np.int64), np.empty(len(trace.head_m), np.bool_)
     for cycle in range(len(trace.head_m)):
         readings = Readings(
             100,
@@ -276,9 +330,11 @@ def ride(trace: Any, out: Any) -> Any:
         hold_assumptions(trace, cycle, before, motion, readings, anchor_m, out)
         out[UNTRUSTED] += before.trusted and not motion.trusted
         out[SLIP_CYCLES] += not motion.trusted
-        tags_before, anchor_way_mm = ends.next_head, motion.anchor_way_mm
+        fronts_mm[cycle], trusted[cycle] = motion.front_least_mm, motion.trusted
+        tags_before, fixes_before = ends.next_head, out[FEATURES_FIXED]
         motion, ends = at_the_ends(trace, cycle, motion, ends, out)
-        is_new = motion.anchor_way_mm != anchor_way_mm or ends.next_head != tags_before
+        motion, curve = along_the_curve(trace, cycle, motion, curve, fronts_mm, trusted, out)
+        is_new = ends.next_head != tags_before or out[FEATURES_FIXED] != fixes_before
         if is_new or not (before.trusted and motion.trusted):
             anchor_m = trace.head_m[cycle]
         apart = is_it_whole(trace, cycle, apart, out)

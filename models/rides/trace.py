@@ -7,15 +7,21 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from models.reproduce.fixes import Plan as Registered
+from models.reproduce.fixes import averaged, registered
 from models.rides.plan import LENGTH_MM
 from models.sensors.dynamics import slope_m_s2
 from models.sensors.faults import CYCLE_S, FAULTS
 from models.sensors.traces import Traces, Whole
-from models.sensors.track import Track, read, spots
+from models.sensors.track import GRID_M, Track, read, spots
 
 Floats = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
+
+
+REGISTERED = Registered()
+"""How curves are registered: as for the paper's fixes."""
 
 
 class Reading(NamedTuple):
@@ -30,6 +36,8 @@ class Trace(NamedTuple):
 
     ``head_m`` to ``slope_m_s2``: the truth; ``slope_m_s2`` is gravity along the track under the head,
     ``tail_slope_m_s2`` under the tail.  ``parted_at``: the cycle in which the tail comes off.
+    ``yaw``: averaged over 1.5 s, for the cycle in the middle.  ``features``: a row of numbers for each curve
+    that is registered ahead.
     ``tag_cycle``, ``tail_cycle``: in which the head's and the tail's antenna pass each tag, -1 for never.
     """
 
@@ -49,6 +57,8 @@ class Trace(NamedTuple):
     source: Places
     arrived: Bools
     age_ms: Places
+    yaw: Reading
+    features: Places
     tags_mm: Places
     tag_cycle: Places
     tag_frames: Places
@@ -88,6 +98,8 @@ def traces_of(made: Traces, track: Track) -> list[Trace]:
         each.astype(np.float64)
         for each in (truth.speed_m_s, truth.acceleration_m_s2, truth.tail_acceleration_m_s2, truth.tail_gap_m)
     )
+    yaw, whole = averaged(sensors.yaw_urad_s.numbers.astype(np.int64), sensors.yaw_urad_s.valid)
+    features = features_of(track)
     return [
         Trace(
             head_m=truth.head_m[row],
@@ -106,6 +118,8 @@ def traces_of(made: Traces, track: Track) -> list[Trace]:
             source=sensors.tail_source[row].astype(np.int64),
             arrived=sensors.tail_arrived[row],
             age_ms=sensors.tail_age_ms[row].astype(np.int64),
+            yaw=Reading(yaw[row], whole[row] != 0),
+            features=features[features[:, 0] > truth.head_m[row, 0] * 1000],
             tags_mm=tags_mm,
             tag_cycle=made.reads.cycle[row].astype(np.int64),
             tag_frames=made.reads.frames[row],
@@ -113,6 +127,32 @@ def traces_of(made: Traces, track: Track) -> list[Trace]:
         )
         for row in range(len(made.runs))
     ]
+
+
+def features_of(track: Track) -> Places:
+    """The curves of a line that can be registered, in their order: a row of numbers for each (P3)."""
+    found = []
+    for curve in track.features:
+        feature = registered(REGISTERED, curve, float(track.free_m_s[int(curve.end_m / GRID_M)]))
+        if feature is not None:
+            bands = (feature.straight, feature.first, feature.second, feature.third)
+            found.append(
+                [
+                    feature.begin_mm,
+                    feature.end_mm,
+                    feature.end_error_mm,
+                    *(end for band in bands for end in (band.least, band.most)),
+                    feature.second_from_mm,
+                    feature.third_from_mm,
+                    feature.entry_least_mm,
+                    feature.exit_least_mm,
+                    feature.exit_most_mm,
+                    feature.length_least_mm,
+                    feature.length_most_mm,
+                    feature.speed_least_mm_s,
+                ]
+            )
+    return np.array(sorted(found), np.int64).reshape(-1, 19)
 
 
 def reading(whole: Whole, row: int) -> Reading:
