@@ -67,10 +67,13 @@ def run(track: Track, values: Mapping[str, Floats], cycles: int, length_m: float
         np.minimum(ahead, last, out=ahead)
         allowed = limits.take(ahead.astype(np.intp))
         allowed *= share
-        stays += (stays > 0) | ((speed < STANDS_M_S) & (allowed < STANDS_M_S))
+        waits = speed < STANDS_M_S
+        waits &= allowed < STANDS_M_S
+        waits |= stays > 0
+        stays += waits
         over = np.subtract(speed, allowed, out=allowed)
-        wanted = np.where(over > -COAST_M_S, 0.0, traction)
-        np.copyto(wanted, braking, where=(over > 0) | (stays > 0))
+        wanted = traction * (over <= -COAST_M_S)
+        np.copyto(wanted, braking, where=waits | (over > 0))
         wanted -= gain
         np.maximum(wanted, -jerk, out=wanted)
         np.minimum(wanted, jerk, out=wanted)

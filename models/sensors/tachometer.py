@@ -41,7 +41,7 @@ def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     turned[:, 1:] += turned[:, :1]
     turned *= (pulses_a_m * CYCLE_S)[:, None]
     count = np.floor(turned)
-    since = _since_last_pulse(turned, count, wheel_m_s, pulses_a_m.astype(np.float32))
+    since = _since_last_pulse(turned, count)
     speed = _speed(count, since)
     count *= PULSE_M
     valid = np.ones(wheel_m_s.shape, np.bool_)
@@ -50,11 +50,17 @@ def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     return reading
 
 
-def _since_last_pulse(turned: Floats, count: Floats, wheel_m_s: Singles, pulses_a_m: Singles) -> Singles:
-    """How long before the end of each cycle the last pulse came, in timer ticks, a cycle at most."""
+def _since_last_pulse(turned: Floats, count: Floats) -> Singles:
+    """How long before the end of each cycle the last pulse came, in timer ticks, a cycle at most.
+
+    The wheel is taken to turn evenly within a cycle.
+    """
     since = (turned - count).astype(np.float32)
-    rate = np.maximum(wheel_m_s, np.float32(1e-3))
-    rate *= pulses_a_m[:, None] * np.float32(TIMER_S)
+    rate = np.empty(turned.shape, np.float32)
+    rate[:, :1] = turned[:, :1]
+    np.subtract(turned[:, 1:], turned[:, :-1], out=rate[:, 1:], casting="same_kind")
+    rate *= np.float32(TIMER_S / CYCLE_S)
+    np.maximum(rate, np.float32(1e-9), out=rate)
     since /= rate
     np.floor(since, out=since)
     return np.minimum(since, np.float32(round(CYCLE_S / TIMER_S)), out=since)

@@ -8,14 +8,15 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from kernel.onboard.odometry import GREATEST_ACCELERATION_MM_S2, GREATEST_SPEED_MM_S, GREATEST_WAY_MM
+from kernel.onboard.odometry import GREATEST_SPEED_MM_S, GREATEST_WAY_MM
+from kernel.onboard.split import GREATEST_ACCELERATION_MM_S2
 from models.sensors import adhesion, clock, imu, tachometer, tag_reader, transmission
 from models.sensors.draws import Chosen, Draws, Singles, choose, draw
 from models.sensors.dynamics import Bools, Motion, run, slope_m_s2
 from models.sensors.edge import narrow, whole
 from models.sensors.faults import CYCLE_S, Floats
 from models.sensors.tag_reader import STAND, Reader, Reads
-from models.sensors.track import Ints, Track, at
+from models.sensors.track import Ints, Track, read, spots
 
 Record = TypeVar("Record", Motion, "Sensors", Reads, "Whole")
 
@@ -155,12 +156,13 @@ def measured(setup: Setup, truth: Motion, draws: Draws) -> Sensors:
 
 def _head(track: Track, truth: Motion, draws: Draws) -> imu.Inertial:
     """The head's unit."""
-    slope = slope_m_s2(at(track.gradient, truth.head_m))
+    here = spots(track, truth.head_m)
+    slope = slope_m_s2(read(track.gradient, here))
     slope += truth.acceleration_m_s2
     head = imu.Inertial(
         force_m_s2=imu.force(slope, draws, "head"),
-        yaw_rad_s=imu.turn(truth.speed_m_s, at(track.curvature_per_m, truth.head_m), draws, "yaw"),
-        pitch_rad_s=imu.turn(truth.speed_m_s, at(track.vertical_per_m, truth.head_m), draws, "pitch"),
+        yaw_rad_s=imu.turn(truth.speed_m_s, read(track.curvature_per_m, here), draws, "yaw"),
+        pitch_rad_s=imu.turn(truth.speed_m_s, read(track.vertical_per_m, here), draws, "pitch"),
     )
     imu.fail(head, draws.values)
     return head
@@ -170,12 +172,13 @@ def _tail(track: Track, truth: Motion, draws: Draws, length_m: float) -> tuple[S
     """The tail's two accelerometers and its yaw rate; at a parting, the shock is in both."""
     place_m = truth.head_m - length_m
     place_m -= truth.tail_gap_m
-    slope = slope_m_s2(at(track.gradient, place_m))
+    here = spots(track, place_m)
+    slope = slope_m_s2(read(track.gradient, here))
     slope += truth.tail_acceleration_m_s2
     values = draws.values
     for row in np.flatnonzero(values["split_at_s"] < slope.shape[1] * CYCLE_S):
         slope[row, max(1, int(values["split_at_s"][row] / CYCLE_S))] -= np.float32(values["split_shock_m_s2"][row])
-    yaw = imu.turn(truth.tail_speed_m_s, at(track.curvature_per_m, place_m), draws, "tail_yaw")
+    yaw = imu.turn(truth.tail_speed_m_s, read(track.curvature_per_m, here), draws, "tail_yaw")
     return imu.force(slope, draws, "left"), imu.force(slope, draws, "right"), yaw
 
 

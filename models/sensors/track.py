@@ -122,16 +122,30 @@ def laid(length_m: float, curves: list[Feature], slopes: list[Feature], stops_m:
     )
 
 
-def at(values: Singles, places_m: Floats) -> Singles:
-    """Read a quantity at places, linear in between, beyond the ends as at the ends."""
+@dataclass(frozen=True)
+class Spots:
+    """Places on the grid: the point before each, and the share of the way to the next."""
+
+    index: Places
+    share: Singles
+
+
+def spots(track: Track, places_m: Floats) -> Spots:
+    """Find places on the grid; those beyond its ends are at its ends."""
     scaled = places_m * (1 / GRID_M)
-    np.clip(scaled, 0, len(values) - 1.001, out=scaled)
-    index = scaled.astype(np.int32)
-    share = (scaled - index).astype(np.float32)
-    slope = np.append(np.diff(values), np.float32(0))
-    share *= slope.take(index)
-    share += values.take(index)
-    return share
+    np.clip(scaled, 0, len(track.gradient) - 1.001, out=scaled)
+    index = scaled.astype(np.int64)
+    scaled -= index
+    return Spots(index, scaled.astype(np.float32))
+
+
+def read(values: Singles, there: Spots) -> Singles:
+    """Read a quantity of the track, linear between the points of the grid."""
+    before, after = values.take(there.index), values[1:].take(there.index)
+    after -= before
+    after *= there.share
+    after += before
+    return after
 
 
 def _curves(random: np.random.Generator, length_m: float) -> list[Feature]:

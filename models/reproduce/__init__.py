@@ -1,0 +1,28 @@
+"""The papers' figures beside ours: the sensor models run through the kernel's machines (P8, T16).
+
+A figure of the paper is the paper's; one of ours comes from a seed and the parameters written beside it, each
+justified where it stands.  None is fitted to a paper's answer, but those called *calibrated*.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from models.reproduce import paper_000, paper_001
+from models.reproduce.tables import Reproduction
+
+
+@dataclass(frozen=True)
+class Paper:
+    """How a paper is reproduced: from a seed, a number of runs, and a function that is told of progress.
+
+    ``runs``: how many are enough for the paper's counts.
+    """
+
+    reproduce: Callable[[int, int, Callable[[int, int, str], None]], Reproduction]
+    runs: int
+
+
+PAPERS = {"000": Paper(paper_000.reproduce, 400), "001": Paper(paper_001.reproduce, 220)}
+"""By the paper's number."""

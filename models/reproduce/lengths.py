@@ -1,0 +1,122 @@
+"""Paper 001, 4.3.2: train length over a train of 120 m, from curves that head and tail both find (P4, P8).
+
+A multiple unit: both ends look for the same curve, each with its own gyro.  The tail's cycles begin anywhere
+within the head's, which the paper calls the start skew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from kernel.onboard import train_length as machine
+from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.train_length import (
+    AVERAGING_MM,
+    SENSOR_MM,
+    UNMEASURED,
+    LengthBounds,
+    Passing,
+    PointKind,
+    cycle_way_mm,
+)
+from models.reproduce.fixes import SENSORS_APART_M, Plan, Watched, averaged, awaited, looked_for, yaw_of
+from models.sensors import track as tracks
+from models.sensors.faults import CYCLE_S
+from models.sensors.track import Places
+
+TRUE_MM = 120_000
+"""Six cars (paper, 4.3.2)."""
+PLAN = Plan(sensor_m=SENSOR_MM / 1000 / 2**0.5)
+"""Two ends, whose noise is independent, share the sensor's 5 m of table 2: lengths take sharper curves than fixes."""
+BOUNDS = LengthBounds(
+    line_maximum_mm=200_000,
+    last_vehicle_mm=TRUE_MM - round(1000 * SENSORS_APART_M),
+    averaging_mm=AVERAGING_MM,
+    sensor_mm=SENSOR_MM,
+    front_overhang_mm=0,
+    rear_overhang_mm=0,
+    window_mm=0,
+)
+"""The last vehicle is 20 m long; the line's maximum (ours) is ten cars'."""
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One measurement: raw as in the paper's formula (3), the one that the kernel uses, and at which speed."""
+
+    raw_m: float
+    used_m: float
+    speed_m_s: float
+
+
+def tail_yaw(watched: Watched, seed: int, gyro: float = 1.0) -> Places:
+    """The tail's measured yaw rate, its cycles off by a part of a cycle that is drawn for each run."""
+    random = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(2**30,))))
+    made = watched.made
+    skew_s = CYCLE_S * random.random((len(made.runs), 1))
+    speed = made.truth.speed_m_s.astype(np.float64)
+    tail_m = made.truth.head_m - SENSORS_APART_M
+    plain, skewed = (
+        tracks.read(watched.track.curvature_per_m, tracks.spots(watched.track, place_m)) * speed * 1e6
+        for place_m in (tail_m, tail_m + skew_s * speed)
+    )
+    errors = made.sensors.tail_yaw_urad_s.numbers - plain
+    return np.asarray(np.rint(skewed + gyro * errors).astype(np.int64))
+
+
+def lengths(plan: Plan, watched: Sequence[Watched], most: int, seed: int, gyro: float = 1.0) -> list[Measured]:
+    """Measure the length at the first so many features where both ends find the curve (P4)."""
+    found: list[Measured] = []
+    apart_mm = round(1000 * SENSORS_APART_M)
+    for each in watched:
+        yaws = yaw_of(each, gyro), tail_yaw(each, seed, gyro)
+        head = averaged(yaws[0], each.made.sensors.yaw_urad_s.valid)
+        tail = averaged(yaws[1], each.made.sensors.tail_yaw_urad_s.valid)
+        for point, one in enumerate(awaited(plan, each)):
+            if len(found) >= most:
+                return found
+            first = looked_for(plan, each, one, *head)
+            second = looked_for(plan, each, one, *tail, shift_mm=apart_mm)
+            if first.fixed and second.fixed:
+                found.append(measured(each, point, one.run, first.found, second.found))
+    return found
+
+
+def measured(watched: Watched, point: int, run: int, head: int, tail: int) -> Measured:
+    """Let the kernel measure from the two cycles in which head and tail found the curve's end (P4)."""
+    passes = [
+        Passing(
+            kind=PointKind.FEATURE,
+            point=point,
+            time_ms=CYCLE_MS * cycle,
+            front_least_mm=watched.way_mm[run][cycle],
+            front_most_mm=watched.way_mm[run][cycle],
+            speed_most_mm_s=watched.speed_mm_s[run][cycle],
+        )
+        for cycle in (head, tail)
+    ]
+    state = machine.note_tail_pass(BOUNDS, machine.note_head_pass(UNMEASURED, passes[0]), passes[1])
+    raw_mm = passes[1].front_most_mm - passes[0].front_least_mm + BOUNDS.last_vehicle_mm
+    return Measured(raw_mm / 1000, machine.length_mm(BOUNDS, state) / 1000, passes[1].speed_most_mm_s / 1000)
+
+
+@dataclass(frozen=True)
+class Budget:
+    """The errors of table 2 at one speed, in m; added linearly, as the paper does."""
+
+    sampling_m: float
+    skew_m: float
+    averaging_m: float
+    sensor_m: float
+    total_m: float
+
+
+def budget(speed_km_h: float) -> Budget:
+    """Table 2 at any speed, by the kernel's arithmetic (P8)."""
+    speed_mm_s = round(speed_km_h / 0.0036)
+    cycle_m = cycle_way_mm(speed_mm_s) / 1000
+    total_m = machine.error_mm(BOUNDS, PointKind.FEATURE, speed_mm_s) / 1000
+    return Budget(cycle_m, cycle_m, AVERAGING_MM / 1000, SENSOR_MM / 1000, total_m)

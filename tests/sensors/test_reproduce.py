@@ -1,0 +1,116 @@
+"""`heisoku reproduce`: the papers' figures beside ours, small."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import heisoku
+from models.reproduce import lengths, paper_000, tables
+from models.reproduce.fixes import Plan, registered
+from models.sensors.tag_reader import STAND
+from models.sensors.track import feature
+
+SMALL = {"000": "20", "001": "3"}
+
+
+@pytest.mark.parametrize("paper", ["000", "001"])
+def test_a_paper_is_reproduced_with_tables_pictures_and_record(
+    paper: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    record = tmp_path / "new" / "record.json"
+    words = [
+        "reproduce",
+        paper,
+        "--runs",
+        SMALL[paper],
+        "--seed",
+        "3",
+        "-o",
+        str(tmp_path / "o"),
+        "--json",
+        str(record),
+    ]
+    code = heisoku.run(words)
+    shown, found = capsys.readouterr(), json.loads(record.read_text("utf-8"))
+    assert code == {"holds": 0, "does not hold": 1}[found["verdict"]], shown.err
+    assert "calibrated" in shown.out
+    assert found["seed"] == 3
+    assert found["versions"]["heisoku"]
+    assert all(row["paper"] and row["ours"] for row in found["rows"])
+    assert len(found["sensitivities"]) >= 5
+    pictures = sorted(path.stem for path in (tmp_path / "o").glob("*.png"))
+    assert pictures == sorted(found["pictures"])
+    assert all((tmp_path / "o" / f"{name}.png").read_bytes().startswith(b"\x89PNG") for name in pictures)
+    assert "Paper" in (tmp_path / "o" / f"{paper}_tables.txt").read_text("utf-8")
+    safety = {
+        row["what"]: row["agrees"] for row in found["rows"] if "kernel" in row["what"] or "contains" in row["what"]
+    }
+    assert all(agrees is not False for agrees in safety.values())
+
+
+def test_the_same_seed_gives_the_same_record(tmp_path: Path) -> None:
+    records = []
+    for name in ("a", "b"):
+        heisoku.run(["reproduce", "000", "--runs", "10", "--json", str(tmp_path / name)])
+        records.append((tmp_path / name).read_bytes())
+    assert records[0] == records[1]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["reproduce"],
+        ["reproduce", "002"],
+        ["reproduce", "000", "--runs", "0"],
+        ["reproduce", "000", "--runs", "many"],
+        ["reproduce", "000", "--seed", "-1"],
+        ["reproduce", "000", "-o", str(Path(__file__))],
+        ["reproduce", "000", "--json", str(Path(__file__).parent)],
+    ],
+)
+def test_bad_usage_is_told_in_one_line(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert heisoku.run(words) == 2
+    error = capsys.readouterr().err
+    assert len(error.splitlines()) == 1
+    assert "Traceback" not in error
+
+
+def test_table_2_is_the_papers_at_130_km_h_and_grows_with_speed() -> None:
+    ours = lengths.budget(130)
+    assert (ours.sampling_m, ours.skew_m, ours.averaging_m, ours.sensor_m) == (3.612, 3.612, 0.782, 5.0)
+    assert ours.total_m == pytest.approx(13.006)
+    totals = [lengths.budget(speed).total_m for speed in range(0, 200, 10)]
+    assert totals == sorted(totals)
+
+
+def test_two_frames_are_met_at_lower_speeds_than_one() -> None:
+    reader = STAND
+    speeds = [paper_000.most_speed_km_h(reader, frames) for frames in (1, 2, 3, 4)]
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[0] == pytest.approx(100)
+    assert paper_000.exact_share(2, 0.1) == pytest.approx(0.81)
+    assert paper_000.exact_share(1, 0.0) == 0
+    assert paper_000.tags_needed(reader, 300) == 0
+
+
+def test_only_curves_that_can_be_told_from_straight_are_registered() -> None:
+    plan = Plan()
+    assert registered(plan, feature(500, 50, 400, 1 / 600)) is not None
+    assert registered(plan, feature(500, 80, 400, 1 / 1_800)) is None
+    assert registered(plan, feature(500, 50, 60, 1 / 600)) is None
+    assert registered(plan, feature(500, 50, 400, 1 / 600, vertical=True)) is None
+    left, right = (registered(plan, feature(500, 50, 400, sign / 600)) for sign in (1, -1))
+    assert left is not None
+    assert right is not None
+    assert (left.second.least, left.second.most) == (-right.second.most, -right.second.least)
+
+
+def test_one_figure_that_differs_is_a_verdict() -> None:
+    rows = [tables.Row("a", "1", "2", "3", agrees, "same") for agrees in (True, None, False)]
+    found = tables.Reproduction("000", "t", 1, tuple(rows), (), (), {}, {})
+    assert found.verdict == "does not hold"
+    assert "DIFFERS" in tables.table_as_text(found)
+    assert tables.Reproduction("000", "t", 1, tuple(rows[:2]), (), (), {}, {}).verdict == "holds"
