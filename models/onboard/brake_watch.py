@@ -35,12 +35,9 @@ class Watched:
     watch: BrakeWatch
 
 
-def the_brake_slows(site: Vehicle) -> bool:
-    """The brake slows the train, and its response takes no negative time (T12)."""
-    return site.bounds.slows_mm_s2 >= 0 and site.bounds.gains_mm_s2 >= 0 and site.bounds.response_cycles >= 0
-
-
-def the_range_contains_the_speed(speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int) -> bool:
+def the_range_contains_the_speed(
+    site: Vehicle, system: Watched, speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int
+) -> bool:
     """The odometry's theorem, `speed_range_contains_speed` (P1)."""
     return 1000 * speed_least_mm_s <= speed_um_s <= 1000 * speed_most_mm_s
 
@@ -55,8 +52,8 @@ def keeps(site: Vehicle, system: Watched, applied: bool, speed_um_s: int) -> boo
 def run_a_cycle(
     site: Vehicle, system: Watched, applied: bool, speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int
 ) -> Watched:
-    """The train runs on for a cycle, keeping to the bounds or not (T12)."""
-    if speed_um_s < 0 or not the_range_contains_the_speed(speed_least_mm_s, speed_most_mm_s, speed_um_s):
+    """The train runs on for a cycle, at any speed, keeping to the bounds or not (T12)."""
+    if not the_range_contains_the_speed(site, system, speed_least_mm_s, speed_most_mm_s, speed_um_s):
         return system
     return Watched(
         speed_um_s=speed_um_s,

@@ -34,7 +34,7 @@ class Runs:
     ``from_mm``, ``from_um``: the wheel's way and the true front where it began.  ``way_mm``: the wheel's way now.
     ``before_mm``: the length of the run before; ``first_mm``: of the one before that.
     ``in_band``: every cycle of the last curve was in the band of its part.
-    ``met_first``, ``met_second``, ``met_third``: a cycle of it was in that part.
+    ``met_second``: a cycle of it was in that part; ``met_third``: the newest of it was in that one.
     """
 
     usable: bool
@@ -45,7 +45,6 @@ class Runs:
     before_mm: int
     first_mm: int
     in_band: bool
-    met_first: bool
     met_second: bool
     met_third: bool
 
@@ -66,7 +65,7 @@ class Looking:
     """One moment of a train that awaits a feature.
 
     ``front_um``: where its front is.  ``state``: what the machine knows.
-    ``runs``, ``order``, ``cycle``: history.
+    ``runs``, ``order``, ``cycle``: history.  ``fixes``: how many were given since it is awaited.
     """
 
     front_um: int
@@ -74,6 +73,7 @@ class Looking:
     runs: Runs
     order: Order
     cycle: int
+    fixes: int
 
 
 NO_RUNS = Runs(
@@ -85,7 +85,6 @@ NO_RUNS = Runs(
     before_mm=NONE_MM,
     first_mm=NONE_MM,
     in_band=False,
-    met_first=False,
     met_second=False,
     met_third=False,
 )
@@ -117,37 +116,41 @@ def runs_after(site: Registered, runs: Runs, front_um: int, readings: Readings) 
         from_um=front_um,
         way_mm=readings.way_mm,
         before_mm=readings.way_mm - runs.from_mm if runs.usable else NONE_MM,
-        first_mm=runs.before_mm if runs.usable else NONE_MM,
+        first_mm=runs.before_mm,
     )
     if straight:
         return begun
-    return with_part(site, replace(begun, in_band=True, met_first=False, met_second=False, met_third=False), readings)
+    return with_part(site, replace(begun, in_band=True, met_second=False), readings)
 
 
 def with_part(site: Registered, runs: Runs, readings: Readings) -> Runs:
-    """Note in which part of a curve this cycle is, and whether its curvature is in that part's band."""
+    """Note in which part of a curve this cycle is, and whether its curvature is in that part's band.
+
+    Its first cycle is in the first part; and since ways only grow, it stays in the third.
+    """
     if runs.straight:
         return runs
     part = machine.part_at(site.feature, readings.way_mm - runs.from_mm)
     return replace(
         runs,
         in_band=runs.in_band and machine.matches(site.feature, part, readings),
-        met_first=runs.met_first or part == Progress.FIRST_PART,
         met_second=runs.met_second or part == Progress.SECOND_PART,
-        met_third=runs.met_third or part == Progress.THIRD_PART,
+        met_third=part == Progress.THIRD_PART,
     )
 
 
 def curve_matches(site: Registered, runs: Runs) -> bool:
     """Tell whether the last curve was in band in every cycle, and met in each of its parts."""
-    return runs.in_band and runs.met_first and runs.met_second and runs.met_third
+    return runs.in_band and runs.met_second and runs.met_third
 
 
 def all_stages_match(site: Registered, runs: Runs) -> bool:
-    """Tell whether straight, curve and straight match the feature, the last of them up to now."""
+    """Tell whether straight, curve and straight match the feature, the last of them up to now.
+
+    Where history was broken off, no curve is in band.
+    """
     return (
-        runs.usable
-        and runs.straight
+        runs.straight
         and runs.first_mm >= site.feature.entry_least_mm
         and curve_matches(site, runs)
         and site.feature.length_least_mm <= runs.before_mm <= site.feature.length_most_mm
@@ -214,9 +217,10 @@ def run_a_cycle(site: Registered, system: Looking, front_um: int, readings: Read
             leaving=cycle if state.stage == Progress.EXIT_STRAIGHT else system.order.leaving,
         ),
         cycle=cycle,
+        fixes=system.fixes + 1 if machine.has_fix(state) else system.fixes,
     )
 
 
 def await_feature(site: Registered, system: Looking) -> Looking:
     """The unit awaits the feature, anew or for the first time; at any moment (P3)."""
-    return replace(system, state=machine.AWAITED)
+    return replace(system, state=machine.AWAITED, fixes=0)

@@ -62,15 +62,11 @@ def limits_are_not_negative(site: Coupled) -> bool:
     """No limit is below zero (P5)."""
     return (
         site.limits.threshold_mm_s2 >= 0
+        and site.limits.shock_mm_s2 >= 0
         and site.limits.disagreement_mm_s2 >= 0
         and site.limits.gap_ms >= 0
         and site.limits.lost_ms >= 0
     )
-
-
-def a_shock_is_within_the_range(site: Coupled) -> bool:
-    """A sensor that shows what is no acceleration of a train shows a shock (P5)."""
-    return 0 <= site.limits.shock_mm_s2 < machine.GREATEST_ACCELERATION_MM_S2
 
 
 def errors_are_not_negative(site: Coupled) -> bool:

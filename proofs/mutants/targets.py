@@ -24,6 +24,7 @@ NOT_STEPS = frozenset(
     {
         "kernel.error_correction",
         "kernel.maps",
+        "kernel.onboard.frames",
         "kernel.persistence",
         "kernel.tags",
         "kernel.telegram",

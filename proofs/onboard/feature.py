@@ -14,7 +14,7 @@ from proofs.theory import Theory, by_name
 
 def the_feature_is_awaited(site: Registered, system: Looking) -> bool:
     """No detection has begun, and no history is known (P3)."""
-    return system.state == machine.AWAITED and system.runs == world.NO_RUNS
+    return system.state == machine.AWAITED and system.runs == world.NO_RUNS and system.fixes == 0
 
 
 # ---- what is claimed
@@ -38,6 +38,16 @@ def a_fix_contains_the_front(site: Registered, system: Looking) -> bool:
     return not machine.has_fix(system.state) or (
         UM_A_MM * system.state.fix_least_mm <= system.front_um <= UM_A_MM * system.state.fix_most_mm
     )
+
+
+def a_feature_gives_one_fix(site: Registered, system: Looking) -> bool:
+    """Until it is awaited anew there is one fix at most; odometry gets none twice (P3, P7)."""
+    return system.fixes <= 1
+
+
+def ways_fit_the_processor(site: Registered, system: Looking) -> bool:
+    """Every way that is kept was a reading in range (P3)."""
+    return 0 <= system.state.from_mm <= GREATEST_WAY_MM
 
 
 # ---- what it follows from
@@ -67,11 +77,10 @@ def a_curve_was_seen(site: Registered, system: Looking) -> bool:
 
 
 def its_parts_were_met(site: Registered, system: Looking) -> bool:
-    """In a part of the curve, history has met it and those before (P3)."""
+    """In the second or third part of the curve, history has met it and those before (P3)."""
     stage = system.state.stage
     return not is_in_curve(stage) or (
-        system.runs.met_first
-        and (stage == Progress.FIRST_PART or system.runs.met_second)
+        (stage == Progress.FIRST_PART or system.runs.met_second)
         and (stage != Progress.THIRD_PART or system.runs.met_third)
     )
 
@@ -111,14 +120,20 @@ def the_way_has_grown(site: Registered, system: Looking) -> bool:
     return not system.runs.usable or system.runs.from_mm <= system.runs.way_mm
 
 
-def ways_fit_the_processor(site: Registered, system: Looking) -> bool:
-    """Every way that is kept was a reading in range (P3)."""
-    return 0 <= system.state.from_mm <= GREATEST_WAY_MM
+def after_a_fix_it_is_over(site: Registered, system: Looking) -> bool:
+    """There was no fix yet, or there is one in this cycle, or the detection is over (P3)."""
+    return system.fixes == 0 or machine.has_fix(system.state) or machine.is_over(system.state)
 
 
 INITIAL = (the_feature_is_awaited,)
 PREMISES = (world.parts_follow_one_another,)
-SAFETY = (no_fix_on_partial_match, a_fix_follows_every_stage_in_order, a_fix_contains_the_front)
+SAFETY = (
+    no_fix_on_partial_match,
+    a_fix_follows_every_stage_in_order,
+    a_fix_contains_the_front,
+    a_feature_gives_one_fix,
+    ways_fit_the_processor,
+)
 INVARIANTS = (
     *SAFETY,
     an_entry_straight_was_seen,
@@ -127,7 +142,7 @@ INVARIANTS = (
     an_exit_straight_was_seen,
     stages_come_in_order,
     the_way_has_grown,
-    ways_fit_the_processor,
+    after_a_fix_it_is_over,
 )
 
 THEORY = Theory(

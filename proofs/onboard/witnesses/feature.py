@@ -248,21 +248,24 @@ def a_part_left_out_fails() -> None:
     assert not passes(train)
 
 
+def parts_met(train: Train) -> tuple[bool, bool]:
+    """Whether the last curve met its second part, and its third."""
+    return train.system.runs.met_second, train.system.runs.met_third
+
+
 def history_is_kept_of_the_newest_runs_alone() -> None:
     """A curve first of all has no straight before it; a later one has its own parts, and is no exit straight (P3)."""
     train = Train()
     train.cycle(BENT)
     assert (train.system.runs.before_mm, train.system.runs.first_mm) == (NONE_MM, NONE_MM)
     train.run(BENT, 98_000)
-    assert train.system.runs.met_second
-    assert train.system.runs.met_third
+    assert parts_met(train) == (True, True)
     train.run(STRAIGHT, 100_000)
     train.cycle(BENT)
     assert (train.system.runs.before_mm, train.system.runs.first_mm) == (100_000, 100_000)
-    assert not train.system.runs.met_second
-    assert not train.system.runs.met_third
+    assert parts_met(train) == (False, False)
     train.run(BENT, 78_000)
-    assert train.system.runs.met_third
+    assert parts_met(train) == (True, True)
     assert not all_stages_match(train.site, train.system.runs)
 
 
