@@ -254,8 +254,8 @@ def ride(
 
     Examples:
 
-    * `heisoku ride --rides 100000 --json out/ride.json`
-    * `heisoku ride --rides 256 --beyond diameter_ppm --beyond approach_slows_m_s2`
+    * `heisoku ride --rides 64 --json out/ride.json`
+    * `heisoku ride --rides 8 --beyond diameter_ppm --beyond approach_slows_m_s2`
     """
     from models.rides.campaign import ride_all
     from models.rides.report import print_beyond, print_outcome, record

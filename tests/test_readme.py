@@ -23,7 +23,7 @@ EXAMPLES = sorted(
 
 
 def test_there_are_examples_of_every_command() -> None:
-    assert {shlex.split(example)[1] for example in EXAMPLES} == {"prove", "check", "draw"}
+    assert {shlex.split(example)[1] for example in EXAMPLES} == {"prove", "check", "draw", "ride", "reproduce"}
     assert len(EXAMPLES) >= 6
 
 

@@ -184,8 +184,11 @@ def failed(state: Detection) -> Detection:
 
 
 def wait(feature: Feature, state: Detection, readings: Readings) -> Detection:
-    """Begin where detection begins; that must be on a straight (P3)."""
-    if not is_straight(feature, readings):
+    """Begin where detection begins; that must be on a straight, and the curve still ahead (P3).
+
+    A train that could not be matched in time, too slow or with its wheel slipping, would take the next curve for it.
+    """
+    if not is_straight(feature, readings) or readings.front_least_mm > feature.end_mm:
         return failed(state)
     return replace(state, stage=Progress.ENTRY_STRAIGHT, from_mm=readings.way_mm)
 
@@ -204,11 +207,17 @@ def leaves_out(stage: Progress, part: Progress) -> bool:
     return stage == Progress.FIRST_PART and part == Progress.THIRD_PART
 
 
+def may_end_here(feature: Feature, readings: Readings) -> bool:
+    """Tell whether the curve's end may be here: by the odometry the front is not certainly beyond it (P3, P7)."""
+    return readings.front_least_mm <= feature.end_mm + feature.end_error_mm
+
+
 def turn(feature: Feature, state: Detection, readings: Readings) -> Detection:
     """Stay in the curve, part by part, or find its end in the last, after the registered length (P3)."""
     since_mm = readings.way_mm - state.from_mm
     if is_straight(feature, readings):
-        ends = state.stage == Progress.THIRD_PART and feature.length_least_mm <= since_mm <= feature.length_most_mm
+        long_enough = feature.length_least_mm <= since_mm <= feature.length_most_mm
+        ends = state.stage == Progress.THIRD_PART and long_enough and may_end_here(feature, readings)
         return replace(state, stage=Progress.EXIT_STRAIGHT, from_mm=readings.way_mm) if ends else failed(state)
     part = part_at(feature, since_mm)
     if leaves_out(state.stage, part) or not matches(feature, part, readings):

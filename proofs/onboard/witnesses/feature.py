@@ -141,6 +141,27 @@ def a_feature_gives_a_fix() -> None:
     assert train.system.fixes == 0
 
 
+def the_next_curve_is_not_taken_for_one_that_was_passed() -> None:
+    """Detection does not begin beyond the curve; at its very end it still would (P3)."""
+    train = Train(at_mm=250_000)
+    train.cycle(STRAIGHT, speed_mm_s=4_000)
+    assert train.stage() == Progress.WAITING
+    train.cycle(STRAIGHT)
+    assert train.stage() == Progress.FAILED
+    at_the_end = Train(at_mm=250_000)
+    at_the_end.cycle(STRAIGHT)
+    assert at_the_end.stage() == Progress.ENTRY_STRAIGHT
+
+
+def a_curve_that_ends_beyond_the_place_is_another() -> None:
+    """The front is certainly beyond the registered end and its error by then; up to there it is the curve (P3, P7)."""
+    for late_mm, stage in ((4_000, Progress.EXIT_STRAIGHT), (6_000, Progress.FAILED)):
+        train = Train(at_mm=100_000 + late_mm)
+        train.to_the_end()
+        train.cycle(STRAIGHT)
+        assert train.system.state.stage == stage
+
+
 def a_change_of_gradient_gives_a_fix() -> None:
     """By the pitch rate; the yaw rate is not asked for (P2, P3)."""
     train = Train(Registered(BOUNDS, replace(CURVE, axis=TurnAxis.PITCH)))
@@ -386,6 +407,8 @@ def nature_may_do_all_else() -> None:
 
 
 WITNESSES = (
+    the_next_curve_is_not_taken_for_one_that_was_passed,
+    a_curve_that_ends_beyond_the_place_is_another,
     a_feature_gives_a_fix,
     a_change_of_gradient_gives_a_fix,
     nothing_begins_before_its_begin,
