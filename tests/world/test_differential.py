@@ -39,6 +39,9 @@ from tests.lift.differential import check_function
 
 OUTSIDE = {
     "kernel.tags": "bits and bytes of a tag: integer arithmetic with loops, tested by its own properties",
+    "kernel.error_correction": "bits of a telegram: tested by its own properties",
+    "kernel.telegram": "bytes of a telegram, keyed hash: tested by its own properties",
+    "kernel.link": "in its own world: tests/onboard/test_agreement_of_link_and_joint.py",
     "models.world.start": "builds the first state for a host; nothing in it is proved",
     "models.world.formations": "a host's map from runs to the order of cars; nothing in it is proved",
 }
