@@ -269,10 +269,9 @@ def ride(
     if unknown:
         raise Refused(f"--beyond {unknown[0]}: there is no such fault; one of {', '.join(names())}, or each")
     out = console()
-    found = {}
-    for fault in asked or [""]:
-        with progress(fault or "rides") as step:
-            found[fault] = outcome(ride_all(seed, rides, jobs, (fault,) if fault else (), step))
+    with progress("rides") as step:
+        rows = ride_all(seed, rides, jobs, asked or [""], step)
+    found = {fault: outcome(each) for fault, each in rows.items()}
     if asked:
         print_beyond(out, found)
     else:

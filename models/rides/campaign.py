@@ -51,10 +51,10 @@ def ridden(batch: Batch) -> Numbers:
     return out
 
 
-def batches(seed: int, rides: int, beyond: Sequence[str] = ()) -> list[Batch]:
-    """Cut a campaign into batches."""
+def batches(seed: int, rides: int, beyond: str = "") -> list[Batch]:
+    """Cut a campaign into batches; ``beyond``: the fault that is drawn from beyond its declared range, if any."""
     return [
-        Batch(seed, start // RUNS_A_BATCH, min(RUNS_A_BATCH, rides - start), tuple(beyond))
+        Batch(seed, start // RUNS_A_BATCH, min(RUNS_A_BATCH, rides - start), (beyond,) if beyond else ())
         for start in range(0, rides, RUNS_A_BATCH)
     ]
 
@@ -63,16 +63,18 @@ def ride_all(
     seed: int,
     rides: int,
     jobs: int,
-    beyond: Sequence[str] = (),
+    campaigns: Sequence[str] = ("",),
     progress: Callable[[int, int, str], object] = lambda done, total, what: None,
-) -> Numbers:
-    """Ride a whole campaign; a row for each ride, in their order."""
-    todo = batches(seed, rides, beyond)
-    found = []
-    for done, rows in enumerate(_results(todo, jobs), 1):
-        found.append(rows)
-        progress(min(done * RUNS_A_BATCH, rides), rides, "rides")
-    return np.concatenate(found)
+) -> dict[str, Numbers]:
+    """Ride whole campaigns, each with one fault beyond its declared range, or none; a row for each ride, in order."""
+    todo = [(fault, batch) for fault in campaigns for batch in batches(seed, rides, fault)]
+    found: dict[str, list[Numbers]] = {fault: [] for fault in campaigns}
+    done = 0
+    for (fault, batch), rows in zip(todo, _results([batch for _, batch in todo], jobs), strict=True):
+        found[fault].append(rows)
+        done += batch.rides
+        progress(done, rides * len(campaigns), fault or "rides")
+    return {fault: np.concatenate(rows) for fault, rows in found.items()}
 
 
 def _results(todo: Sequence[Batch], jobs: int) -> Iterator[Numbers]:

@@ -85,16 +85,17 @@ def test_a_parted_train_is_found_and_its_ride_ends_with_it() -> None:
 
 def test_batches_make_up_the_campaign() -> None:
     cut = batches(1, 2 * RUNS_A_BATCH + 5)
+    assert {batch.beyond for batch in cut} == {()}
+    assert {batch.beyond for batch in batches(1, 3, "delay_s")} == {("delay_s",)}
     assert [batch.rides for batch in cut] == [RUNS_A_BATCH, RUNS_A_BATCH, 5]
     assert [batch.number for batch in cut] == [0, 1, 2]
 
 
 def test_progress_is_told_to_the_end() -> None:
     told: list[tuple[int, int, str]] = []
-    rows = ride_all(5, 2, 1, progress=lambda *what: told.append(what))
-    assert len(rows) == 2
-    assert told
-    assert told[-1][:2] == (2, 2)
+    rows = ride_all(5, 2, 1, ("", "delay_s"), progress=lambda *what: told.append(what))
+    assert [len(each) for each in rows.values()] == [2, 2]
+    assert told == [(2, 4, "rides"), (4, 4, "delay_s")]
 
 
 def test_every_column_is_said_in_words() -> None:
