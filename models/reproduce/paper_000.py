@@ -196,7 +196,7 @@ def pictures(train: Reader, shares: dict[str, list[float]], speeds: list[int]) -
                 "stand, ICODE1": (fine, [mean_frames(STAND_ICODE1, speed) for speed in fine]),
                 "on train, to 45 km/h": (to_45, [mean_frames(train, speed) for speed in to_45]),
             },
-            levels={"2 frames": 2.0, "1 frame": 1.0},
+            levels={"2 frames": [2.0], "1 frame": [1.0]},
             places={"paper: one page, 100 km/h": 100.0, "paper: ICODE1, 160 km/h": 160.0},
         ),
         Picture(

@@ -164,7 +164,7 @@ def fix_pictures(found: Fixes, everywhere: Fixes) -> tuple[Picture, ...]:
             "speed, km/h",
             "error, m",
             points={"fix": ([3.6 * each.speed_m_s for each in good], [each.error_m for each in good])},
-            levels={"widest range given": half, "widest range given,": -half},
+            levels={"widest range given": [-half, half]},
         ),
         Picture(
             "001_fixes_by_speed",
@@ -211,7 +211,7 @@ def length_pictures(found: Sequence[Measured]) -> tuple[Picture, ...]:
                 "raw, formula (3)": (at, [each.raw_m for each in found]),
                 "used by the kernel": (at, [each.used_m for each in found]),
             },
-            levels={"true": TRUE_M, "paper, shortest": PAPER_SHORT_M, "paper, longest ": PAPER_LONG_M},
+            levels={"true": [TRUE_M], "paper, 109 and 129 m": [PAPER_SHORT_M, PAPER_LONG_M]},
         ),
         Picture(
             "001_error_budget",
@@ -326,7 +326,7 @@ class _Splits:
             "time, s",
             "acceleration along the track, gravity included, m/s²",
             lines={names[name]: (time, values) for name, values in shown.items()},
-            levels={"threshold, below 0": -limit, "threshold": limit},
+            levels={"threshold": [-limit, limit]},
             places={"flag": self.times[0]} if not np.isnan(self.times[0]) else {},
         )
 

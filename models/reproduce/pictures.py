@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from models.reproduce.tables import Picture
 
 COLOURS = ("#0b5394", "#b45f06", "#38761d", "#741b47", "#134f5c", "#7f6000")
+STYLES = ("--", ":", "-.")
 MARKS = ("o", "s", "^", "D", "v", "x")
 
 
@@ -30,10 +31,11 @@ def png(picture: Picture) -> bytes:
             values, bins=list(picture.edges), stacked=True, label=list(picture.bars),
             color=[next(colours) for _ in values], edgecolor="white", linewidth=0.6,
         )  # fmt: skip
-    for name, level in picture.levels.items():
-        axes.axhline(level, label=name, color="#444444", linestyle=("--", ":", "-.")[len(name) % 3], linewidth=1.2)
-    for name, place in picture.places.items():
-        axes.axvline(place, label=name, color="#990000", linestyle=("--", ":", "-.")[len(name) % 3], linewidth=1.2)
+    for style, (name, levels) in zip(STYLES, picture.levels.items(), strict=False):
+        for number, level in enumerate(levels):
+            axes.axhline(level, label=None if number else name, color="#444444", linestyle=style, linewidth=1.2)
+    for style, (name, place) in zip(STYLES, picture.places.items(), strict=False):
+        axes.axvline(place, label=name, color="#990000", linestyle=style, linewidth=1.2)
     axes.set(title=picture.title, xlabel=picture.x, ylabel=picture.y)
     axes.grid(visible=True, color="#dddddd", linewidth=0.7)
     axes.set_axisbelow(True)

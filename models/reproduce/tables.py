@@ -43,7 +43,8 @@ class Sensitivity:
 class Picture:
     """One picture: a scatter or lines with names, axes with units, and marks of the paper's figures.
 
-    ``lines`` and ``points``: by name, x and y.  ``levels`` and ``places``: horizontal and vertical marks, by name.
+    ``lines`` and ``points``: by name, x and y.  ``levels`` and ``places``: marks by name: one horizontal
+    line or several, one vertical line.
     ``bars``: by name, the values of a histogram over common ``edges``.
     """
 
@@ -55,7 +56,7 @@ class Picture:
     points: Mapping[str, tuple[Sequence[float], Sequence[float]]] = field(default_factory=dict)
     bars: Mapping[str, Sequence[float]] = field(default_factory=dict)
     edges: Sequence[float] = ()
-    levels: Mapping[str, float] = field(default_factory=dict)
+    levels: Mapping[str, Sequence[float]] = field(default_factory=dict)
     places: Mapping[str, float] = field(default_factory=dict)
 
 
