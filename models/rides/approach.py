@@ -23,6 +23,7 @@ SLIDES_FOR_CYCLES = 10
 PULSE_MM = round(PULSE_M * 1000)
 
 note_readings, Readings = MADE.odometry.note_cycle, MADE.odometry.Readings
+speed_error_mm_s = MADE.odometry.speed_error_mm_s
 stops_before, supervise, Brake = MADE.braking.stops_before, MADE.braking.supervise, MADE.braking.Brake
 watching, note_watch = MADE.brake_watch.watching, MADE.brake_watch.note_cycle
 FRONT_OUTSIDE, SPEED_OUTSIDE, AUTHORITY_PASSED = tally.FRONT_OUTSIDE, tally.SPEED_OUTSIDE, tally.AUTHORITY_PASSED
@@ -116,11 +117,14 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
         brake = supervise(BRAKE, brake, motion.front_most_mm, motion.speed_most_mm_s, lost, False)
         braked_cycles = braked_cycles + 1 if brake.applied else 0
         before, rolling = rolling, rolled(rolling, ending, braked_cycles)
-        motion = note_readings(SENSORS, motion, read(before, rolling, ending, motion.way_mm))
+        trusted, motion = motion.trusted, note_readings(SENSORS, motion, read(before, rolling, ending, motion.way_mm))
         watch = note_watch(BRAKE, watch, brake.applied, motion.speed_least_mm_s, motion.speed_most_mm_s)
         front_mm, speed_mm_s = rolling.head_m * 1000, rolling.speed_m_s * 1000
         out[FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
         out[SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
+        wheel_off_mm_s = abs(motion.tachometer_mm_s - speed_mm_s)
+        if trusted and motion.trusted and wheel_off_mm_s > speed_error_mm_s(SENSORS, motion.tachometer_mm_s):
+            out[WHEEL_BROKEN] += 1
         out[AUTHORITY_PASSED] += front_mm > brake.end_mm
         if brake.applied and rolling.speed_m_s == 0.0:
             break

@@ -121,6 +121,12 @@ def place(motion: Any) -> Any:
 
 
 @numba.njit
+def anchor(motion: Any) -> Any:
+    """Where counting began: while this stays, the truth that belongs to it does."""
+    return motion.anchor_least_mm, motion.anchor_most_mm, motion.anchor_way_mm
+
+
+@numba.njit
 def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: Any, anchor_m: float, out: Any) -> None:
     """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1)."""
     gained = (trace.speed_m_s[cycle] - (trace.speed_m_s[cycle - 1] if cycle else 0.0)) * 10_000
@@ -331,11 +337,10 @@ def ride(trace: Any, out: Any) -> Any:
         out[UNTRUSTED] += before.trusted and not motion.trusted
         out[SLIP_CYCLES] += not motion.trusted
         fronts_mm[cycle], trusted[cycle] = motion.front_least_mm, motion.trusted
-        tags_before, fixes_before = ends.next_head, out[FEATURES_FIXED]
+        counted_from = anchor(motion)
         motion, ends = at_the_ends(trace, cycle, motion, ends, out)
         motion, curve = along_the_curve(trace, cycle, motion, curve, fronts_mm, trusted, out)
-        is_new = ends.next_head != tags_before or out[FEATURES_FIXED] != fixes_before
-        if is_new or not (before.trusted and motion.trusted):
+        if anchor(motion) != counted_from or not (before.trusted and motion.trusted):
             anchor_m = trace.head_m[cycle]
         apart = is_it_whole(trace, cycle, apart, out)
         compare(trace, cycle, motion, ends.length, out)
