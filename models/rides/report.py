@@ -52,14 +52,17 @@ def counted(out: Console, title: str, names: Mapping[str, str], counts: Mapping[
 def print_beyond(out: Console, found: Mapping[str, Outcome]) -> None:
     """Print campaigns with one fault beyond its declared range each: claims broken, and whose fault it was."""
     rows = Table(title="One fault beyond its declared range, in every ride", title_justify="left")
-    for heading in ("fault", "rides", "claim broken", "assumption held", "no monitor", "assumptions broken"):
+    for heading in ("fault", "rides", "claim broken", "assumption held", "no alarm", "assumptions broken"):
         rows.add_column(heading, justify="left" if heading in ("fault", "assumptions broken") else "right")
     for name, one in found.items():
         broken = ", ".join(f"{each} {count}" for each, count in one.assumptions.items() if count)
         rows.add_row(name, f"{one.rides:,}", f"{one.violated:,}", f"{one.unexplained:,}", f"{one.unnoticed:,}", broken)
     out.print(rows)
     print_plain(out, "assumption held: a claim was broken and no assumption was, which would be the kernel's fault")
-    print_plain(out, "no monitor: a claim was broken, and nothing on board noticed by the end of the ride")
+    print_plain(
+        out,
+        "no alarm: a claim was broken, and no monitor said so by the end of the ride, beside a wheel not trusted or a late telegram",
+    )
 
 
 def print_plain(out: Console, line: str) -> None:

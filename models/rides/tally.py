@@ -47,6 +47,9 @@ MONITORS: Mapping[str, str] = {
 }
 """What the machines on board noticed."""
 
+ALARMS = tuple(name for name in MONITORS if name not in {"untrusted", "not_intact"})
+"""Those that say that something is wrong; a wheel slips and a telegram is missed on sound trains too."""
+
 COUNTS: Mapping[str, str] = {
     "cycles": "cycles ridden",
     "way_mm": "way run",
@@ -116,7 +119,7 @@ class Outcome:
     ``rides``: so many; ``long``: those of 10 km and more.
     ``violations``, ``assumptions``, ``monitors``: for each name, in how many rides.
     ``violated``: rides with a violation; ``unexplained``: those in which every assumption held;
-    ``unnoticed``: those in which no monitor on board fired.
+    ``unnoticed``: those in which no alarm was raised on board.
     ``sums``, ``most``: of each column.
     """
 
@@ -145,7 +148,7 @@ def outcome(rows: Numbers) -> Outcome:
     """Sum up a campaign."""
     columns = {name: rows[:, place] for place, name in enumerate(COLUMNS)}
     violated, broken, noticed = (
-        np.any([columns[name] > 0 for name in names], axis=0) for names in (VIOLATIONS, ASSUMPTIONS, MONITORS)
+        np.any([columns[name] > 0 for name in names], axis=0) for names in (VIOLATIONS, ASSUMPTIONS, ALARMS)
     )
     return Outcome(
         rides=len(rows),
