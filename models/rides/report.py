@@ -61,7 +61,7 @@ def print_beyond(out: Console, found: Mapping[str, Outcome]) -> None:
     print_plain(out, "assumption held: a claim was broken and no assumption was, which would be the kernel's fault")
     print_plain(
         out,
-        "no alarm: a claim was broken, and no monitor said so by the end of the ride, beside a wheel not trusted or a late telegram",
+        "no alarm: a claim was broken, and no monitor said so by the end of the ride (a wheel not trusted is none)",
     )
 
 

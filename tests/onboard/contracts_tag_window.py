@@ -38,6 +38,7 @@ def an_overdue_tag_stays_so(least_mm: int, most_mm: int, known: bool) -> None:
 def without_a_way_no_tag_is_taken(least_mm: int, most_mm: int) -> None:
     """Nor with one that cannot be (T5, T8)."""
     assert least_mm > most_mm or least_mm < -(10**9) or most_mm > 10**9
-    assert judge(LIMITS, await_tag(100_000, 100_000), Way(True, least_mm, most_mm)) == Verdict.UNKNOWN
-    assert note_cycle(LIMITS, await_tag(100_000, 100_000), Way(True, least_mm, most_mm)).passed
-    assert not note_cycle(LIMITS, NONE_AWAITED, Way(True, least_mm, most_mm)).passed
+    way = Way(True, least_mm, most_mm)
+    assert judge(LIMITS, await_tag(100_000, 100_000), way) == Verdict.UNKNOWN
+    assert note_cycle(LIMITS, await_tag(100_000, 100_000), way).passed
+    assert not note_cycle(LIMITS, NONE_AWAITED, way).passed
