@@ -103,8 +103,9 @@ def _in_integers(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> 
 
     What only a claim asks of a machine, and no step, is looked for in a single state.
     """
-    rows = [row for row in transitions_of(mutant.function) if not of_interlocking(row)]
-    claimed = [] if rows else [theory.name for theory in theories_of(mutant.function)]
+    steps_with_it = transitions_of(mutant.function)
+    rows = [row for row in steps_with_it if not of_interlocking(row)]
+    claimed = [] if steps_with_it else [theory.name for theory in theories_of(mutant.function)]
     for place in [*rows, *claimed]:
         try:
             if place in claimed:
