@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from kernel.names import Block, Read
+from kernel.names import Read
 from models.world.state import Site
 
 
-def genuine(site: Site, block: Block, left: Read, entered: Read) -> bool:
-    """Both reads carry what is written in the pair of tags at the end of ``block`` (T6)."""
-    return (
-        site.layout.tag_in.get(left.tag) == block
-        and site.layout.partner.get(left.tag) == entered.tag
-        and site.records.record.get(left.tag) == left.record
-        and site.records.record.get(entered.tag) == entered.record
-    )
+def as_written(site: Site, left: Read, entered: Read) -> bool:
+    """Both reads carry what is written in the tags that they name: no foreign, copied or corrupted record (T6)."""
+    return site.records.record.get(left.tag) == left.record and site.records.record.get(entered.tag) == entered.record

@@ -15,7 +15,7 @@ from models.world.assumptions import (
     a_train_short_of_its_run_has_not_entered,
     a_train_within_its_destination_is_not_beyond,
 )
-from models.world.evidence import genuine
+from models.world.evidence import as_written
 from models.world.state import Site, System
 
 
@@ -90,7 +90,7 @@ def tail_reads(
         (other, block)
         for other, order in unit.orders.items()
         for block, evidence in order.left.items()
-        if genuine(site, block, evidence.left, evidence.entered)
+        if as_written(site, evidence.left, evidence.entered)
     )
     return replace(with_unit(system, run.train, unit), track=replace(system.track, behind=behind))
 

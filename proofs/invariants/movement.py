@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from kernel.names import Stage
 from models.world.assumptions import stands_exactly
-from models.world.evidence import genuine
 from models.world.state import Site, System
-from proofs.invariants.vocabulary import reaches, told
+from proofs.invariants.vocabulary import genuine, reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:

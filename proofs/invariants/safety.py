@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from kernel.names import Cause, Stage
-from models.world.evidence import genuine
 from models.world.state import Site, System
-from proofs.invariants.vocabulary import reaches, track_is_open
+from proofs.invariants.vocabulary import genuine, reaches, track_is_open
 
 
 def no_two_trains_in_a_block(site: Site, system: System) -> bool:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from kernel.names import Block, Epoch, Point, Position, Run, Stage, Train, UnitLife
+from kernel.names import Block, Epoch, Point, Position, Read, Run, Stage, Train, UnitLife
+from models.world.evidence import as_written
 from models.world.state import Site, System
 
 
@@ -77,6 +78,15 @@ def track_is_open(site: Site, system: System, block: Block, target: Block) -> bo
             system.track.lies.get(point) == site.ground.opens[block][target][point]
             for point in site.ground.opens[block][target]
         )
+    )
+
+
+def genuine(site: Site, block: Block, left: Read, entered: Read) -> bool:
+    """Both reads carry what is written in the pair of tags at the end of ``block``."""
+    return (
+        site.layout.tag_in.get(left.tag) == block
+        and site.layout.partner.get(left.tag) == entered.tag
+        and as_written(site, left, entered)
     )
 
 
