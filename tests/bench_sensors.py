@@ -13,7 +13,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kernel.onboard.odometry import GREATEST_SPEED_MM_S, GREATEST_WAY_MM
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S
+from kernel.onboard.odometry import GREATEST_WAY_MM
 from kernel.onboard.split import GREATEST_ACCELERATION_MM_S2
 from models.sensors import clock, dynamics, imu, tachometer, transmission
 from models.sensors.adhesion import FULL_M_S2, SLIDES_FROM_M_S

@@ -8,6 +8,10 @@ from __future__ import annotations
 CYCLE_MS = 100
 """How long one cycle of the unit lasts (paper 001, table 2: sampled every 100 ms); P1, P8."""
 
+NM_A_MM = 1_000_000
+GREATEST_SPEED_MM_S = 200_000
+"""Readings and claims of a speed end at 200 m/s; what is beyond is none (P1)."""
+
 
 def smaller(one: int, other: int) -> int:
     """Give the smaller of two (P1)."""

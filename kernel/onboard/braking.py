@@ -12,12 +12,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import CYCLE_MS, smaller
+from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, NM_A_MM, smaller
 
-NM_A_MM = 1_000_000
 FARTHEST_MM = 10**9
 """The farthest ahead that an end of authority is reckoned with; what lies beyond counts as so far."""
-GREATEST_SPEED_MM_S = 200_000
 GREATEST_PLACE_MM = 10**9
 """Places are within 1000 km of the kilometrage's origin; what is beyond is no place."""
 

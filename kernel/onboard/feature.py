@@ -19,7 +19,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from kernel.onboard.odometry import GREATEST_SPEED_MM_S, GREATEST_WAY_MM, SensorBounds, way_error_mm
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S
+from kernel.onboard.odometry import GREATEST_WAY_MM, SensorBounds, way_error_mm
 
 GREATEST_RATE_URAD_S = 1_000_000_000
 

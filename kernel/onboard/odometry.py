@@ -16,10 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, limited, magnitude, smaller
+from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up, larger, limited, magnitude, smaller
 
 MILLION = 1_000_000
-GREATEST_SPEED_MM_S = 200_000
 GREATEST_WAY_MM = 10**9
 
 

@@ -9,10 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import braking
-from kernel.onboard.arithmetic import CYCLE_MS, larger
+from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM, larger
 from kernel.onboard.braking import Brake, BrakeBounds
-
-NM_A_MM = 1_000_000
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import odometry
-from kernel.onboard.arithmetic import CYCLE_MS, larger, magnitude, smaller
+from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM, larger, magnitude, smaller
 from kernel.onboard.odometry import Motion, Readings, SensorBounds
-
-NM_A_MM = 1_000_000
 
 
 @dataclass(frozen=True)

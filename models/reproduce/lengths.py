@@ -22,14 +22,15 @@ from kernel.onboard.train_length import (
     PointKind,
     cycle_way_mm,
 )
-from models.reproduce.fixes import SENSORS_APART_M, Plan, Watched, averaged, awaited, looked_for, yaw_of
+from models.reproduce.fixes import SENSORS_APART_M, Watched, awaited, looked_for, yaw_of
 from models.sensors import track as tracks
+from models.sensors.curves import Registering, averaged
 from models.sensors.faults import CYCLE_S
 from models.sensors.track import Places
 
 TRUE_MM = 120_000
 """Six cars (paper, 4.3.2)."""
-PLAN = Plan(sensor_m=SENSOR_MM / 1000 / 2**0.5)
+PLAN = Registering(sensor_m=SENSOR_MM / 1000 / 2**0.5)
 """Two ends, whose noise is independent, share the sensor's 5 m of table 2: lengths take sharper curves than fixes."""
 BOUNDS = LengthBounds(
     line_maximum_mm=200_000,
@@ -67,7 +68,7 @@ def tail_yaw(watched: Watched, seed: int, gyro: float = 1.0) -> Places:
     return np.asarray(np.rint(skewed + gyro * errors).astype(np.int64))
 
 
-def lengths(plan: Plan, watched: Sequence[Watched], most: int, seed: int, gyro: float = 1.0) -> list[Measured]:
+def lengths(plan: Registering, watched: Sequence[Watched], most: int, seed: int, gyro: float = 1.0) -> list[Measured]:
     """Measure the length at the first so many features where both ends find the curve (P4)."""
     found: list[Measured] = []
     apart_mm = round(1000 * SENSORS_APART_M)

@@ -10,9 +10,10 @@ import numpy as np
 from kernel.onboard import split as split_machine
 from kernel.onboard.split import Acceleration, Readings
 from models.reproduce import lengths, splits
-from models.reproduce.fixes import REASONS, Fixes, Plan, Watched, changed, fixes, journeys
+from models.reproduce.fixes import REASONS, Fixes, Watched, changed, fixes, journeys
 from models.reproduce.lengths import Measured, budget
 from models.reproduce.tables import Picture, Reproduction, Row, Sensitivity, share, wilson
+from models.sensors.curves import Registering
 from models.sensors.faults import CYCLE_S, SPLIT_LIMITS
 
 TITLE = "position and integrity by tachometer and inertial sensors"
@@ -34,7 +35,7 @@ def reproduce(seed: int, runs: int, progress: Progress) -> Reproduction:
     """Set the paper's figures beside ours, over so many runs of ten minutes on made-up lines (P8)."""
     count = max(1, min(RUNS_A_LINE, runs))
     watched = journeys(seed, max(1, runs // count), count, CYCLES, progress)
-    plan = Plan()
+    plan = Registering()
     found = fixes(plan, watched, PAPER_FEATURES)
     everywhere = fixes(replace(plan, everywhere=True), watched, PAPER_FEATURES)
     measured = lengths.lengths(lengths.PLAN, watched, PAPER_FEATURES, seed)
@@ -105,7 +106,7 @@ def causes(found: Fixes) -> str:
     return ", ".join(f"{found.failed(reason)} {reason}" for reason in REASONS)
 
 
-def fix_sensitivities(watched: Sequence[Watched], plan: Plan, seed: int) -> tuple[Sensitivity, ...]:
+def fix_sensitivities(watched: Sequence[Watched], plan: Registering, seed: int) -> tuple[Sensitivity, ...]:
     """The share of fixes and the range of lengths with each decisive parameter changed."""
     made = []
     named = {
@@ -354,7 +355,7 @@ def between(times: Sequence[float]) -> str:
     return f"{min(known):.1f} to {max(known):.1f} s, median {np.median(known):.1f} s"
 
 
-def parameters(plan: Plan) -> dict[str, str]:
+def parameters(plan: Registering) -> dict[str, str]:
     """What decides, and why."""
     return {
         "lines": "radius 300 to 2,000 m, stops every 2 to 5 km, gradients to 35 per mille (ours, typical)",

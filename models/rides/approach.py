@@ -11,10 +11,9 @@ import numba
 
 from models.rides import tally
 from models.rides.onboard import BRAKE, LOCATED, MADE, SENSORS
+from models.sensors.faults import CYCLE_S, GRAVITY_M_S2
 from models.sensors.tachometer import PULSE_M
 
-CYCLE_S = 0.1
-GRAVITY_M_S2 = 9.80665
 GREATEST_SPEED_M_S = 36.0
 """The driver accelerates up to 130 km/h, the paper's greatest speed (001, table 2)."""
 LONGEST_CYCLES = 3_000
@@ -26,10 +25,6 @@ note_readings, Readings = MADE.odometry.note_cycle, MADE.odometry.Readings
 speed_error_mm_s = MADE.odometry.speed_error_mm_s
 stops_before, supervise, Brake = MADE.braking.stops_before, MADE.braking.supervise, MADE.braking.Brake
 watching, note_watch = MADE.brake_watch.watching, MADE.brake_watch.note_cycle
-FRONT_OUTSIDE, SPEED_OUTSIDE, AUTHORITY_PASSED = tally.FRONT_OUTSIDE, tally.SPEED_OUTSIDE, tally.AUTHORITY_PASSED
-POWERS_BROKEN, INERTIAL_BROKEN, BRAKE_BROKEN = tally.POWERS_BROKEN, tally.INERTIAL_BROKEN, tally.BRAKE_BROKEN
-WHEEL_BROKEN, BRAKE_ACCUSED = tally.WHEEL_BROKEN, tally.BRAKE_ACCUSED
-APPROACHES, SHORT_OF_END_MM = tally.APPROACHES, tally.SHORT_OF_END_MM
 
 
 class Rolling(NamedTuple):
@@ -89,18 +84,18 @@ def read(before: Any, after: Any, ending: Any, way_before_mm: int) -> Any:
 @numba.njit
 def broken_bounds(ending: Any, out: Any) -> None:
     """Which of the proofs' assumptions this approach does not keep to."""
-    out[BRAKE_BROKEN] += (
+    out[tally.BRAKE_BROKEN] += (
         ending.gains_m_s2 * 1000 > BRAKE.gains_mm_s2
         or ending.slows_m_s2 * 1000 < BRAKE.slows_mm_s2
         or ending.responds_s / CYCLE_S > BRAKE.response_cycles
     )
-    out[POWERS_BROKEN] += (
+    out[tally.POWERS_BROKEN] += (
         ending.gains_m_s2 * 1000 > SENSORS.accelerates_mm_s2 or ending.slows_m_s2 * 1000 > SENSORS.brakes_mm_s2
     )
     slope_mm_s2 = abs(GRAVITY_M_S2 * ending.gradient) * 1000
     off_mm_s2 = abs(ending.bias_m_s2) * 1000 + 0.5
-    out[INERTIAL_BROKEN] += slope_mm_s2 > SENSORS.gradient_mm_s2 or off_mm_s2 > SENSORS.inertial_mm_s2
-    out[WHEEL_BROKEN] += abs(ending.scale) * 1e6 > SENSORS.scale_ppm
+    out[tally.INERTIAL_BROKEN] += slope_mm_s2 > SENSORS.gradient_mm_s2 or off_mm_s2 > SENSORS.inertial_mm_s2
+    out[tally.WHEEL_BROKEN] += abs(ending.scale) * 1e6 > SENSORS.scale_ppm
 
 
 @numba.njit
@@ -110,7 +105,7 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
     rolling = Rolling(head_m, speed_m_s, wheel, motion.way_mm / 1000 + 0.001, 0.0)
     brake = Brake(False, nearest_end_mm(motion) + int(ending.margin_m * 1000))
     watch, braked_cycles = watching(motion.speed_most_mm_s), 0
-    out[APPROACHES] = 1
+    out[tally.APPROACHES] = 1
     broken_bounds(ending, out)
     for _ in range(LONGEST_CYCLES):
         lost = motion.loss != LOCATED
@@ -120,13 +115,13 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
         trusted, motion = motion.trusted, note_readings(SENSORS, motion, read(before, rolling, ending, motion.way_mm))
         watch = note_watch(BRAKE, watch, brake.applied, motion.speed_least_mm_s, motion.speed_most_mm_s)
         front_mm, speed_mm_s = rolling.head_m * 1000, rolling.speed_m_s * 1000
-        out[FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
-        out[SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
+        out[tally.FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
+        out[tally.SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
         wheel_off_mm_s = abs(motion.tachometer_mm_s - speed_mm_s)
         if trusted and motion.trusted and wheel_off_mm_s > speed_error_mm_s(SENSORS, motion.tachometer_mm_s):
-            out[WHEEL_BROKEN] += 1
-        out[AUTHORITY_PASSED] += front_mm > brake.end_mm
+            out[tally.WHEEL_BROKEN] += 1
+        out[tally.AUTHORITY_PASSED] += front_mm > brake.end_mm
         if brake.applied and rolling.speed_m_s == 0.0:
             break
-    out[BRAKE_ACCUSED] = watch.broken
-    out[SHORT_OF_END_MM] = int(brake.end_mm - rolling.head_m * 1000)
+    out[tally.BRAKE_ACCUSED] = watch.broken
+    out[tally.SHORT_OF_END_MM] = int(brake.end_mm - rolling.head_m * 1000)

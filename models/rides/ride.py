@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 
-from models.reproduce.fixes import MIDDLE
 from models.rides import onboard, tally
 from models.rides.onboard import (
     AXIS_YAW,
@@ -28,6 +27,7 @@ from models.rides.onboard import (
     WINDOW_LIMITS,
 )
 from models.rides.plan import LEAST_WAY_M, LENGTH_MM, TAG_ERROR_MM
+from models.sensors.curves import MIDDLE
 
 STARTS_WITHIN_MM = 500
 """The train is located at the start to so much either way."""
@@ -57,31 +57,6 @@ UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
 note_yaw, is_over, AWAITED = MADE.feature.note_cycle, MADE.feature.is_over, MADE.feature.AWAITED
 Feature, Band, Turning = MADE.feature.Feature, MADE.feature.Band, MADE.feature.Readings
 between, Way = MADE.way.between, MADE.way.Way
-
-(
-    FRONT_OUTSIDE,
-    REAR_OUTSIDE,
-    SPEED_OUTSIDE,
-    LENGTH_SHORT,
-    SPLIT_UNSEEN,
-    FALSE_TAIL_ACCEPTED,
-    _,
-    POWERS_BROKEN,
-    INERTIAL_BROKEN,
-    WHEEL_BROKEN,
-    FIX_BROKEN,
-    TAIL_BROKEN,
-) = range(tally.BRAKE_BROKEN)
-UNTRUSTED, SPLIT_FOUND, NOT_INTACT = tally.UNTRUSTED, tally.SPLIT_FOUND, tally.NOT_INTACT
-WAS_CONTRADICTED, TAG_OVERDUE = tally.CONTRADICTED, tally.TAG_OVERDUE
-TAG_OUTSIDE_WINDOW, SPACING_BROKEN = tally.TAG_OUTSIDE_WINDOW, tally.SPACING_BROKEN
-LENGTH_CONTRADICTS, CYCLES, WAY_MM = tally.LENGTH_CONTRADICTS, tally.CYCLES, tally.WAY_MM
-TAGS_READ, TAGS_MISSED, LENGTHS, PARTED = tally.TAGS_READ, tally.TAGS_MISSED, tally.LENGTHS, tally.PARTED
-SEEN_AFTER_CYCLES, WIDEST_MM = tally.SEEN_AFTER_CYCLES, tally.WIDEST_MM
-FEATURES_FIXED, FEATURES_FAILED = tally.FEATURES_FIXED, tally.FEATURES_FAILED
-SLIP_CYCLES, FALSE_SPLITS = tally.SLIP_CYCLES, tally.FALSE_SPLITS
-SPLIT_ERROR_MM_S2, UNSEEN_CYCLES = onboard.SPLIT_ERROR_MM_S2, onboard.UNSEEN_CYCLES
-TAIL_MOST_MM_S2 = onboard.TAIL_MOST_MM_S2
 
 
 class Ends(NamedTuple):
@@ -131,17 +106,17 @@ def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: 
     """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1)."""
     gained = (trace.speed_m_s[cycle] - (trace.speed_m_s[cycle - 1] if cycle else 0.0)) * 10_000
     if not -SENSORS.brakes_mm_s2 - HALF_MM <= gained <= SENSORS.accelerates_mm_s2 + HALF_MM:
-        out[POWERS_BROKEN] += 1
+        out[tally.POWERS_BROKEN] += 1
     slope = trace.slope_m_s2[cycle] * 1000
     off = abs(readings.inertial_mm_s2 - slope - gained)
     if (inertial_speaks(SENSORS, readings) and off > SENSORS.inertial_mm_s2) or abs(slope) > SENSORS.gradient_mm_s2:
-        out[INERTIAL_BROKEN] += 1
+        out[tally.INERTIAL_BROKEN] += 1
     if before.trusted and after.trusted:
         speed_off = abs(readings.tachometer_mm_s - trace.speed_m_s[cycle] * 1000)
         since_mm = readings.way_mm - before.anchor_way_mm
         way_off = abs((trace.head_m[cycle] - anchor_m) * 1000 - since_mm)
         if speed_off > speed_error_mm_s(SENSORS, readings.tachometer_mm_s) or way_off > way_error_mm(SENSORS, since_mm):
-            out[WHEEL_BROKEN] += 1
+            out[tally.WHEEL_BROKEN] += 1
 
 
 @numba.njit
@@ -167,21 +142,21 @@ def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
     """The head's antenna passes a tag: the second loop's window, a fix, the spacing, the length (T5, T13, T3)."""
     tag = ends.next_head
     reader, delivered = passes(ends.head_reader, tag + 1, trace.tag_frames[tag])
-    out[TAGS_READ] += delivered
-    out[TAGS_MISSED] += not delivered
+    out[tally.TAGS_READ] += delivered
+    out[tally.TAGS_MISSED] += not delivered
     if not delivered:
         return motion, Ends(
             ends.window, ends.last_at, ends.spacing, ends.length, reader, ends.tail_reader, tag + 1, ends.next_tail
         )
     was_located = motion.loss == LOCATED
     if ends.window.expected and judge(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion))) != IN_WINDOW:
-        out[TAG_OUTSIDE_WINDOW] += 1
+        out[tally.TAG_OUTSIDE_WINDOW] += 1
     run_on_mm = motion.speed_most_mm_s // 10 + 1
     least_mm, most_mm = trace.tags_mm[tag] - TAG_ERROR_MM, trace.tags_mm[tag] + TAG_ERROR_MM + run_on_mm
     motion = note_fix(motion, least_mm, most_mm)
     if was_located:
-        out[FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
-        out[WAS_CONTRADICTED] += motion.loss == CONTRADICTED
+        out[tally.FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
+        out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
     window, length = NONE_AWAITED, ends.length
     if tag + 1 < len(trace.tags_mm):
         away_mm = trace.tags_mm[tag + 1] - trace.tags_mm[tag]
@@ -199,13 +174,13 @@ def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
     reader, delivered = passes(ends.tail_reader, tag + 1, trace.tag_frames[tag])
     if delivered:
         spacing = note_tail_read(SPACING_LIMITS, spacing, tag + 1, place(motion))
-        out[SPACING_BROKEN] += spacing.broken
+        out[tally.SPACING_BROKEN] += spacing.broken
         hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
-        out[FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
+        out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
         if motion.loss == LOCATED and is_healthy(spacing):
             length = note_tail_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
-            out[LENGTHS] += length.measured and not ends.length.measured
-            out[LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length)
+            out[tally.LENGTHS] += length.measured and not ends.length.measured
+            out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length)
     return Ends(ends.window, ends.last_at, spacing, length, ends.head_reader, reader, ends.next_head, tag + 1)
 
 
@@ -214,7 +189,7 @@ def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any
     """Everything that the antennas have read in this cycle, and whether a tag is overdue (T2, T5)."""
     window = note_window(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion)))
     if window.passed:
-        out[TAG_OVERDUE] += 1
+        out[tally.TAG_OVERDUE] += 1
         window = NONE_AWAITED
     ends = Ends(
         window, ends.last_at, ends.spacing, ends.length, ends.head_reader, ends.tail_reader, ends.next_head,
@@ -254,11 +229,11 @@ def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: 
         least_mm = detection.fix_least_mm + since_mm - error_mm
         most_mm = detection.fix_most_mm + since_mm + error_mm
         motion = note_fix(motion, least_mm, most_mm)
-        out[FEATURES_FIXED] += 1
-        out[FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
-        out[WAS_CONTRADICTED] += motion.loss == CONTRADICTED
+        out[tally.FEATURES_FIXED] += 1
+        out[tally.FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
+        out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
     if is_over(detection):
-        out[FEATURES_FAILED] += curve.detection.stage != FIXED
+        out[tally.FEATURES_FAILED] += curve.detection.stage != FIXED
         return motion, Curve(curve.feature + 1, AWAITED, trusted_cycles)
     return motion, Curve(curve.feature, detection, trusted_cycles)
 
@@ -283,18 +258,18 @@ def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
     parted, first_seen, streak = cycle >= trace.parted_at, apart.first_seen, 0
     if told + 1 < trace.parted_at:
         off_mm_s2 = max(abs(left_mm_s2 - truth_mm_s2), abs(right_mm_s2 - truth_mm_s2))
-        out[TAIL_BROKEN] += trace.arrived[cycle] and off_mm_s2 > TAIL_MOST_MM_S2
+        out[tally.TAIL_BROKEN] += trace.arrived[cycle] and off_mm_s2 > onboard.TAIL_MOST_MM_S2
     intact = is_intact(SPLIT_LIMITS, wholeness)
-    out[NOT_INTACT] += apart.was_intact and not intact
+    out[tally.NOT_INTACT] += apart.was_intact and not intact
     if wholeness.split and first_seen < 0:
         first_seen = cycle
-        out[SPLIT_FOUND] = 1
-        out[FALSE_SPLITS] = not parted
+        out[tally.SPLIT_FOUND] = 1
+        out[tally.FALSE_SPLITS] = not parted
     if parted:
         slope = trace.slope_m_s2[cycle] - trace.tail_slope_m_s2[cycle]
         differs_mm_s2 = abs(trace.gain_m_s2[cycle] - trace.tail_gain_m_s2[cycle] + slope) * 1000
-        streak = apart.streak + 1 if differs_mm_s2 > SPLIT_LIMITS.threshold_mm_s2 + SPLIT_ERROR_MM_S2 else 0
-        out[SPLIT_UNSEEN] += streak > UNSEEN_CYCLES and intact
+        streak = apart.streak + 1 if differs_mm_s2 > SPLIT_LIMITS.threshold_mm_s2 + onboard.SPLIT_ERROR_MM_S2 else 0
+        out[tally.SPLIT_UNSEEN] += streak > onboard.UNSEEN_CYCLES and intact
     return Apart(wholeness, intact, streak, first_seen)
 
 
@@ -304,13 +279,13 @@ def compare(trace: Any, cycle: int, motion: Any, length: Any, out: Any) -> None:
     if motion.loss != LOCATED:
         return
     front_mm, speed_mm_s = trace.head_m[cycle] * 1000, trace.speed_m_s[cycle] * 1000
-    out[FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
-    out[SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
+    out[tally.FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
+    out[tally.SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
     if cycle < trace.parted_at:
         used_mm = length_mm(LENGTH_BOUNDS, length)
-        out[REAR_OUTSIDE] += rear_least_mm(motion, used_mm) > front_mm - LENGTH_MM
-        out[LENGTH_SHORT] += used_mm < LENGTH_MM
-    out[WIDEST_MM] = max(out[WIDEST_MM], motion.front_most_mm - motion.front_least_mm)
+        out[tally.REAR_OUTSIDE] += rear_least_mm(motion, used_mm) > front_mm - LENGTH_MM
+        out[tally.LENGTH_SHORT] += used_mm < LENGTH_MM
+    out[tally.WIDEST_MM] = max(out[tally.WIDEST_MM], motion.front_most_mm - motion.front_least_mm)
 
 
 @numba.njit
@@ -334,8 +309,8 @@ def ride(trace: Any, out: Any) -> Any:
         before = motion
         motion = note_readings(SENSORS, motion, readings)
         hold_assumptions(trace, cycle, before, motion, readings, anchor_m, out)
-        out[UNTRUSTED] += before.trusted and not motion.trusted
-        out[SLIP_CYCLES] += not motion.trusted
+        out[tally.UNTRUSTED] += before.trusted and not motion.trusted
+        out[tally.SLIP_CYCLES] += not motion.trusted
         fronts_mm[cycle], trusted[cycle] = motion.front_least_mm, motion.trusted
         counted_from = anchor(motion)
         motion, ends = at_the_ends(trace, cycle, motion, ends, out)
@@ -346,8 +321,8 @@ def ride(trace: Any, out: Any) -> Any:
         compare(trace, cycle, motion, ends.length, out)
         if (trace.head_m[cycle] - trace.head_m[0]) >= LEAST_WAY_M or apart.wholeness.split:
             break
-    out[CYCLES], out[WAY_MM] = cycle + 1, int((trace.head_m[cycle] - trace.head_m[0]) * 1000)
-    out[PARTED] = cycle >= trace.parted_at
+    out[tally.CYCLES], out[tally.WAY_MM] = cycle + 1, int((trace.head_m[cycle] - trace.head_m[0]) * 1000)
+    out[tally.PARTED] = cycle >= trace.parted_at
     if apart.first_seen >= trace.parted_at:
-        out[SEEN_AFTER_CYCLES] = apart.first_seen - trace.parted_at
+        out[tally.SEEN_AFTER_CYCLES] = apart.first_seen - trace.parted_at
     return cycle, motion

@@ -7,9 +7,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from models.reproduce.fixes import Plan as Registered
-from models.reproduce.fixes import averaged, registered
 from models.rides.plan import LENGTH_MM
+from models.sensors.curves import Registering, averaged, registered
 from models.sensors.dynamics import slope_m_s2
 from models.sensors.faults import CYCLE_S, FAULTS
 from models.sensors.traces import Traces, Whole
@@ -20,7 +19,7 @@ Places = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
 
 
-REGISTERED = Registered()
+REGISTERED = Registering()
 """How curves are registered: as for the paper's fixes."""
 
 

@@ -8,7 +8,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from kernel.onboard.odometry import GREATEST_SPEED_MM_S, GREATEST_WAY_MM
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S
+from kernel.onboard.odometry import GREATEST_WAY_MM
 from kernel.onboard.split import GREATEST_ACCELERATION_MM_S2
 from models.sensors import adhesion, clock, imu, tachometer, tag_reader, transmission
 from models.sensors.draws import Chosen, Draws, Singles, choose, draw

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from kernel.onboard.arithmetic import CYCLE_MS
-from models.onboard.braking import NM_A_MM, Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
+from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM
+from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
 from proofs.theory import Theory, by_name
 
 # ---- the start

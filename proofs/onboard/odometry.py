@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from kernel.onboard import odometry
-from kernel.onboard.arithmetic import magnitude
+from kernel.onboard.arithmetic import NM_A_MM, magnitude
 from models.onboard.odometry import (
-    NM_A_MM,
     Line,
     Running,
     a_jolt_stands_out,

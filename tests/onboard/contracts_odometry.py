@@ -7,7 +7,6 @@ from dataclasses import replace
 from kernel.onboard.odometry import (
     Loss,
     Readings,
-    SensorBounds,
     agrees,
     is_located,
     located,
@@ -16,19 +15,8 @@ from kernel.onboard.odometry import (
     note_fix,
     tachometer_speaks,
 )
+from proofs.onboard.witnesses.rolling_stock import BOUNDS
 
-BOUNDS = SensorBounds(
-    scale_ppm=10_000,
-    pulse_mm=30,
-    tachometer_mm_s=20,
-    inertial_mm_s2=50,
-    gradient_mm_s2=350,
-    gradient_rate_mm_s2=5,
-    slip_mm_s2=400,
-    accelerates_mm_s2=1_200,
-    brakes_mm_s2=1_800,
-    agreement_cycles=10,
-)
 ROLLING = replace(
     located(0, 0, 1_000), trusted=True, tachometer_mm_s=10_000, speed_least_mm_s=9_879, speed_most_mm_s=10_121
 )

@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.onboard import braking as machine
-from kernel.onboard.braking import FARTHEST_MM, NM_A_MM, Brake, BrakeBounds
+from kernel.onboard.arithmetic import NM_A_MM
+from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Vehicle
 from proofs.onboard.braking import THEORY
 from proofs.onboard.witnesses.braking import BOUNDS, END_MM, WITNESSES, running, standing

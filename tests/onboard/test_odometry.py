@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.onboard import odometry as machine
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, NM_A_MM
 from kernel.onboard.odometry import Loss, Motion, Readings, SensorBounds
-from models.onboard.odometry import NM_A_MM, Line, Running
+from models.onboard.odometry import Line, Running
 from proofs.onboard.odometry import THEORY
 from proofs.onboard.witnesses.odometry import WITNESSES
 from proofs.onboard.witnesses.play import Play
@@ -203,7 +204,7 @@ def test_any_readings_whatever_are_answered(history: list[Readings | tuple[int, 
             assert after.speed_least_mm_s >= 0
             assert after.speed_most_mm_s >= 0
             assert after.way_mm >= motion.way_mm
-            assert 0 <= after.tachometer_mm_s <= machine.GREATEST_SPEED_MM_S
+            assert 0 <= after.tachometer_mm_s <= GREATEST_SPEED_MM_S
             assert abs(after.gradient_mm_s2) <= BOUNDS.gradient_mm_s2
         motion = after
 

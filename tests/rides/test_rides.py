@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import heisoku
+from models.rides import tally
 from models.rides.campaign import RUNS_A_BATCH, Batch, batches, ridden, ride_all
 from models.rides.tally import ASSUMPTIONS, COLUMNS, MONITORS, VIOLATIONS, Numbers, outcome
 
@@ -129,3 +130,7 @@ def test_the_command_says_whose_fault_it_was(capsys: pytest.CaptureFixture[str])
 def test_bad_usage_ends_in_one_line(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert heisoku.run(["ride", *arguments]) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_each_name_for_compiled_code_is_the_place_of_its_column() -> None:
+    assert [getattr(tally, name.upper()) for name in tally.COLUMNS] == list(range(len(tally.COLUMNS)))

@@ -9,7 +9,7 @@ import pytest
 
 import heisoku
 from models.reproduce import lengths, paper_000, tables
-from models.reproduce.fixes import Plan, registered
+from models.sensors.curves import Registering, registered
 from models.sensors.tag_reader import STAND
 from models.sensors.track import feature
 
@@ -97,7 +97,7 @@ def test_two_frames_are_met_at_lower_speeds_than_one() -> None:
 
 
 def test_only_curves_that_can_be_told_from_straight_are_registered() -> None:
-    plan = Plan()
+    plan = Registering()
     assert registered(plan, feature(500, 50, 400, 1 / 600)) is not None
     assert registered(plan, feature(500, 80, 400, 1 / 1_800)) is None
     assert registered(plan, feature(500, 50, 60, 1 / 600)) is None

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from kernel.onboard import braking as machine
+from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
-from models.onboard.braking import NM_A_MM, Approach, Vehicle
+from models.onboard.braking import Approach, Vehicle
 from proofs.onboard.braking import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints

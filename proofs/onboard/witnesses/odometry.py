@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import odometry as machine
+from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.odometry import Loss, Motion, Readings
-from models.onboard.odometry import NM_A_MM
 from proofs.onboard.witnesses.rolling_stock import BOUNDS, SITE, Train, rolling
 
 # ---- trust

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from kernel.onboard import odometry as machine
+from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.odometry import Motion, Readings, SensorBounds
-from models.onboard.odometry import NM_A_MM, Line, Running
+from models.onboard.odometry import Line, Running
 from proofs.onboard.odometry import THEORY
 from proofs.onboard.witnesses.play import Play
 
