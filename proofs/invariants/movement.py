@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.names import Stage
 from models.world.assumptions import stands_exactly
+from models.world.evidence import as_written
 from models.world.state import Site, System
 from proofs.invariants.vocabulary import genuine, reaches, told
 
@@ -152,7 +153,7 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
             for run, block in system.track.behind
         )
         and all(
-            not genuine(site, block, evidence.left, evidence.entered) or (run, block) in system.track.behind
+            not as_written(site, evidence.left, evidence.entered) or (run, block) in system.track.behind
             for train in system.units
             for run, order in system.units[train].orders.items()
             for block, evidence in order.left.items()

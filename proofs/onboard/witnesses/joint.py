@@ -178,6 +178,13 @@ def under_orders_the_authority_ends_with_the_destination() -> None:
     assert station.ends(750_001) == {860_000}
 
 
+def a_train_that_told_it_stopped_may_draw_up_to_the_end() -> None:
+    """Only the overlap is gone: by its range the front may still be in the throat, and ends where it did (T9)."""
+    station = begun()
+    station.told(replace(PERMITTED, stopped=True))
+    station.takes(399_000, 750_000)
+
+
 def authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels() -> None:
     """The run is cancelled, or the unit restarts: the train that cannot stop any more runs on to the old end (T9)."""
     station = under_way()
@@ -279,6 +286,7 @@ WITNESSES = (
     without_orders_the_authority_ends_with_the_block,
     every_part_of_the_permission_is_needed,
     under_orders_the_authority_ends_with_the_destination,
+    a_train_that_told_it_stopped_may_draw_up_to_the_end,
     authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels,
     another_trains_end_is_its_own,
     what_ends_behind_the_train_does_not_count,
