@@ -76,7 +76,7 @@ def lengths(plan: Registering, watched: Sequence[Watched], most: int, seed: int,
         yaws = yaw_of(each, gyro), tail_yaw(each, seed, gyro)
         head = averaged(yaws[0], each.made.sensors.yaw_urad_s.valid)
         tail = averaged(yaws[1], each.made.sensors.tail_yaw_urad_s.valid)
-        for point, one in enumerate(awaited(plan, each)):
+        for point, one in enumerate(awaited(plan, each, each.track.features)):
             if len(found) >= most:
                 return found
             first = looked_for(plan, each, one, *head)

@@ -13,7 +13,7 @@ import numpy as np
 from kernel.onboard.feature import Band, Feature, TurnAxis
 from models.sensors import track as tracks
 from models.sensors.faults import CYCLE_S
-from models.sensors.track import Places, Track
+from models.sensors.track import Places
 
 AVERAGED = 15
 MIDDLE = AVERAGED // 2
@@ -33,9 +33,6 @@ class Registering:
     From it comes the speed that the feature needs: there, noise shows what the transition gains in so many m.
     ``band_share``: what is allowed for in the registered curvature: survey, gyro scale, wheel scale.
     ``straight_m``: seen before and after.  ``margin_m``: between the parts, for half the averaging at 130 km/h.
-    ``share``: curves are registered where an average driver, who takes so much of the allowed speed, is fast enough;
-    ``traction_m_s2``: also after the nearest stop, at the mean of the declared gains.  What nobody passes
-    fast enough is of no use.  ``everywhere``: they are registered all the same.
     ``length_m``: tolerance of the curve's length: twice the sensor's, and a cycle's way, about.
     ``cycle_m``: a cycle's way at 130 km/h (paper, table 2).
     """
@@ -46,9 +43,6 @@ class Registering:
     band_share: float = 0.05
     straight_m: float = 50.0
     margin_m: float = 28.0
-    share: float = 0.86
-    traction_m_s2: float = 0.65
-    everywhere: bool = False
     length_m: float = 17.0
     cycle_m: float = 3.61
 
@@ -107,18 +101,6 @@ def registered(plan: Registering, curve: tracks.Feature, most_m_s: float = track
         length_most_mm=round(1000 * (end_m - begin_m + plan.length_m)),
         speed_least_mm_s=round(1000 * speed_m_s),
     )
-
-
-def fast_enough(plan: Registering, track: Track, feature: Feature) -> bool:
-    """Tell whether an average train, allowed to stop at each stop, passes the whole feature fast enough (P3)."""
-    if plan.everywhere:
-        return True
-    begin_m, end_m = feature.begin_mm / 1000, feature.end_mm / 1000 + plan.straight_m
-    speed_m_s = feature.speed_least_mm_s / 1000
-    gains_m = speed_m_s**2 / (2 * plan.traction_m_s2)
-    near = (track.stops_m > begin_m - gains_m) & (track.stops_m < end_m)
-    grid = slice(max(0, int(begin_m / tracks.GRID_M)), int(end_m / tracks.GRID_M) + 1)
-    return not near.any() and bool((plan.share * track.allowed_m_s[grid] >= speed_m_s).all())
 
 
 def band(least_per_m: float, most_per_m: float, sign: int) -> Band:
