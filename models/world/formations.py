@@ -86,11 +86,11 @@ def directions(layout: Layout, ground: Ground) -> Mapping[Route, bool]:
             onward = layout.way[route].get(target)
             if onward is not None:
                 sense.join((block, target), (target, onward))
-            for other in ground.leads[route][block]:
+            for other in sorted(ground.leads[route][block]):
                 sense.join((block, other), (block, target))
     for route in sorted(layout.routes):
         for block, target in layout.way[route].items():
-            for other in ground.neighbours.get(block, frozenset()) - frozenset(ground.leads[route][block]):
+            for other in sorted(ground.neighbours.get(block, frozenset()) - frozenset(ground.leads[route][block])):
                 sense.join((other, block), (block, target))
     return {
         route: sense.of(next((block, target) for block, target in layout.way[route].items())) for route in layout.routes
