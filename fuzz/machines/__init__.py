@@ -1,0 +1,1 @@
+"""Hypothesis state machines over the transitions that are proved: short counterexamples, shrunk."""
