@@ -21,6 +21,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from fuzz.campaign.command import fuzz
 from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, write_json, write_whole
 
 if TYPE_CHECKING:
@@ -282,6 +283,39 @@ def ride(
     ridden = sum(one.rides for one in found.values())
     print_line(out, f"{ridden:,} rides with seed {seed}: {CHECKED[HOLDS if holds else DOES_NOT_HOLD]}")
     raise typer.Exit(HOLDS if holds else DOES_NOT_HOLD)
+
+
+app.command()(fuzz)
+
+
+@app.command()
+def replay(
+    trace: Annotated[Path, typer.Argument(metavar="TRACE", help="A trace of a failure.", show_default=False)],
+    html: Annotated[
+        Path | None, typer.Option("--html", metavar="F", help="Write the run as a page there.", show_default=False)
+    ] = None,
+    json: Json = None,
+) -> None:
+    """Replay the trace of a failure in plain CPython, step by step, and judge every invariant after each.
+
+    It does not hold (1) if something is violated again.  The page is one file: a time-distance diagram, the
+    steps and the loops' states, to be stepped through with the keys left, right, Home, End, and f for the failure.
+
+    Examples:
+
+    * `heisoku replay out/night/traces/reach_is_exclusive-0123456789ab.json`
+    * `heisoku replay trace.json --html out/trace.html --json out/replay.json`
+    """
+    from fuzz.failures.command import replay_file
+    from models.layouts import BadInput
+
+    writable(html, json)
+    try:
+        with progress("replaying") as step:
+            found = replay_file(trace, html is not None, step)
+    except BadInput as bad:
+        raise Refused(str(bad)) from bad
+    raise typer.Exit(found.report(console(), html, json))
 
 
 def print_check(out: Console, path: Path, result: CheckResult) -> None:

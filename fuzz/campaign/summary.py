@@ -1,0 +1,97 @@
+"""What a campaign came to, at its end: as tables and lines, and as a record."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from rich.console import Console
+from rich.table import Table
+
+from fuzz.campaign.files import said
+from fuzz.campaign.growth import draw, growing, in_words
+from fuzz.campaign.store import Store
+from fuzz.campaign.view import table_of
+from proofs.records import DOES_NOT_HOLD, HOLDS, UNDECIDED
+
+VERDICTS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecided"}
+
+
+def verdict(store: Store) -> int:
+    """The exit code: 1 with a failure or a batch left out, 3 if nothing ran, else 0."""
+    totals = store.totals().values()
+    if any(one.failures or one.unfinished for one in totals):
+        return DOES_NOT_HOLD
+    return HOLDS if any(one.steps for one in totals) else UNDECIDED
+
+
+def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> None:
+    """Print what it came to, and draw how coverage grew into the folder.
+
+    Raises:
+        CampaignError: the picture cannot be written.
+    """
+    totals = store.totals()
+    out.print(table_of(totals, rates, "What was run"))
+    found = growing(store)
+    picture = store.folder / "coverage.png"
+    if found:
+        with said(picture):
+            draw(picture, found)
+    for target, growth in found.items():
+        plain(out, in_words(target, growth))
+    if found:
+        plain(out, f"drawn in {picture}")
+    for line in store.unfinished():
+        plain(out, line)
+    failures = store.failures()
+    if failures:
+        table = Table(title="Failures, by cause", title_justify="left")
+        for heading in ("target", "violated", "times", "trace"):
+            table.add_column(heading, justify="right" if heading == "times" else "left", overflow="fold")
+        for target, invariant, _, times, path in failures:
+            table.add_row(target, invariant, f"{times:,}", str(path))
+        out.print(table)
+        plain(out, f"heisoku replay {failures[0][4]} shows the first of them")
+    batches, traces, steps, failed = (
+        sum(getattr(one, what) for one in totals.values()) for what in ("batches", "traces", "steps", "failures")
+    )
+    seeds = store.seeds()
+    plain(
+        out,
+        f"{batches:,} batches, {traces:,} traces, {steps:,} steps with seed{'s' * (len(seeds) > 1)}"
+        f" {', '.join(map(str, seeds))}, {failed:,} failures of {len(failures):,} causes: {VERDICTS[code]}",
+    )
+
+
+def record(store: Store, code: int) -> dict[str, object]:
+    """Give a campaign as it is written to a file."""
+    totals, growth = store.totals(), growing(store)
+    return {
+        "verdict": VERDICTS[code],
+        "identity": store.identity(),
+        "seeds": store.seeds(),
+        "starts": store.starts(),
+        "targets": {
+            target: {
+                **asdict(one),
+                "counts": store.counts(target),
+                "added by the last tenth of the steps": dict(
+                    zip(("tuples", "pairs"), growth[target].last_tenth(), strict=True)
+                )
+                if target in growth
+                else None,
+            }
+            for target, one in totals.items()
+        },
+        "left_out": store.unfinished(),
+        "failures": [
+            {"target": target, "violated": invariant, "cause": digest, "times": times, "trace": str(path)}
+            for target, invariant, digest, times, path in store.failures()
+        ],
+    }
+
+
+def plain(out: Console, line: str) -> None:
+    """Print a line as it is."""
+    out.print(line, markup=False, highlight=False, soft_wrap=True)
