@@ -40,3 +40,10 @@ CREATE TABLE failures (
     invariant TEXT NOT NULL, times INTEGER NOT NULL, trace TEXT NOT NULL,
     PRIMARY KEY (seed, target, number, digest)
 ) STRICT;
+
+-- Planted faults that the campaign's targets had to find; target: which did, empty for none.
+CREATE TABLE canaries (
+    seed INTEGER NOT NULL, kind TEXT NOT NULL, fault TEXT NOT NULL, target TEXT NOT NULL,
+    batches INTEGER NOT NULL, seconds REAL NOT NULL,
+    PRIMARY KEY (seed, kind)
+) STRICT;

@@ -23,6 +23,7 @@ from fuzz.campaign.identity import identity_of
 from fuzz.campaign.merging import merge
 from fuzz.campaign.pool import Pool, Workers
 from fuzz.campaign.problems import CampaignError
+from fuzz.campaign.sought import seek
 from fuzz.campaign.store import Store
 from fuzz.campaign.view import View
 from fuzz.campaign.worker import work_on
@@ -110,6 +111,8 @@ def go_on(options: Options, targets: Sequence[Target] | None = None) -> int:
             with closing(workers_of(options, run_on, identity, view.say)) as workers:
                 run(store, run_on, plan, workers, view.update, stopped.is_set)
             rates = view.rates()
+        if not stopped.is_set() and not store.canaries():
+            store.note_canaries(plan.seed, seek(run_on, plan.seed, options.workers))
         code = UNDECIDED if stopped.is_set() else summary.verdict(store)
         finish(out, store, rates, code, options.json)
     if stopped.is_set():

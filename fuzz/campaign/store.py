@@ -7,7 +7,7 @@ import sqlite3
 import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -18,6 +18,7 @@ from fuzz.campaign.outcome import DONE, Outcome
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.rows import Failure, Ids, Row, file_name, row_of, unpacked
 from fuzz.campaign.sketch import estimate, merged
+from fuzz.campaign.sought import Sought
 from proofs.records import write_whole
 
 BATCH = "seed = ? AND target = ? AND number = ?"
@@ -285,6 +286,20 @@ class Store:
         """What is to be said of each batch that is over and not done."""
         found = self.ask("SELECT words FROM batches WHERE status != ? ORDER BY seed, target, number", DONE)
         return [words for (words,) in found]
+
+    # ---- canaries
+
+    def note_canaries(self, seed: int, sought: Sequence[Sought]) -> None:
+        """Note what became of a seed's canaries; a later answer stands in an earlier one's place."""
+        with self._together() as db:
+            db.executemany(
+                "INSERT OR REPLACE INTO canaries VALUES (?, ?, ?, ?, ?, ?)", [(seed, *astuple(each)) for each in sought]
+            )
+
+    def canaries(self) -> list[Sought]:
+        """What became of every canary."""
+        found = self.ask("SELECT kind, fault, target, batches, seconds FROM canaries ORDER BY seed, kind")
+        return [Sought(*each) for each in found]
 
     # ---- traces as files
 

@@ -10,6 +10,7 @@ from rich.table import Table
 
 from fuzz.campaign.files import said
 from fuzz.campaign.growth import draw, growing, in_words
+from fuzz.campaign.sought import in_words as in_words_of_canaries
 from fuzz.campaign.store import Store
 from fuzz.campaign.view import table_of
 from proofs.records import DOES_NOT_HOLD, HOLDS, UNDECIDED
@@ -18,11 +19,12 @@ VERDICTS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecide
 
 
 def verdict(store: Store) -> int:
-    """The exit code: 1 with a failure or a batch left out, 3 if nothing ran, else 0."""
+    """The exit code: 1 with a failure or a batch left out, 3 if nothing ran or a canary was not found, else 0."""
     totals = store.totals().values()
     if any(one.failures or one.unfinished for one in totals):
         return DOES_NOT_HOLD
-    return HOLDS if any(one.steps for one in totals) else UNDECIDED
+    found_all = all(each.target for each in store.canaries())
+    return HOLDS if found_all and any(one.steps for one in totals) else UNDECIDED
 
 
 def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> None:
@@ -44,6 +46,7 @@ def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> N
         plain(out, f"drawn in {picture}")
     for line in store.unfinished():
         plain(out, line)
+    plain(out, in_words_of_canaries(store.canaries()))
     failures = store.failures()
     if failures:
         table = Table(title="Failures, by cause", title_justify="left")
@@ -85,6 +88,7 @@ def record(store: Store, code: int) -> dict[str, object]:
             for target, one in totals.items()
         },
         "left_out": store.unfinished(),
+        "canaries": [asdict(each) for each in store.canaries()],
         "failures": [
             {"target": target, "violated": invariant, "cause": digest, "times": times, "trace": str(path)}
             for target, invariant, digest, times, path in store.failures()

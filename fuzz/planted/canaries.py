@@ -7,8 +7,7 @@ campaign, so only faults that plain runs in CPython have found stand to be drawn
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from random import Random
@@ -50,9 +49,6 @@ KINDS = (
 )
 """The kinds of canaries, in order."""
 
-RunBatch = Callable[[Sources, int], Sequence[str]]
-"""Runs one batch, by its number, with a fault in the kernel; gives its failures as JSON texts."""
-
 
 @dataclass(frozen=True)
 class Canary:
@@ -76,16 +72,6 @@ class Canary:
         return planted(self.name)
 
 
-@dataclass(frozen=True)
-class Found:
-    """A canary that was found: after so many batches and seconds, and the failure as a JSON text."""
-
-    canary: Canary
-    batches: int
-    seconds: float
-    failure: str
-
-
 @cache
 def findable() -> Mapping[Kind, tuple[str, ...]]:
     """The faults that may be drawn as canaries, by kind."""
@@ -106,31 +92,3 @@ def canaries(seed: int) -> tuple[Canary, ...]:
     """One canary of each kind, drawn by a seed; the same for the same seed."""
     random = Random(f"canaries {seed}")
     return tuple(Canary(kind.name, kind.why, described(random.choice(names))) for kind, names in findable().items())
-
-
-def found(
-    canary: Canary, run_batch: RunBatch, seconds: float = MOST_SECONDS, batches: int | None = None
-) -> Found | None:
-    """Run batches with a canary's fault until one fails; none if the time, or the number of batches, is spent."""
-    began, number = time.perf_counter(), 0
-    while batches is None or number < batches:
-        failures = run_batch(canary.sources, number)
-        number += 1
-        if failures:
-            return Found(canary, number, time.perf_counter() - began, failures[0])
-        if time.perf_counter() - began >= seconds:
-            return None
-    return None
-
-
-def verdict(sought: Iterable[tuple[Canary, Found | None]]) -> str:
-    """Say in a line whether all canaries were found, and if not, which were missed and what that means."""
-    outcome = list(sought)
-    missed = [canary for canary, result in outcome if result is None]
-    if not outcome:
-        return f"no canary was run: {NOTHING_SHOWN}"
-    if missed:
-        names = "; ".join(f"{canary.kind} ({canary.name})" for canary in missed)
-        return f"{len(missed)} of {len(outcome)} canaries not found: {names}: {NOTHING_SHOWN}"
-    slowest = max(result.seconds for _, result in outcome if result is not None)
-    return f"all {len(outcome)} canaries found, the last after {slowest:.1f} s"

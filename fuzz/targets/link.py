@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 from fuzz.campaign.sketch import registers
@@ -16,6 +16,7 @@ from fuzz.channel.threats import MOST, PRESENT, THREATS, drawn
 from fuzz.planted.draw import planted
 from fuzz.targets.target import Batch, Result, digest_of_sources
 from proofs.mutated import running
+from proofs.onboard.link import THEORY as LINK
 
 RUNS_A_BATCH = 40
 FORMAT = "heisoku trace 1"
@@ -44,6 +45,10 @@ class LinkRuns:
     def families(self) -> tuple[str, ...]:
         """The threats."""
         return tuple(THREATS)
+
+    def with_fault(self, theory: str, fault: str) -> LinkRuns | None:
+        """The same runs with a fault planted in the link."""
+        return replace(self, fault=fault) if theory == LINK.name else None
 
     def run(self, batch: Batch) -> Result:
         """Play a batch of runs; one in which a claim is false is a failure."""

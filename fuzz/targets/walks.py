@@ -11,7 +11,7 @@ import json
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from random import Random
 
@@ -62,6 +62,10 @@ class Walks:
     def families(self) -> tuple[str, ...]:
         """The theories."""
         return NAMES
+
+    def with_fault(self, theory: str, fault: str) -> Walks:
+        """Walks of one theory with a fault planted."""
+        return replace(self, fault=fault, only=theory)
 
     def run(self, batch: Batch) -> Result:
         """Walk; a walk that breaks a claim is a failure."""

@@ -1,0 +1,79 @@
+"""Canaries: one of each kind, found by the campaign's own targets; a campaign that misses one says so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from fuzz.campaign.session import Options, go_on
+from fuzz.campaign.sought import carriers, hunted, in_words
+from fuzz.campaign.store import Store
+from fuzz.planted.canaries import KINDS, NOTHING_SHOWN, canaries, findable
+from fuzz.targets.link import LinkRuns
+from fuzz.targets.rides import Rides
+from fuzz.targets.target import Batch, Result, Target
+from fuzz.targets.walks import Walks
+from proofs.records import UNDECIDED
+from tests.fuzz.campaign.quick import Quick
+
+SEED = 1
+BATCHES = 12
+
+
+def test_every_kind_has_faults_to_draw() -> None:
+    assert all(names for names in findable().values())
+    drawn = canaries(SEED)
+    assert [canary.kind for canary in drawn] == [kind.name for kind in KINDS]
+    assert drawn == canaries(SEED)
+    assert len({canaries(seed) for seed in range(5)}) > 1
+
+
+@pytest.mark.parametrize("kind", ["first loop", "third loop", "on board"])
+def test_walks_find_a_canary_and_the_sound_kernel_has_no_failures(kind: str) -> None:
+    canary = next(each for each in canaries(SEED) if each.kind == kind)
+    (target,) = carriers([Walks()], canary)
+    found = hunted(kind, canary.name, [target], SEED, most=BATCHES)
+    assert (found.target, found.kind, found.fault) == ("walks", kind, canary.name)
+    assert found.batches <= BATCHES
+    sound = replace(target, fault=None)  # type: ignore[type-var]
+    assert not sound.run(Batch("walks", 0, SEED, ())).failures
+
+
+class Blind(Quick):
+    """A target that takes a fault and sees nothing of it."""
+
+    def with_fault(self, theory: str, fault: str) -> Target:
+        """Itself."""
+        return self
+
+    def run(self, batch: Batch) -> Result:
+        """As ever."""
+        return super().run(replace(batch, weights=batch.weights or tuple(1.0 for _ in self.families())))
+
+
+def test_a_target_carries_only_what_it_runs() -> None:
+    drawn = {canary.kind: canary for canary in canaries(SEED)}
+    assert carriers([Rides(), LinkRuns()], drawn["on board"]) == []
+    assert [each.name for each in carriers([Rides(), Walks()], drawn["on board"])] == ["walks"]
+
+
+def test_a_campaign_that_misses_its_canaries_is_worth_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    missed = hunted("first loop", "some fault", [Blind()], SEED, most=3)
+    assert missed == replace(missed, target="", batches=3)
+    with Store(tmp_path) as store:
+        store.note_canaries(SEED, [missed])
+    assert go_on(Options(tmp_path, seed=SEED, batches=2), [Quick()]) == UNDECIDED
+    assert NOTHING_SHOWN in " ".join(capsys.readouterr().out.split())
+    found = replace(missed, target="walks")
+    assert "1 of 2" in in_words([missed, replace(found, kind="points")])
+    assert in_words([found]).startswith("all 1 canaries found")
+    assert "no canary" in in_words([])
+
+
+def test_a_canary_lives_no_longer_than_its_time() -> None:
+    spent = hunted("points", "some fault", [Blind()], SEED, seconds=0.0)
+    assert (spent.target, spent.batches) == ("", 0)
