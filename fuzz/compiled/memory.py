@@ -14,7 +14,19 @@ import numpy as np
 import numpy.typing as npt
 
 from fuzz.compiled.domains import RUN_SLOTS, Domains, bits_of, domains
-from fuzz.compiled.places import Array, Bits, Fields, Place, Planner, Rows, Table, Words, arrays_of, spread
+from fuzz.compiled.places import (
+    Array,
+    Bits,
+    Fields,
+    Place,
+    Planner,
+    Rows,
+    Table,
+    Words,
+    arrays_of,
+    lists_of,
+    spread,
+)
 from kernel.centre import Centre
 from kernel.names import Car, Route, Run, Serial, Train
 from kernel.terminal import Terminal
@@ -113,6 +125,14 @@ class Memory:
         low, high = self.bounds()
         at = np.flatnonzero(memory[low:high]) + low
         return int(mixed(at.astype(np.int64), memory[at]).sum(dtype=np.int64))
+
+    def final_hash(self, memory: Ints) -> int:
+        """The hash of the state whatever order its lists have grown in: equal states have equal ones."""
+        settled = memory[: self.bounds()[1]].copy()
+        for place in lists_of(self.state):
+            rows = _at(settled, place.array)
+            rows[:] = rows[np.lexsort(rows.T)]
+        return self.hash(settled)
 
 
 def mixed(address: Ints, word: Ints) -> Ints:

@@ -189,3 +189,15 @@ def arrays_of(place: Place) -> Iterator[Array]:
             if node is not None:
                 yield node
             yield from arrays_of(value)
+
+
+def lists_of(place: Place) -> Iterator[Rows]:
+    """Every list of a place."""
+    match place:
+        case Rows():
+            yield place
+        case Fields(_, places):
+            for each in places.values():
+                yield from lists_of(each)
+        case Table(_, value, _):
+            yield from lists_of(value)
