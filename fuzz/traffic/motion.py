@@ -1,0 +1,355 @@
+"""Trains in motion: car by car, boundary by boundary, and what their antennas read (T2, T5, T6).
+
+A train's trail is the blocks it is in, rear to front, with the boundaries between them, each by the tag on its rear
+side.  Each car that still runs has the lowest and the highest place on the trail that it is in.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fuzz.traffic.air import strikes
+from fuzz.traffic.compiling import compiled
+from fuzz.traffic.entries import both, entry
+from fuzz.traffic.faults import number
+from fuzz.traffic.places import (
+    BOUNDARY,
+    BY,
+    CAB,
+    CAR,
+    CLAIMS,
+    CLOCK,
+    DEAD_HEAD,
+    DEAD_TAIL,
+    EVENT,
+    FIRST,
+    FOREIGN_RECORD,
+    FOREIGN_TAG,
+    HIGHEST,
+    JOINTS,
+    LEADING,
+    LEADS,
+    LENGTH,
+    LINE,
+    LOWEST,
+    MOST_TRAIL,
+    MOVING,
+    NEIGHBOUR,
+    NEIGHBOURS,
+    PARTNER,
+    PRESENT,
+    RECORD,
+    RECORDS,
+    RUNS_COUNT,
+    RUNS_TRAIN,
+    TAGS,
+    TRACK_PARTED,
+    TRACK_ROLLING,
+    TRAIL,
+    WAY,
+)
+from fuzz.traffic.steps import put4, route_of, set_train, take, take2, take3, take4, take_beyond, train_word
+from fuzz.traffic.tables import (
+    CAR_FOLLOWS,
+    CAR_LEAVES,
+    CAR_MOVES,
+    COME_TO_REST,
+    HEAD_READS,
+    TAIL_ANTENNA,
+    TAIL_READS,
+)
+from fuzz.traffic.words import below, get, get1, has, in_table, of, of2, one_in
+
+MISSED_AT_HEAD, MISSED_AT_TAIL = number("missed tag at the head"), number("missed tag at the tail")
+REPEATED, SWAPPED, FOREIGN = number("repeated tag"), number("swapped tags"), number("foreign tag")
+CORRUPT, COPIED = number("corrupt record"), number("copied tag")
+EARLY, LATE_TAG = number("early tag"), number("late tag")
+AHEAD_OF_LEAVING, ELSEWHERE = number("read ahead of leaving"), number("led elsewhere")
+HEALED = number("line healed falsely")
+TRAIL_TO_SPARE = 4
+
+
+# ---- where a train is
+
+
+@compiled
+def car_at(desk: Any, train: Any, place: Any) -> Any:
+    """The place in the train's list of the car that is the ``place``-th from the front of those that run."""
+    first, count = train_word(desk, train, FIRST), train_word(desk, train, MOVING)
+    return first + place if train_word(desk, train, LEADS) == 1 else first + count - 1 - place
+
+
+@compiled
+def front_block(desk: Any, train: Any) -> Any:
+    """The block that the head is in."""
+    return train_word(desk, train, TRAIL + train_word(desk, train, LENGTH) - 1)
+
+
+@compiled
+def rear_block(desk: Any, train: Any) -> Any:
+    """The block that the tail is in."""
+    return train_word(desk, train, TRAIL)
+
+
+@compiled
+def faces(memory: Any, desk: Any, train: Any, route: Any) -> Any:
+    """Whether the car in front leads in the direction of a route."""
+    return of2(desk, LEADING, route, train) == train_word(desk, train, LEADS)
+
+
+@compiled
+def turn(desk: Any, train: Any) -> None:
+    """Change ends: the other cab leads."""
+    length = train_word(desk, train, LENGTH)
+    for at in range(length // 2):
+        low, high = train_word(desk, train, TRAIL + at), train_word(desk, train, TRAIL + length - 1 - at)
+        set_train(desk, train, TRAIL + at, high)
+        set_train(desk, train, TRAIL + length - 1 - at, low)
+    for at in range((length - 1) // 2):
+        low, high = train_word(desk, train, JOINTS + at), train_word(desk, train, JOINTS + length - 2 - at)
+        set_train(desk, train, JOINTS + at, high)
+        set_train(desk, train, JOINTS + length - 2 - at, low)
+    for at in range(length - 1):
+        set_train(desk, train, JOINTS + at, of(desk, PARTNER, train_word(desk, train, JOINTS + at)))
+    for place in range(train_word(desk, train, MOVING)):
+        car = car_at(desk, train, place)
+        low, high = train_word(desk, train, LOWEST + car), train_word(desk, train, HIGHEST + car)
+        set_train(desk, train, LOWEST + car, length - 1 - high)
+        set_train(desk, train, HIGHEST + car, length - 1 - low)
+    set_train(desk, train, LEADS, 1 - train_word(desk, train, LEADS))
+
+
+@compiled
+def shorten(desk: Any, train: Any) -> None:
+    """Forget the blocks behind the last car that runs."""
+    while True:
+        for place in range(train_word(desk, train, MOVING)):
+            if train_word(desk, train, LOWEST + car_at(desk, train, place)) == 0:
+                return
+        length = train_word(desk, train, LENGTH)
+        for at in range(length - 1):
+            set_train(desk, train, TRAIL + at, train_word(desk, train, TRAIL + at + 1))
+            set_train(desk, train, JOINTS + at, train_word(desk, train, JOINTS + at + 1))
+        set_train(desk, train, LENGTH, length - 1)
+        for place in range(train_word(desk, train, MOVING)):
+            car = car_at(desk, train, place)
+            set_train(desk, train, LOWEST + car, train_word(desk, train, LOWEST + car) - 1)
+            set_train(desk, train, HIGHEST + car, train_word(desk, train, HIGHEST + car) - 1)
+
+
+@entry
+def rest(memory_at: Any, desk_at: Any, train: Any) -> Any:
+    """The train comes to rest in whatever run it rolls."""
+    memory, desk = both(memory_at, desk_at)
+    for run in range(get(memory, desk, RUNS_COUNT)):
+        if has(memory, desk, TRACK_ROLLING, run) and get1(memory, desk, RUNS_TRAIN, run) == train:
+            memory[desk[EVENT]] = run
+            take(memory, desk, COME_TO_REST)
+    return 0
+
+
+# ---- what antennas read
+
+
+@entry
+def head_reads(memory_at: Any, desk_at: Any, train: Any, tag: Any) -> Any:
+    """The head antenna passes a tag."""
+    memory, desk = both(memory_at, desk_at)
+    if train_word(desk, train, DEAD_HEAD) > desk[CLOCK] or strikes(desk, MISSED_AT_HEAD, train):
+        return 0
+    cab = of(desk, CAB, of2(desk, CAR, train, car_at(desk, train, 0)))
+    if strikes(desk, FOREIGN, train):
+        take4(memory, desk, HEAD_READS, train, cab, desk[FOREIGN_TAG], 1)
+    read, window = tag, 1
+    if strikes(desk, COPIED, train):
+        read = below(desk, desk[TAGS])
+    elif strikes(desk, EARLY, train) or strikes(desk, LATE_TAG, train):
+        window = 0
+    take4(memory, desk, HEAD_READS, train, cab, read, window)
+    if strikes(desk, REPEATED, train):
+        take4(memory, desk, HEAD_READS, train, cab, read, window)
+    return 0
+
+
+@compiled
+def put_tail_read(memory: Any, desk: Any, train: Any, run: Any, tag: Any, record: Any) -> None:
+    """Write what the tail reads over a line that is as healthy as it really is."""
+    car = of2(desk, CAR, train, car_at(desk, train, train_word(desk, train, MOVING) - 1))
+    healthy = train_word(desk, train, LINE) <= desk[CLOCK] and not has(memory, desk, TRACK_PARTED, train)
+    put4(memory, desk, run, car, TAIL_ANTENNA, of(desk, CAB, car))
+    event = desk[EVENT]
+    memory[event + 4], memory[event + 5], memory[event + 6] = 1 if healthy else 0, tag, record
+
+
+@entry
+def tail_reads(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> Any:
+    """The tail antenna passes a tag."""
+    memory, desk = both(memory_at, desk_at)
+    if train_word(desk, train, DEAD_TAIL) > desk[CLOCK] or strikes(desk, MISSED_AT_TAIL, train):
+        return 0
+    if strikes(desk, FOREIGN, train):
+        put_tail_read(memory, desk, train, run, desk[FOREIGN_TAG], desk[FOREIGN_RECORD])
+        take(memory, desk, TAIL_READS)
+    read, record = tag, of(desk, RECORD, tag)
+    if strikes(desk, CORRUPT, train):
+        record = desk[FOREIGN_RECORD]
+    elif strikes(desk, COPIED, train):
+        if one_in(desk, 2):
+            read = below(desk, desk[TAGS])
+        else:
+            record = below(desk, desk[RECORDS])
+    put_tail_read(memory, desk, train, run, read, record)
+    if has(memory, desk, TRACK_PARTED, train) and desk[PRESENT + HEALED] != 0:
+        memory[desk[EVENT] + 4] = 1
+        desk[BY] = HEALED
+        take_beyond(memory, desk, TAIL_READS)
+        return 0
+    take(memory, desk, TAIL_READS)
+    if strikes(desk, REPEATED, train):
+        put_tail_read(memory, desk, train, run, read, record)
+        take(memory, desk, TAIL_READS)
+    return 0
+
+
+@entry
+def tail_passes(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> Any:
+    """The tail antenna passes both tags of a boundary."""
+    memory, desk = both(memory_at, desk_at)
+    other = of(desk, PARTNER, tag)
+    if strikes(desk, SWAPPED, train):
+        tag, other = other, tag
+    tail_reads(memory, desk, train, run, tag)
+    tail_reads(memory, desk, train, run, other)
+    return 0
+
+
+# ---- over a boundary
+
+
+@compiled
+def leaves(memory: Any, desk: Any, train: Any, car: Any) -> Any:
+    """The last axle of a car that is astride a boundary goes over; tell whether the car is in one block now."""
+    low, high = train_word(desk, train, LOWEST + car), train_word(desk, train, HIGHEST + car)
+    if low < high:
+        if not take2(memory, desk, CAR_LEAVES, of2(desk, CAR, train, car), train_word(desk, train, TRAIL + low)):
+            return False
+        set_train(desk, train, LOWEST + car, high)
+    return True
+
+
+@compiled
+def in_one_block(memory: Any, desk: Any, train: Any, run: Any, place: Any) -> Any:
+    """Whatever of a car still hangs back over a boundary goes over; the last one's antenna reads there."""
+    car = car_at(desk, train, place)
+    low = train_word(desk, train, LOWEST + car)
+    if low == train_word(desk, train, HIGHEST + car):
+        return True
+    if place < train_word(desk, train, MOVING) - 1:
+        return leaves(memory, desk, train, car)
+    last_leaves(memory, desk, train, run, low)
+    return train_word(desk, train, LOWEST + car) == train_word(desk, train, HIGHEST + car)
+
+
+@entry
+def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
+    """The head reads the pair at the end of its block and the front car goes over; tell whether it did."""
+    memory, desk = both(memory_at, desk_at)
+    if not in_one_block(memory, desk, train, run, 0):
+        return False
+    route, block, length = route_of(memory, desk, run), front_block(desk, train), train_word(desk, train, LENGTH)
+    car = car_at(desk, train, 0)
+    tag, target = of2(desk, BOUNDARY, route, block), of2(desk, WAY, route, block)
+    if tag < 0 or target < 0 or length >= MOST_TRAIL - TRAIL_TO_SPARE:
+        return False
+    last = of(desk, PARTNER, tag)
+    swapped = strikes(desk, SWAPPED, train)
+    head_reads(memory, desk, train, last if swapped else tag)
+    name = of2(desk, CAR, train, car)
+    if strikes(desk, ELSEWHERE, train):
+        led = of2(desk, NEIGHBOUR, block, below(desk, of(desk, NEIGHBOURS, block)))
+        put4(memory, desk, run, name, block, led)
+        take_beyond(memory, desk, CAR_MOVES)
+        return False
+    if not take4(memory, desk, CAR_MOVES, run, name, block, target):
+        return False
+    set_train(desk, train, TRAIL + length, target)
+    set_train(desk, train, JOINTS + length - 1, tag)
+    set_train(desk, train, LENGTH, length + 1)
+    set_train(desk, train, HIGHEST + car, length)
+    head_reads(memory, desk, train, tag if swapped else last)
+    if not one_in(desk, 4):
+        leaves(memory, desk, train, car)
+    if train_word(desk, train, MOVING) == 1:
+        last_leaves(memory, desk, train, run, length - 1)
+    return True
+
+
+@entry
+def last_leaves(memory_at: Any, desk_at: Any, train: Any, run: Any, behind: Any) -> Any:
+    """The last car has gone over the boundary before place ``behind`` + 1: its antenna reads the pair there."""
+    memory, desk = both(memory_at, desk_at)
+    car = car_at(desk, train, train_word(desk, train, MOVING) - 1)
+    joint = train_word(desk, train, JOINTS + behind)
+    if strikes(desk, AHEAD_OF_LEAVING, train):
+        put_tail_read(memory, desk, train, run, joint, of(desk, RECORD, joint))
+        take(memory, desk, TAIL_READS)
+        other = of(desk, PARTNER, joint)
+        put_tail_read(memory, desk, train, run, other, of(desk, RECORD, other))
+        take_beyond(memory, desk, TAIL_READS)
+        return 0
+    if leaves(memory, desk, train, car):
+        tail_passes(memory, desk, train, run, joint)
+        shorten(desk, train)
+    return 0
+
+
+@entry
+def drawn_on(memory_at: Any, desk_at: Any, train: Any, run: Any, place: Any, high: Any) -> Any:
+    """A car goes on, under a run that the train rolls in, or after the car ahead of it where that is."""
+    memory, desk = both(memory_at, desk_at)
+    car = of2(desk, CAR, train, car_at(desk, train, place))
+    block, target = train_word(desk, train, TRAIL + high), train_word(desk, train, TRAIL + high + 1)
+    for back in range(get(memory, desk, RUNS_COUNT) + 1):
+        under = run if back == 0 else back - 1
+        if back > 0 and (not has(memory, desk, TRACK_ROLLING, under) or get1(memory, desk, RUNS_TRAIN, under) != train):
+            continue
+        route = route_of(memory, desk, under)
+        leads = in_table(desk, CLAIMS, route, block) and of2(desk, WAY, route, block) == target
+        if leads and take4(memory, desk, CAR_MOVES, under, car, block, target):
+            return True
+    ahead = of2(desk, CAR, train, car_at(desk, train, place - 1))
+    return take3(memory, desk, CAR_FOLLOWS, car, ahead, target)
+
+
+@entry
+def follows(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
+    """Each car behind the first goes on by a block, if the one ahead of it has; tell whether any did."""
+    memory, desk = both(memory_at, desk_at)
+    moved, moving = False, train_word(desk, train, MOVING)
+    for place in range(1, moving):
+        car, ahead = car_at(desk, train, place), car_at(desk, train, place - 1)
+        if not in_one_block(memory, desk, train, run, place):
+            return moved
+        high = train_word(desk, train, HIGHEST + car)
+        if high >= train_word(desk, train, HIGHEST + ahead):
+            continue
+        if train_word(desk, train, LOWEST + ahead) <= high and not leaves(memory, desk, train, ahead):
+            return moved
+        if not drawn_on(memory, desk, train, run, place, high):
+            return moved
+        set_train(desk, train, HIGHEST + car, high + 1)
+        moved = True
+        if place == moving - 1:
+            last_leaves(memory, desk, train, run, high)
+        elif not one_in(desk, 4):
+            leaves(memory, desk, train, car)
+    return moved
+
+
+@compiled
+def must_follow(memory: Any, desk: Any, train: Any, run: Any) -> Any:
+    """Whether the front may not go on before the rear has: it hangs far back, or off the route."""
+    length = train_word(desk, train, LENGTH)
+    if length > 3:
+        return True
+    return length > 1 and not in_table(desk, CLAIMS, route_of(memory, desk, run), rear_block(desk, train))
