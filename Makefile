@@ -1,4 +1,5 @@
-# make assure   prove the kernel, check the sample layouts, ride some trains; write the records under out/
+# make assure   prove the kernel, check the sample layouts, ride some trains, fuzz briefly; write the records under out/
+# make fuzz     a campaign on the sample layouts; BATCHES=1000 for more, heisoku fuzz --hours for a night
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
 # make beyond   the same with one fault after the other beyond its declared range
 # make papers   the papers' figures beside ours, with pictures
@@ -19,16 +20,17 @@ CONTRACTS := $(sort $(wildcard tests/contracts_*.py tests/*/contracts_*.py))
 JOBS   ?= auto
 RIDES  ?= 512
 BEYOND ?= 128
+BATCHES ?= 8
 
 .DELETE_ON_ERROR:
-.PHONY: help assure prove check ride beyond papers test lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure prove check ride fuzz beyond papers test lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
 
 # ---- what it is for
 
-assure: prove check ride
+assure: prove check ride fuzz
 
 prove: setup
 	@mkdir -p out
@@ -42,6 +44,12 @@ check: setup
 ride: setup
 	@mkdir -p out
 	$(BIN)/heisoku ride --rides $(RIDES) --json out/ride.json
+
+fuzz: setup
+	@mkdir -p out
+	rm -rf out/fuzz
+	$(BIN)/heisoku fuzz layouts/passing_station.toml $(foreach target,interlocking jolted walks link,--target $(target)) \
+		--batches $(BATCHES) --out out/fuzz --json out/fuzz.json
 
 beyond: setup
 	@mkdir -p out

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import re
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
 
 import heisoku
+from fuzz.failures.trace import text_of
 from proofs import usage
 from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from proofs.theories import THEORIES
+from tests.fuzz.failures.samples import LAYOUTS, failing
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted(path for path in [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("proofs/*.md")])
@@ -24,13 +27,14 @@ EXAMPLES = sorted(
 
 
 def test_there_are_examples_of_every_command() -> None:
-    assert {shlex.split(example)[1] for example in EXAMPLES} == {"prove", "check", "draw", "ride", "reproduce"}
+    shown = {shlex.split(example)[1] for example in EXAMPLES}
+    assert shown == {"prove", "check", "draw", "ride", "reproduce", "fuzz", "replay"}
     assert len(EXAMPLES) >= 6
 
 
 @pytest.mark.parametrize("example", EXAMPLES)
 def test_an_example_works(example: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Checks and drawings are made; of a proof, which would take minutes, the pattern must match something."""
+    """Checks, drawings and replays are made; of a proof, which would take minutes, the pattern must match something."""
     (tmp_path / "layouts").symlink_to(ROOT / "layouts")
     monkeypatch.chdir(tmp_path)
     words = shlex.split(example)[1:]
@@ -41,6 +45,12 @@ def test_an_example_works(example: str, tmp_path: Path, monkeypatch: pytest.Monk
         ]
         assert matched
         assert heisoku.run([*words, "--help"]) == HOLDS
+    elif words[0] == "replay":
+        trace = Path(words[1])
+        trace.parent.mkdir(parents=True, exist_ok=True)
+        trace.write_text(text_of(failing()), "utf-8")
+        shutil.copy(LAYOUTS["passing_station"], trace.parent / failing().layout.file)
+        assert heisoku.run(words) == DOES_NOT_HOLD
     else:
         spread = [str(path) for word in words for path in (sorted(Path().glob(word)) if "*" in word else [word])]
         assert heisoku.run(spread) == HOLDS

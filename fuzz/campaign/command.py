@@ -63,7 +63,7 @@ def fuzz(
     A failure is 1, and so is a batch that hangs; an interruption is 3.
 
     Examples:
-    * `heisoku fuzz --target rides --batches 1 --out out/fuzz`
+    * `heisoku fuzz --target link --batches 2 --out out/fuzz`
     """
     from fuzz.campaign.session import Options, go_on, put_together
 
