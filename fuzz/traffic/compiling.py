@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 from collections.abc import Callable, Iterator
@@ -47,6 +48,18 @@ def kept_in() -> Iterator[bool]:
         yield kept is not None
     finally:
         config.CACHE_DIR = before
+
+
+@contextmanager
+def one_at_a_time() -> Iterator[None]:
+    """Only one process compiles what is to be kept; others wait meanwhile, and then read it."""
+    kept = folder()
+    if kept is None:
+        yield
+        return
+    with (kept / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def compiled(function: Callable[..., Any]) -> Any:

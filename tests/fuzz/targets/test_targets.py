@@ -1,0 +1,104 @@
+"""Targets: a batch follows from its numbers, the sound kernel fails nowhere, and a planted fault is found and told."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from fuzz.channel.threats import THREATS
+from fuzz.failures.causes import cause_of
+from fuzz.failures.replaying import replay
+from fuzz.failures.trace import Trace, layout_of, load_trace
+from fuzz.targets.interlocking import Interlocking
+from fuzz.targets.link import LinkRuns
+from fuzz.targets.target import Batch, Result, Target
+from fuzz.targets.walks import Walks
+from fuzz.traffic.faults import FAULTS
+from tests.layouts.stations import ROOT
+
+STATION = ROOT / "layouts" / "passing_station.toml"
+TRAFFIC = Interlocking(STATION)
+TARGETS: tuple[Target, ...] = (TRAFFIC, Walks(), LinkRuns())
+FORGETFUL = "kernel.restarts.restart_centre: update claimed={}"
+LATE = "kernel.link.judge: guard if telegram.sent_at_ms - now_ms > 2 * limits.offset_ms: Outcome.FROM_THE_FUTURE"
+
+
+def batch(target: Target, number: int = 0, seed: int = 3, weights: tuple[float, ...] = ()) -> Batch:
+    """A batch of a target."""
+    return Batch(target.name, number, seed, weights)
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
+def test_a_batch_follows_from_its_numbers_and_fails_nowhere(target: Target) -> None:
+    once, again = (target.run(batch(target)) for _ in range(2))
+    assert replace(once, seconds=0.0) == replace(again, seconds=0.0)
+    assert once.failures == ()
+    assert once.steps > 1_000
+    other = target.run(batch(target, number=1))
+    assert other.covered != once.covered
+    assert other.failures == ()
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
+def test_every_tuple_has_words_and_every_family_a_weight(target: Target) -> None:
+    found = target.run(batch(target))
+    words = [target.describe(each) for each in found.covered]
+    assert len(set(words)) == len(words)
+    families = target.families()
+    assert len(set(families)) == len(families) > 1
+    weighed = target.run(batch(target, weights=tuple(8.0 if at == 0 else 0.125 for at in range(len(families)))))
+    assert weighed.covered != found.covered
+
+
+def test_what_a_target_is_made_of_has_a_digest() -> None:
+    for target in TARGETS:
+        identity = target.identity()
+        assert identity["sources"]
+        assert identity == target.identity()
+
+
+def test_faults_of_a_trace_are_drawn_and_counted() -> None:
+    found = TRAFFIC.run(batch(TRAFFIC))
+    for fault in FAULTS:
+        assert f"traces with {fault.name}" in found.counts
+    assert sum(found.counts[f"traces with {fault.name}"] for fault in FAULTS) > found.traces
+    assert any(name.startswith("standstill seconds") and seconds for name, seconds in found.counts.items())
+    assert found.counts["journeys"] > 100
+    link = LinkRuns().run(batch(LinkRuns()))
+    assert all(link.counts[threat] for threat in THREATS)
+
+
+def first_failing(target: Target, most: int = 6) -> Result:
+    """The first batch that fails."""
+    results = (target.run(batch(target, number)) for number in range(most))
+    return next(result for result in results if result.failures)
+
+
+def test_a_planted_fault_is_found_made_short_and_replays_in_cpython(tmp_path: Path) -> None:
+    faulty = TRAFFIC.with_fault("interlocking", FORGETFUL)
+    assert faulty is not None
+    (tmp_path / "layouts").mkdir()
+    (tmp_path / "layouts" / STATION.name).write_bytes(STATION.read_bytes())
+    (tmp_path / "traces").mkdir()
+    path = tmp_path / "traces" / "trace.json"
+    path.write_text(first_failing(replace(faulty, shrinks=True)).failures[0], "utf-8")
+    trace = load_trace(path)
+    assert isinstance(trace, Trace)
+    assert trace.planted == FORGETFUL
+    again = replay(trace, layout_of(trace, path))
+    assert again.reproduced
+    assert again.violated == trace.violated
+    assert json.loads(path.read_text("utf-8"))["cause"] == cause_of(trace).digest
+    assert TRAFFIC.with_fault("odometry", FORGETFUL) is None
+
+
+def test_a_fault_in_the_link_is_found_and_named() -> None:
+    faulty = LinkRuns().with_fault("link", LATE)
+    assert faulty is not None
+    found = json.loads(first_failing(faulty).failures[0])
+    assert found["planted"]["name"] == LATE
+    assert found["violated"]
+    assert LinkRuns().with_fault("interlocking", FORGETFUL) is None
