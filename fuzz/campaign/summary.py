@@ -15,6 +15,11 @@ from fuzz.campaign.store import Store
 from fuzz.campaign.view import table_of
 from proofs.records import DOES_NOT_HOLD, HOLDS, UNDECIDED
 
+STOOD = "standstill seconds: "
+"""How a target's counts of standstill begin; the cause follows."""
+LONGEST = 6
+BROKEN, VIOLATED = "broken: ", "broken and violated: "
+"""The same of traces in which an assumption about nature was broken, and of those in which a claim was false as well."""
 VERDICTS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecided"}
 
 
@@ -44,6 +49,10 @@ def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> N
         plain(out, in_words(target, growth))
     if found:
         plain(out, f"drawn in {picture}")
+    for target in totals:
+        counts = store.counts(target)
+        for line in (*standing(target, counts), *beyond(target, counts)):
+            plain(out, line)
     for line in store.unfinished():
         plain(out, line)
     plain(out, in_words_of_canaries(store.canaries()))
@@ -65,6 +74,31 @@ def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> N
         f"{batches:,} batches, {traces:,} traces, {steps:,} steps with seed{'s' * (len(seeds) > 1)}"
         f" {', '.join(map(str, seeds))}, {failed:,} failures of {len(failures):,} causes: {VERDICTS[code]}",
     )
+
+
+def standing(target: str, counts: Mapping[str, int]) -> list[str]:
+    """How long trains stood still, and for what, the longest first; nothing for a target that has no traffic."""
+    stood = {
+        name.removeprefix(STOOD): seconds for name, seconds in counts.items() if name.startswith(STOOD) and seconds
+    }
+    if not stood:
+        return []
+    whole = sum(stood.values())
+    longest = sorted(stood, key=lambda name: (-stood[name], name))[:LONGEST]
+    told = ", ".join(f"{100 * stood[name] / whole:.1f} % {name}" for name in longest)
+    return [f"{target}: trains stood still for {whole / 3600:,.0f} h: {told}; the rest is in the record"]
+
+
+def beyond(target: str, counts: Mapping[str, int]) -> list[str]:
+    """In how many traces an assumption about nature was broken, by its name: no failures of the kernel."""
+    broken, violated = counted(counts, BROKEN), counted(counts, VIOLATED)
+    told = ", ".join(f"{name} {times} ({violated.get(name, 0)})" for name, times in broken.items())
+    return [f"{target}: assumptions broken, and in brackets with a claim: {told}"] if broken else []
+
+
+def counted(counts: Mapping[str, int], begins: str) -> dict[str, int]:
+    """The counts whose names begin so and that are not 0, by what follows."""
+    return {name.removeprefix(begins): count for name, count in counts.items() if name.startswith(begins) and count}
 
 
 def record(store: Store, code: int) -> dict[str, object]:
