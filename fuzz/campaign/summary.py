@@ -19,7 +19,7 @@ STOOD = "standstill seconds: "
 """How a target's counts of standstill begin; the cause follows."""
 LONGEST = 6
 BROKEN, VIOLATED = "broken: ", "broken and violated: "
-"""The same of traces in which an assumption about nature was broken, and of those in which a claim was false as well."""
+"""The same of traces in which an assumption was broken, and of those in which a claim was false as well."""
 VERDICTS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecided"}
 
 
