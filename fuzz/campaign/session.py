@@ -28,6 +28,7 @@ from fuzz.campaign.store import Store
 from fuzz.campaign.view import View
 from fuzz.campaign.worker import work_on
 from fuzz.targets.interlocking import Interlocking
+from fuzz.targets.jolted import Jolted
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Target
@@ -59,12 +60,13 @@ Making = Callable[[Sequence[Path]], Sequence[Target]]
 
 OFFERED: Mapping[str, Making] = {
     "interlocking": lambda layouts: [Interlocking(path) for path in layouts],
+    "jolted": lambda layouts: [Jolted(path) for path in layouts],
     "walks": lambda layouts: [Walks()],
     "link": lambda layouts: [LinkRuns()],
     "rides": lambda layouts: [Rides()],
 }
 """What --target names: each gives the targets that it stands for.  Those that need layouts stand in ON_LAYOUTS too."""
-ON_LAYOUTS: frozenset[str] = frozenset({"interlocking"})
+ON_LAYOUTS: frozenset[str] = frozenset({"interlocking", "jolted"})
 
 
 def chosen(names: Sequence[str], layouts: Sequence[Path]) -> list[Target]:

@@ -62,8 +62,8 @@ class Domains:
             return RUN_SLOTS
         if scalar.name in CAPACITIES:
             return CAPACITIES[scalar.name]
-        if scalar.name in self.names:
-            return len(self.names[scalar.name])
+        if scalar.is_identifier and not scalar.is_ordered:
+            return len(self.names.get(scalar.name, ()))
         raise Uncountable(scalar.name)
 
     def words(self, scalar: Scalar) -> int:

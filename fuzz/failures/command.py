@@ -11,10 +11,11 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from fuzz.failures.batches import Again, run_again
 from fuzz.failures.links import Played, play_again
 from fuzz.failures.replaying import Outcome, Replay, replay
 from fuzz.failures.rides import Ridden, ride_again, unknown_faults
-from fuzz.failures.trace import TRAFFIC, LinkTrace, RideTrace, Trace, event_as_json, layout_of, load_trace
+from fuzz.failures.trace import TRAFFIC, BatchTrace, LinkTrace, RideTrace, Trace, event_as_json, layout_of, load_trace
 from fuzz.failures.words import claim, comes_to, otherwise, told, verdict
 from models.layouts import BadInput
 from proofs.catalogue import INVARIANTS
@@ -78,7 +79,27 @@ class Relinked:
         return DOES_NOT_HOLD if self.found.violated else HOLDS
 
 
-def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridden | Relinked:
+@dataclass(frozen=True)
+class Rerun:
+    """A walk or a batch, run again."""
+
+    path: Path
+    found: Again
+
+    def report(self, out: Console, html: Path | None, json: Path | None) -> int:
+        """Print it, write the record where it is wanted, and give the exit code; there is no page of it."""
+        assert html is None
+        trace = self.found.trace
+        if json is not None:
+            told = {"trace": str(self.path), "target": trace.target, "violated": list(self.found.violated)}
+            write_json(json, {**told, "steps": self.found.steps, "versions": versions(), "commit": commit()})
+        _line(out, self.found.verdict)
+        if self.found.violated and self.found.violated != trace.violated:
+            _line(out, f"the trace says: {', '.join(trace.violated)} violated")
+        return DOES_NOT_HOLD if self.found.violated else HOLDS
+
+
+def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridden | Relinked | Rerun:
     """Replay the trace of a file; ``page``: whether a page of it is wanted.
 
     Raises:
@@ -86,8 +107,10 @@ def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridd
     """
     trace = load_trace(path)
     if page and not isinstance(trace, Trace):
-        target = "rides" if isinstance(trace, RideTrace) else "link"
+        target = _target_of(trace)
         raise BadInput(str(path), "target", f"is {target}, of which there is no page", "leave out --html")
+    if isinstance(trace, BatchTrace):
+        return Rerun(path, run_again(trace, path))
     if isinstance(trace, LinkTrace):
         return Relinked(path, play_again(trace))
     if isinstance(trace, RideTrace):
@@ -96,6 +119,12 @@ def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridd
             raise BadInput(str(path), "beyond", what, "replay it with the version that found it")
         return Reridden(path, ride_again(trace))
     return Replayed(path, replay(trace, layout_of(trace, path), progress))
+
+
+def _target_of(trace: RideTrace | LinkTrace | BatchTrace) -> str:
+    if isinstance(trace, BatchTrace):
+        return trace.target
+    return "rides" if isinstance(trace, RideTrace) else "link"
 
 
 # ---- traffic

@@ -111,7 +111,25 @@ class LinkTrace:
     at_step: int | None = None
 
 
-AnyTrace = Trace | RideTrace | LinkTrace
+@dataclass(frozen=True)
+class BatchTrace:
+    """A walk, or a batch of jolted states, by its numbers.
+
+    ``theory``, ``walk``: what was walked through, and which walk of the batch.  ``layout``: a jolted state's, from the
+    folder of the trace.
+    """
+
+    target: str
+    seed: int
+    batch: int
+    violated: tuple[str, ...]
+    planted: str | None = None
+    theory: str = ""
+    walk: int = 0
+    layout: str = ""
+
+
+AnyTrace = Trace | RideTrace | LinkTrace | BatchTrace
 """What a trace file may hold."""
 
 # ---- writing
@@ -192,7 +210,23 @@ def parse(name: str, text: str) -> AnyTrace:
         raise BadInput(bad.file, bad.place, bad.what, WHAT_TO_DO) from bad
     if target == "rides":
         return _ride(data)
+    if target in ("walks", "jolted"):
+        return _batch(data)
     return _link(data) if target == "link" else _interlocking(name, data)
+
+
+def _batch(data: Mapping[str, Any]) -> BatchTrace:
+    planted = data.get("planted")
+    return BatchTrace(
+        target=data["target"],
+        seed=data["seed"],
+        batch=data["batch"],
+        violated=tuple(data["violated"]),
+        planted=None if planted is None else planted["name"],
+        theory=data.get("theory", ""),
+        walk=data.get("walk", 0),
+        layout=data.get("layout", {}).get("file", ""),
+    )
 
 
 def _ride(data: Mapping[str, Any]) -> RideTrace:

@@ -79,6 +79,25 @@ def is_legal(site: Site) -> bool:
     )
 
 
+def thinned(place: Place, random: Random) -> Place:
+    """The same place on a layout that says less: one thing that it maps is left out, some of it or all.
+
+    The axioms leave a layout free to say nothing of some things that every importer says; the proof holds for such
+    layouts too.  Where the axioms ask for what was chosen, the place is as it was.
+    """
+    layout = place.site.layout
+    maps = [name for name, kind in fields_of(Layout).items() if isinstance(kind, MapKind)]
+    name = random.choice(maps)
+    known = sorted(getattr(layout, name), key=repr)
+    left = () if random.randrange(2) else random.sample(known, max(0, len(known) - 1))
+    changes: dict[str, Any] = {name: {key: getattr(layout, name)[key] for key in left}}
+    thin = replace(place.site, layout=replace(layout, **changes))
+    try:
+        return replace(place, site=thin) if is_legal(thin) else place
+    except ERRORS:
+        return place
+
+
 def jolted_walk(place: Place, sources: Sources, random: Random) -> Jolted:
     """Jolts, and a few moves after each; the same for the same state of ``random``.
 

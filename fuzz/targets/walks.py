@@ -18,7 +18,7 @@ from random import Random
 from fuzz.failures.causes import cause_of
 from fuzz.failures.trace import Trace, as_json
 from fuzz.machines import beside, moves
-from fuzz.machines.jolts import jolted_walk
+from fuzz.machines.jolts import jolted_walk, thinned
 from fuzz.machines.places import TINY, place_on
 from fuzz.machines.watched import Broken
 from fuzz.planted.draw import name_of, planted
@@ -31,8 +31,8 @@ FORMAT = "heisoku trace 1"
 WALKS_A_BATCH = 96
 COSTLY = {INTERLOCKING.name: 0.08}
 """A walk of the interlocking takes so much longer than one of a machine that it is drawn so much less."""
-JOLTED = 0.3
-"""The share of the interlocking's walks that are jolted into states that no run leads to."""
+JOLTED, THINNED = 0.25, 0.25
+"""Shares of the interlocking's walks: jolted into states that no run leads to; on layouts that say less."""
 LAYOUTS = (TINY, *sorted((ROOT / "layouts").glob("*.toml")))
 NAMES = tuple(THEORIES)
 STEPS = tuple((theory, step) for theory, each in THEORIES.items() for step in each.steps)
@@ -86,7 +86,7 @@ class Walks:
                 failures.append(json.dumps({**failure, "seed": batch.seed, "batch": batch.number, "walk": number}))
         return Result(
             batch=batch,
-            traces=WALKS_A_BATCH,
+            traces=sum(counts.values()),
             steps=covered.total(),
             counts=counts,
             covered=covered,
@@ -99,9 +99,10 @@ class Walks:
     def drawn(self, batch: Batch) -> Iterator[str]:
         """The theory of each walk of a batch."""
         names = NAMES if self.only is None else (self.only,)
+        count = WALKS_A_BATCH if self.only is None else max(1, round(WALKS_A_BATCH * COSTLY.get(self.only, 1.0)))
         given = dict(zip(NAMES, batch.weights, strict=True)) if batch.weights else {}
         weights = [given.get(name, 1.0) * COSTLY.get(name, 1.0) for name in names]
-        yield from Random(f"{batch.seed} {batch.number}").choices(names, weights, k=WALKS_A_BATCH)
+        yield from Random(f"{batch.seed} {batch.number}").choices(names, weights, k=count)
 
 
 def walked(theory: str, sources: Sources, random: Random) -> tuple[list[str], dict[str, object] | None]:
@@ -109,9 +110,12 @@ def walked(theory: str, sources: Sources, random: Random) -> tuple[list[str], di
     try:
         if theory != INTERLOCKING.name:
             return [told.step for told in beside.walk(theory, sources, random).taken], None
-        if random.random() < JOLTED:
-            place = place_on(random.choice(LAYOUTS), moves.TRAINS[0], random.randrange(moves.STARTS))
+        kind = random.random()
+        place = place_on(random.choice(LAYOUTS), moves.TRAINS[0], random.randrange(moves.STARTS))
+        if kind < JOLTED:
             going: moves.Moves = jolted_walk(place, sources, random)
+        elif kind < JOLTED + THINNED:
+            going = moves.walk(thinned(place, random), sources, random, moves.MOVES)
         else:
             going = moves.numbered(random.randrange(2**31), sources, LAYOUTS)
         return [step for step, _ in going.play.taken], None
@@ -131,5 +135,5 @@ def walked(theory: str, sources: Sources, random: Random) -> tuple[list[str], di
 
 
 def told_of(trace: Trace) -> dict[str, object]:
-    """A failure of the interlocking: its trace, which replays where the walk was not jolted."""
-    return {**as_json(trace), "target": "walks", "cause": cause_of(trace).digest}
+    """A failure of the interlocking: its steps, as far as the walk was not jolted between them."""
+    return {**as_json(trace), "target": "walks", "theory": INTERLOCKING.name, "cause": cause_of(trace).digest}

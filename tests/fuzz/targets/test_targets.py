@@ -8,15 +8,18 @@ from pathlib import Path
 
 import pytest
 
+import heisoku
 from fuzz.channel.threats import THREATS
 from fuzz.failures.causes import cause_of
 from fuzz.failures.replaying import replay
 from fuzz.failures.trace import Trace, layout_of, load_trace
 from fuzz.targets.interlocking import Interlocking
+from fuzz.targets.jolted import Jolted
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.target import Batch, Result, Target
 from fuzz.targets.walks import Walks
 from fuzz.traffic.faults import FAULTS
+from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from tests.layouts.stations import ROOT
 
 STATION = ROOT / "layouts" / "passing_station.toml"
@@ -102,3 +105,30 @@ def test_a_fault_in_the_link_is_found_and_named() -> None:
     assert found["planted"]["name"] == LATE
     assert found["violated"]
     assert LinkRuns().with_fault("interlocking", FORGETFUL) is None
+
+
+def test_a_walk_that_fails_is_walked_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    faulty = Walks().with_fault("link", LATE)
+    path = tmp_path / "walk.json"
+    text = first_failing(faulty).failures[0]
+    path.write_text(text, "utf-8")
+    assert heisoku.run(["replay", str(path)]) == DOES_NOT_HOLD
+    assert "reproduced" in capsys.readouterr().out
+    sound = {**json.loads(text), "planted": None}
+    path.write_text(json.dumps(sound), "utf-8")
+    assert heisoku.run(["replay", str(path)]) == HOLDS
+    assert heisoku.run(["replay", str(path), "--html", str(tmp_path / "page.html")]) == BAD_INPUT
+
+
+def test_a_jolted_state_that_fails_is_found_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    faulty = Jolted(STATION).with_fault("interlocking", FORGETFUL)
+    assert faulty is not None
+    (tmp_path / "layouts").mkdir()
+    (tmp_path / "traces").mkdir()
+    path = tmp_path / "traces" / "jolted.json"
+    path.write_text(first_failing(faulty).failures[0], "utf-8")
+    assert heisoku.run(["replay", str(path)]) == BAD_INPUT
+    assert "is not there" in capsys.readouterr().err
+    (tmp_path / "layouts" / STATION.name).write_bytes(STATION.read_bytes())
+    assert heisoku.run(["replay", str(path)]) == DOES_NOT_HOLD
+    assert "reproduced" in capsys.readouterr().out
