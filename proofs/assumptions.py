@@ -26,11 +26,11 @@ from proofs.lints_on_board import assumptions as asked_on_board
 from proofs.theory import START, Theory
 
 ROOT = Path(__file__).resolve().parent.parent
-DATA = (ROOT / "models" / "world" / "assumptions.toml", ROOT / "models" / "onboard" / "assumptions.toml")
+DATA = tuple(ROOT / "models" / part / "assumptions.toml" for part in ("world", "onboard", "crossing", "alarm"))
 PAGE = ROOT / "docs" / "assumptions.md"
 
 WRITTEN = (
-    "Written by `python -m proofs.assumptions` from `models/world/assumptions.toml`, `models/onboard/assumptions.toml`,"
+    "Written by `python -m proofs.assumptions` from `models/*/assumptions.toml`,"
     " the proof scripts and the source of the world; do not edit. A proof says nothing of a railway on which one of"
     " these is false."
 )

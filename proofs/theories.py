@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
+from proofs.crossing import arrival
 from proofs.onboard import (
     antenna_spacing,
     brake_watch,
@@ -39,6 +41,9 @@ IN_ORDER: tuple[Theory, ...] = (
     tag_window.THEORY,
     antenna_spacing.THEORY,
     feature.THEORY,
+    alarm_distance.THEORY,
+    alarm_tone.THEORY,
+    arrival.THEORY,
 )
 """The theories, in the order of the matrix."""
 

@@ -32,13 +32,18 @@ class Call:
     after: Any
 
 
+HOMES = ("proofs.onboard", "proofs.crossing", "proofs.alarm")
+"""Where theories beside the interlocking live, each with its witnesses."""
+
+
 @functools.cache
 def witnesses(theory: str) -> Mapping[str, Witness]:
     """The witnesses of a theory by name; none, if it has no file of them."""
-    name = f"proofs.onboard.witnesses.{theory}"
-    if importlib.util.find_spec("proofs.onboard.witnesses") is None or importlib.util.find_spec(name) is None:
-        return {}
-    return {witness.__name__: witness for witness in importlib.import_module(name).WITNESSES}
+    for home in HOMES:
+        name = f"{home}.witnesses.{theory}"
+        if importlib.util.find_spec(name) is not None:
+            return {witness.__name__: witness for witness in importlib.import_module(name).WITNESSES}
+    return {}
 
 
 @functools.cache

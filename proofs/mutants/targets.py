@@ -9,6 +9,8 @@ from functools import cache
 from types import ModuleType
 
 import kernel
+import models.alarm
+import models.crossing
 import models.onboard
 import models.world
 from proofs.catalogue import INTERLOCKING
@@ -34,13 +36,15 @@ NOT_STEPS = frozenset(
     }
 )
 """Modules that no transition is made of: what a state is kept in, tables, codes, premises, the start."""
+BESIDE = (models.onboard, models.crossing, models.alarm)
+"""Worlds of theories beside the interlocking."""
 SINGLE = ("models.link",)
 """Worlds that are one file."""
 
 
 def modules() -> list[ModuleType]:
     """The modules that transitions are made of."""
-    names = [name for room in (kernel, models.world, models.onboard) for name in _inside(room)]
+    names = [name for room in (kernel, models.world, *BESIDE) for name in _inside(room)]
     names += [name for name in SINGLE if importlib.util.find_spec(name) is not None]
     return [importlib.import_module(name) for name in names if name not in NOT_STEPS]
 
@@ -62,7 +66,9 @@ def mutants() -> Mapping[str, Mutant]:
 
 def is_said_only(function: Code) -> bool:
     """Tell whether a function of a world is no part of a step: a premise, the start, or a word of a claim."""
-    return function.__module__.startswith(("models.onboard.", *SINGLE)) and not transitions_of(function)
+    return function.__module__.startswith((*(f"{room.__name__}." for room in BESIDE), *SINGLE)) and not transitions_of(
+        function
+    )
 
 
 def of_interlocking(row: str) -> bool:

@@ -13,7 +13,11 @@ from proofs.theories import THEORIES
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = (ROOT / "docs" / "contracts.md").read_text("utf-8")
-ASSUMED = tomllib.loads((ROOT / "models" / "onboard" / "assumptions.toml").read_text("utf-8"))
+ASSUMED = {
+    theory: entries
+    for part in ("onboard", "crossing", "alarm")
+    for theory, entries in tomllib.loads((ROOT / "models" / part / "assumptions.toml").read_text("utf-8")).items()
+}
 NAME = re.compile(r"`(\w+)\.(\w+)`")
 
 

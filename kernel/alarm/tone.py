@@ -1,0 +1,369 @@
+"""The tone that a track worker's handset sounds, for all trains of the line (A2 to A6, A8).
+
+Every train is known by two sources: its GPS, and the traffic display (TID).  Where both are fresh and
+agree, the train is where its GPS says.  Where they do not, the tone is the fault tone, except for three
+things that are registered beforehand, for the paper's reason that they happen every day (004, 4):
+
+- a stretch without GPS, tunnel and both zones beside it: the train is put at the end nearest the worker;
+- shunting in a station: GPS alone, and the direction is not believed;
+- a stabled train on the roster, its engine off: the display alone.
+
+All three lie in sections that are not to be used: a handset there does not sound the normal tone.
+
+The order is alarm, fault, caution, normal.  The alarm comes first because it is what has to be obeyed at
+once, whatever else does not work.  The fault tone comes before caution because caution also says that all
+other trains are far, and that is not known then.  Nothing is kept from one decision to the next: the tone
+follows from what is known now, so no train's tone hides another's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import NewType
+
+from kernel.alarm import distance
+from kernel.alarm.distance import (
+    GREATEST_AGE_MS,
+    NO_TRAIN_FIX,
+    UM_A_MM,
+    AlarmBounds,
+    TrainFix,
+    WorkerFix,
+    is_fix,
+    nearest_um,
+    older_ms,
+    worker_off_um,
+)
+from kernel.maps import Map
+from kernel.onboard.arithmetic import larger
+
+ALARM_MM = 1_500_000
+CAUTION_MM = 3_000_000
+"""004, 3.3; the limits belong to what they limit (A3, ours)."""
+
+Train = NewType("Train", str)
+"""A train number (A2)."""
+Section = NewType("Section", str)
+"""The name of a section that is not to be used (A4, A5, A6)."""
+
+
+class Tone(Enum):
+    """What the worker hears, the most severe first (A3)."""
+
+    ALARM = 0
+    FAULT = 1
+    CAUTION = 2
+    NORMAL = 3
+
+
+class Reason(Enum):
+    """Why a section is registered as not to be used (004, 4)."""
+
+    WITHOUT_GPS = 0
+    SHUNTING = 1
+    STABLING = 2
+
+
+@dataclass(frozen=True)
+class NoUse:
+    """A section that is not to be used, from one kilometrage to another (A4, A5, A6)."""
+
+    reason: Reason
+    from_mm: int
+    to_mm: int
+
+
+@dataclass(frozen=True)
+class Freshness:
+    """How old what is told may be, in ms (A1, A8; ours).
+
+    ``fix_ms``: a train's GPS, sent every 2 s.  ``display_ms``: the traffic display, every 3 s.
+    ``server_ms``: the server's list of trains.  ``worker_ms``: the worker's own GPS, every 1 s.
+    """
+
+    fix_ms: int
+    display_ms: int
+    server_ms: int
+    worker_ms: int
+
+
+@dataclass(frozen=True)
+class Register:
+    """What is written for a line (A1 to A6).
+
+    ``display_error_mm``: a train's antenna is no farther outside of the stretch that the display shows.
+    ``tolerance_mm``: GPS and display agree when the fix is no farther outside.
+    ``stabled``: which train may be stabled in which section: the roster.
+    """
+
+    bounds: AlarmBounds
+    fresh: Freshness
+    display_error_mm: int
+    tolerance_mm: int
+    sections: Map[Section, NoUse]
+    stabled: frozenset[tuple[Train, Section]]
+
+
+@dataclass(frozen=True)
+class Display:
+    """A train on the traffic display: the stretch that it occupied, and how long ago (A1, A2)."""
+
+    from_mm: int
+    to_mm: int
+    age_ms: int
+
+
+@dataclass(frozen=True)
+class Known:
+    """What both sources say of a train (A2)."""
+
+    fix: TrainFix
+    display: Display
+
+
+NO_DISPLAY = Display(from_mm=0, to_mm=0, age_ms=GREATEST_AGE_MS + 1)
+NOTHING_KNOWN = Known(fix=NO_TRAIN_FIX, display=NO_DISPLAY)
+"""Of a train that the server names, and no source has told anything of (A2)."""
+
+
+@dataclass(frozen=True)
+class Handset:
+    """All that a worker's handset decides from (A1, A8).
+
+    ``worker``: its own fix.  ``server_age_ms``: how old the server's last list is; ``servers_well``: the
+    monitoring server says so.  ``battery_well``: the battery lasts.  ``trains``: every train of the list.
+    """
+
+    worker: WorkerFix
+    server_age_ms: int
+    servers_well: bool
+    battery_well: bool
+    trains: Map[Train, Known]
+
+
+# ---- what becomes of what is known
+
+
+def older(handset: Handset, elapsed_ms: int) -> Handset:
+    """Let all that is known grow older (A1)."""
+    return replace(
+        handset,
+        worker=distance.older_worker(handset.worker, elapsed_ms),
+        server_age_ms=older_ms(handset.server_age_ms, elapsed_ms),
+        trains={train: older_known(known, elapsed_ms) for train, known in handset.trains.items()},
+    )
+
+
+def older_known(known: Known, elapsed_ms: int) -> Known:
+    """Let what is known of a train grow older (A1)."""
+    return Known(
+        fix=distance.older_train(known.fix, elapsed_ms),
+        display=replace(known.display, age_ms=older_ms(known.display.age_ms, elapsed_ms)),
+    )
+
+
+def note_list(handset: Handset, age_ms: int, servers_well: bool) -> Handset:
+    """Note that the server's list has come, and what the monitoring server says (A1)."""
+    return replace(handset, server_age_ms=age_ms, servers_well=servers_well)
+
+
+def note_named(handset: Handset, train: Train) -> Handset:
+    """Note that the server's list names a train: nothing is known of it yet (A2)."""
+    return replace(handset, trains=handset.trains | {train: NOTHING_KNOWN})
+
+
+def note_gone(handset: Handset, gone: Train) -> Handset:
+    """Note that the server's list has a train no more (A2)."""
+    return replace(handset, trains={train: known for train, known in handset.trains.items() if train != gone})
+
+
+def note_fix(handset: Handset, train: Train, fix: TrainFix) -> Handset:
+    """Note where GPS says that a train is; one that is not on the list stays unknown (A2)."""
+    if train not in handset.trains:
+        return handset
+    return replace(handset, trains=handset.trains | {train: replace(handset.trains[train], fix=fix)})
+
+
+def note_display(handset: Handset, train: Train, display: Display) -> Handset:
+    """Note where the display shows a train; one that is not on the list stays unknown (A2)."""
+    if train not in handset.trains:
+        return handset
+    return replace(handset, trains=handset.trains | {train: replace(handset.trains[train], display=display)})
+
+
+def note_worker(handset: Handset, fix: WorkerFix) -> Handset:
+    """Note where the handset's own GPS says that the worker is (A1)."""
+    return replace(handset, worker=fix)
+
+
+def note_battery(handset: Handset, is_well: bool) -> Handset:
+    """Note whether the battery lasts (A8)."""
+    return replace(handset, battery_well=is_well)
+
+
+# ---- one train
+
+
+def has_fix(register: Register, known: Known) -> bool:
+    """Tell whether GPS is there, and fresh (A1)."""
+    return is_fix(known.fix.place_mm, known.fix.age_ms) and known.fix.age_ms <= register.fresh.fix_ms
+
+
+def is_display(display: Display) -> bool:
+    """Tell whether a record of the display is within the ranges of reports (A1)."""
+    return is_fix(display.from_mm, display.age_ms) and is_fix(display.to_mm, display.age_ms)
+
+
+def has_display(register: Register, known: Known) -> bool:
+    """Tell whether the display shows the train, and freshly (A1)."""
+    return is_display(known.display) and known.display.age_ms <= register.fresh.display_ms
+
+
+def agree(register: Register, known: Known) -> bool:
+    """Tell whether GPS puts a train where the display does (A2)."""
+    return (
+        known.display.from_mm - register.tolerance_mm
+        <= known.fix.place_mm
+        <= known.display.to_mm + register.tolerance_mm
+    )
+
+
+def is_matched(register: Register, known: Known) -> bool:
+    """Tell whether both sources are fresh and agree (A2)."""
+    return has_fix(register, known) and has_display(register, known) and agree(register, known)
+
+
+def is_within(section: NoUse, place_mm: int) -> bool:
+    """Tell whether a place is in a section (A4, A5)."""
+    return section.from_mm <= place_mm <= section.to_mm
+
+
+def is_registered(register: Register, train: Train, known: Known) -> bool:
+    """Tell whether it is registered that one source alone knows of a train (A4, A5, A6)."""
+    if has_fix(register, known):
+        return not has_display(register, known) and any(
+            section.reason == Reason.SHUNTING and is_within(section, known.fix.place_mm)
+            for _name, section in register.sections.items()
+        )
+    return has_display(register, known) and (
+        was_lost_without_gps(register, known)
+        or any(
+            section.reason == Reason.STABLING
+            and (train, name) in register.stabled
+            and is_within(section, known.display.from_mm)
+            and is_within(section, known.display.to_mm)
+            for name, section in register.sections.items()
+        )
+    )
+
+
+def was_lost_without_gps(register: Register, known: Known) -> bool:
+    """Tell whether the last fix, an hour old at most, is in a section without GPS (A4)."""
+    return is_fix(known.fix.place_mm, known.fix.age_ms) and any(
+        section.reason == Reason.WITHOUT_GPS and is_within(section, known.fix.place_mm)
+        for _name, section in register.sections.items()
+    )
+
+
+def from_stretch_um(bounds: AlarmBounds, from_mm: int, to_mm: int, worker: WorkerFix) -> int:
+    """Give how far a stretch is from the worker at the least, less a train's length; below 0 inside (A4, A6)."""
+    apart_mm = larger(from_mm - worker.place_mm, worker.place_mm - to_mm)
+    return UM_A_MM * apart_mm - UM_A_MM * bounds.length_mm - worker_off_um(bounds, worker)
+
+
+def nearest_by_display_um(register: Register, display: Display, worker: WorkerFix) -> int:
+    """Give the least distance that a train may have to the worker, by the display (A4, A6)."""
+    return (
+        from_stretch_um(register.bounds, display.from_mm, display.to_mm, worker)
+        - UM_A_MM * register.display_error_mm
+        - register.bounds.train_mm_s * display.age_ms
+    )
+
+
+def may_be_by_display(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train without GPS may be that near, by the display (A4, A6).
+
+    Its last fix counts as well as long as both agree: the train has got no farther from there than the
+    line's speed lets it.
+    """
+    return nearest_by_display_um(register, known.display, worker) <= UM_A_MM * limit_mm and not (
+        agree(register, known) and nearest_um(register.bounds, known.fix, worker) > UM_A_MM * limit_mm
+    )
+
+
+def is_put_at_the_end(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a section without GPS, in which a train was lost, has an end that near (004, 4.1; A4)."""
+    return any(
+        section.reason == Reason.WITHOUT_GPS
+        and is_within(section, known.fix.place_mm)
+        and from_stretch_um(register.bounds, section.from_mm, section.to_mm, worker) <= UM_A_MM * limit_mm
+        for _name, section in register.sections.items()
+    )
+
+
+def may_be_near(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train may be that near and not departing, as far as a source is fresh (A3 to A6).
+
+    The direction counts only where both sources agree.
+    """
+    if is_matched(register, known):
+        return distance.may_approach_within(register.bounds, known.fix, worker, limit_mm)
+    if has_fix(register, known):
+        return nearest_um(register.bounds, known.fix, worker) <= UM_A_MM * limit_mm
+    return has_display(register, known) and (
+        may_be_by_display(register, known, worker, limit_mm) or is_put_at_the_end(register, known, worker, limit_mm)
+    )
+
+
+# ---- the tone
+
+
+def has_worker(register: Register, handset: Handset) -> bool:
+    """Tell whether the worker's own place is known, and fresh (A8)."""
+    worker = handset.worker
+    return is_fix(worker.place_mm, worker.age_ms) and worker.age_ms <= register.fresh.worker_ms
+
+
+def is_linked(register: Register, handset: Handset) -> bool:
+    """Tell whether the server's list is fresh, and the servers well (A1, A8)."""
+    return 0 <= handset.server_age_ms <= register.fresh.server_ms and handset.servers_well
+
+
+def is_not_to_be_used(register: Register, worker: WorkerFix) -> bool:
+    """Tell whether the worker may be in a section that is not to be used: then the handset says so (A4, A5, A6)."""
+    off_um = worker_off_um(register.bounds, worker)
+    return any(
+        UM_A_MM * section.from_mm - off_um <= UM_A_MM * worker.place_mm <= UM_A_MM * section.to_mm + off_um
+        for _name, section in register.sections.items()
+    )
+
+
+def is_faulty(register: Register, handset: Handset) -> bool:
+    """Tell whether anything is not known that the normal tone rests on (A2, A8)."""
+    return (
+        not handset.battery_well
+        or not has_worker(register, handset)
+        or not is_linked(register, handset)
+        or is_not_to_be_used(register, handset.worker)
+        or any(
+            not is_matched(register, known) and not is_registered(register, train, known)
+            for train, known in handset.trains.items()
+        )
+    )
+
+
+def any_may_be_near(register: Register, handset: Handset, limit_mm: int) -> bool:
+    """Tell whether any train may be that near the worker, as far as he has a fix (A3)."""
+    return is_fix(handset.worker.place_mm, handset.worker.age_ms) and any(
+        may_be_near(register, known, handset.worker, limit_mm) for _train, known in handset.trains.items()
+    )
+
+
+def tone(register: Register, handset: Handset) -> Tone:
+    """Give the tone (A2, A3, A8)."""
+    if any_may_be_near(register, handset, ALARM_MM):
+        return Tone.ALARM
+    if is_faulty(register, handset):
+        return Tone.FAULT
+    return Tone.CAUTION if any_may_be_near(register, handset, CAUTION_MM) else Tone.NORMAL

@@ -1,0 +1,136 @@
+"""The earliest possible arrival of a train at a crossing, and the moment to warn for it (X1, X2, X3).
+
+From one ranging to the next the train is held to be the worst that it may be: it gains speed as hard as it
+can, up to the greatest speed of the line.  The earliest arrival counts, and not the likely one (X2, ours).
+
+No division: instead of a time of arrival the rule asks whether the way ends within so many cycles.  Ways are
+in µm, and so are paces, which is what speeds are here: the way of one cycle.  mm/s times ms is µm.  All fits
+into 64 bits for speeds to 200 m/s, gains to 4 m/s², cycles to a second and warning times to two minutes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, larger
+
+UM_A_MM = 1_000
+
+FARTHEST_MM = 10**8
+"""Rangings are of trains within 100 km; what is beyond is none (X1)."""
+
+
+@dataclass(frozen=True)
+class ArrivalBounds:
+    """What trains before one crossing are held to (X2); each above 0.
+
+    ``line_um``: the greatest pace on the line, with what a driver may exceed its speed by.
+    ``gain_um``: the most pace that any train gains in a cycle, on the steepest descent, rounded up.
+    ``cycle_ms``: from one decision to the next.
+    ``warning_cycles``: the crossing's warning time (X5).
+    ``silence_cycles``: as long as a ranging counts; then it is lost (X3).
+    """
+
+    line_um: int
+    gain_um: int
+    cycle_ms: int
+    warning_cycles: int
+    silence_cycles: int
+
+
+@dataclass(frozen=True)
+class Ranging:
+    """What came of the radio in this cycle (X1).
+
+    ``valid``: something did.
+    ``way_mm``: the nearest that the head was to the crossing by it; ``speed_mm_s``: the fastest towards it.
+    ``age_cycles``: how long ago that was.
+    """
+
+    valid: bool
+    way_mm: int
+    speed_mm_s: int
+    age_cycles: int
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What is known of a train in contact (X2).
+
+    ``way_um``: the nearest that its head may be to the crossing; ``short_um``: by how
+    much it is slower than the greatest pace on the line, at least.
+    ``age_cycles``: how old the ranging is that this rests on; beyond ``silence_cycles`` nothing is claimed.
+    ``warns``: it asks for the warning; it does so until it has passed.
+    """
+
+    way_um: int
+    short_um: int
+    age_cycles: int
+    warns: bool
+
+
+def cannot_arrive(bounds: ArrivalBounds, way_um: int, short_um: int, cycles: int) -> bool:
+    """Tell whether a train that is no nearer and no faster than this does not arrive within so many cycles (X2).
+
+    Either it gains all the while; or it comes to the greatest pace on the way, and what it is short of that
+    now shortens the way that it would make at it.  ``short_um`` is not negative.
+    """
+    line_nearer_um = cycles * bounds.line_um - way_um
+    if cycles * bounds.gain_um <= short_um:
+        return 2 * line_nearer_um < 2 * cycles * short_um - cycles * (cycles + 1) * bounds.gain_um
+    return 2 * bounds.gain_um * line_nearer_um < short_um * (short_um - bounds.gain_um)
+
+
+def counts(bounds: ArrivalBounds, ranging: Ranging) -> bool:
+    """Tell whether a ranging may be reckoned with: there is one, of this line, and not too old (X1, X3)."""
+    return (
+        ranging.valid
+        and -FARTHEST_MM <= ranging.way_mm <= FARTHEST_MM
+        and ranging.speed_mm_s <= GREATEST_SPEED_MM_S
+        and 0 <= ranging.age_cycles <= bounds.silence_cycles
+    )
+
+
+def taken(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
+    """Take a ranging: shortened by its age at the greatest speed of the line (X2, ours).
+
+    A train that moves away counts as standing.
+    """
+    if not counts(bounds, ranging):
+        return followed
+    pace_um = bounds.cycle_ms * larger(0, ranging.speed_mm_s) + ranging.age_cycles * bounds.gain_um
+    return replace(
+        followed,
+        way_um=UM_A_MM * ranging.way_mm - ranging.age_cycles * bounds.line_um,
+        short_um=larger(0, bounds.line_um - pace_um),
+        age_cycles=ranging.age_cycles,
+    )
+
+
+def must_warn(bounds: ArrivalBounds, followed: Followed) -> bool:
+    """Tell whether the warning must begin now: its ranging is lost, or the next decision might be too late (X2, X3).
+
+    One cycle until the next decision, and one in which it arrives: the warning time lies between them.
+    """
+    if followed.warns or followed.age_cycles > bounds.silence_cycles:
+        return True
+    return not cannot_arrive(bounds, followed.way_um, followed.short_um, bounds.warning_cycles + 2)
+
+
+def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
+    """Give the worst that the train may be one cycle later (X2); what is lost stays as it is."""
+    if followed.age_cycles > bounds.silence_cycles:
+        return followed
+    short_um = larger(0, followed.short_um - bounds.gain_um)
+    return replace(
+        followed,
+        way_um=followed.way_um - bounds.line_um + short_um,
+        short_um=short_um,
+        age_cycles=followed.age_cycles + 1,
+    )
+
+
+def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
+    """Decide for the cycle that begins (X1, X2, X3); :func:`aged` is what is known at its end."""
+    now = taken(bounds, followed, ranging)
+    return replace(now, warns=must_warn(bounds, now))

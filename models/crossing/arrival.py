@@ -1,0 +1,164 @@
+"""A train that runs towards a crossing, and the rangings of it (X1, X2).
+
+The crossing as a point, and the train's head as one.  Ways to it and paces towards it in µm; negative
+paces lead away from it.  Stopping short, reversing and speeding up are all within the bounds of its motion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.crossing import arrival
+from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Followed, Ranging
+from kernel.onboard.arithmetic import larger
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """What does not change: the bounds that trains before this crossing are held to (X2)."""
+
+    bounds: ArrivalBounds
+
+
+@dataclass(frozen=True)
+class Coming:
+    """One moment of a train that is in contact.
+
+    ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
+    ``ranged``: the ranging that is under way or was the last one, with its true age.
+    ``arrived``: its head has been seen at the crossing, or beyond.
+    ``decided``: the crossing has decided for the cycle that begins.
+    ``worst``: history: what was known at the last decision not to warn; since then the worst that it allows.
+    ``left_cycles``: history: within so many cycles it cannot arrive, by that decision.
+    ``silent_cycles``: history: for how many decisions the radio has brought nothing.
+    ``warned_cycles``: history: how long the warning has lasted.
+    ``followed``: what the crossing knows.
+    """
+
+    way_um: int
+    pace_um: int
+    ranged: Ranging
+    arrived: bool
+    decided: bool
+    worst: Followed
+    left_cycles: int
+    silent_cycles: int
+    warned_cycles: int
+    followed: Followed
+
+
+# ---- premises
+
+
+def bounds_are_above_zero(site: Crossing) -> bool:
+    """Trains move and gain speed, cycles last, and a ranging may be late (X2)."""
+    return (
+        site.bounds.line_um > 0
+        and site.bounds.gain_um > 0
+        and site.bounds.cycle_ms > 0
+        and site.bounds.warning_cycles >= 0
+        and site.bounds.silence_cycles > 0
+    )
+
+
+# ---- assumptions
+
+
+def the_ranging_bounds_the_train(site: Crossing, system: Coming, way_mm: int, speed_mm_s: int) -> bool:
+    """When it is taken, the head is no nearer and no faster than the ranging says with its errors (X1)."""
+    return UM_A_MM * way_mm <= system.way_um and system.pace_um <= site.bounds.cycle_ms * speed_mm_s
+
+
+def a_ranging_is_no_older_than_it_says(system: Coming, ranging: Ranging) -> bool:
+    """What the radio delivers is the ranging that was ordered last, or nothing; its age is not made less (X1).
+
+    It may come at any later moment, any number of times, or never.
+    """
+    return not ranging.valid or (
+        ranging.way_mm == system.ranged.way_mm
+        and ranging.speed_mm_s == system.ranged.speed_mm_s
+        and ranging.age_cycles >= system.ranged.age_cycles
+    )
+
+
+def a_decision_begins_each_cycle(system: Coming) -> bool:
+    """The crossing decides once before each cycle, never later: its computer keeps the time (X2)."""
+    return not system.decided
+
+
+def the_way_follows_the_speed(site: Crossing, system: Coming, to_um: int, pace_um: int) -> bool:
+    """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
+    return system.way_um - to_um <= larger(system.pace_um, pace_um)
+
+
+def the_train_gains_no_more(site: Crossing, system: Coming, pace_um: int) -> bool:
+    """In one cycle the train gains no more than motors and descent give it (X2)."""
+    return pace_um - system.pace_um <= site.bounds.gain_um
+
+
+def the_train_keeps_to_the_line_speed(site: Crossing, pace_um: int) -> bool:
+    """No train is faster than the greatest speed of the line, and what a driver may exceed it by (X2)."""
+    return pace_um <= site.bounds.line_um
+
+
+def who_is_at_the_crossing_has_come_all_the_way(system: Coming) -> bool:
+    """Nobody meets the train at the crossing while its head is before it (X2)."""
+    return system.way_um <= 0
+
+
+# ---- transitions
+
+
+def take_ranging(site: Crossing, system: Coming, way_mm: int, speed_mm_s: int) -> Coming:
+    """The ground unit orders a ranging, and it is taken; the one before is given up (X1)."""
+    if not the_ranging_bounds_the_train(site, system, way_mm, speed_mm_s):
+        return system
+    return replace(system, ranged=Ranging(True, way_mm, speed_mm_s, 0))
+
+
+def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
+    """The crossing decides by what the radio delivers, if it delivers anything (X1, X2, X3)."""
+    if not a_decision_begins_each_cycle(system) or not a_ranging_is_no_older_than_it_says(system, ranging):
+        return system
+    followed = arrival.follow(site.bounds, system.followed, ranging)
+    silent_cycles = 0 if ranging.valid else system.silent_cycles + 1
+    if followed.warns:
+        return replace(system, decided=True, silent_cycles=silent_cycles, followed=followed)
+    return replace(
+        system,
+        decided=True,
+        worst=followed,
+        left_cycles=site.bounds.warning_cycles + 2,
+        silent_cycles=silent_cycles,
+        followed=followed,
+    )
+
+
+def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Coming:
+    """The train runs for a cycle as it likes: on, slower, back, or as hard as it can (X2)."""
+    if a_decision_begins_each_cycle(system) or not the_way_follows_the_speed(site, system, to_um, pace_um):
+        return system
+    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_the_line_speed(site, pace_um):
+        return system
+    run = replace(
+        system,
+        way_um=to_um,
+        pace_um=pace_um,
+        ranged=replace(system.ranged, age_cycles=system.ranged.age_cycles + 1),
+        decided=False,
+        left_cycles=system.left_cycles - 1,
+        warned_cycles=system.warned_cycles + 1 if system.followed.warns else 0,
+        followed=arrival.aged(site.bounds, system.followed),
+    )
+    if system.worst.short_um <= site.bounds.gain_um:
+        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - site.bounds.line_um, short_um=0))
+    short_um = system.worst.short_um - site.bounds.gain_um
+    way_um = system.worst.way_um - site.bounds.line_um + short_um
+    return replace(run, worst=replace(system.worst, way_um=way_um, short_um=short_um))
+
+
+def arrive(site: Crossing, system: Coming) -> Coming:
+    """The train is met at the crossing (X2)."""
+    if not who_is_at_the_crossing_has_come_all_the_way(system):
+        return system
+    return replace(system, arrived=True)

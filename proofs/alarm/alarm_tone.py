@@ -1,0 +1,173 @@
+"""What is claimed of the tone: the normal one means that no train approaches within 3000 m (A2 to A6, A8)."""
+
+from __future__ import annotations
+
+from kernel.alarm import tone as machine
+from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, is_fix, train_off_um, worker_off_um
+from kernel.alarm.tone import Tone
+from kernel.onboard.arithmetic import magnitude
+from models.alarm import alarm_tone as world
+from models.alarm.alarm_tone import (
+    Railway,
+    Worksite,
+    a_wrong_fix_is_contradicted,
+    no_train_is_longer_than_written,
+    no_train_turns_sooner,
+)
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def nothing_was_told(site: Railway, system: Worksite) -> bool:
+    """At the start the handset has heard nothing; trains are wherever they are (A8)."""
+    return (
+        system.heard.tone == Tone.FAULT
+        and not system.heard.matched_within_1500
+        and all(False for _train in system.handset.trains)
+        and system.handset.server_age_ms > GREATEST_AGE_MS
+        and system.handset.worker.age_ms > GREATEST_AGE_MS
+        and all(body.fix_is_right for _train, body in system.bodies.items())
+        and all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
+    )
+
+
+# ---- safety
+
+
+def the_normal_tone_means_no_train_within_3000_m(site: Railway, system: Worksite) -> bool:
+    """While the normal tone sounds each train of the line is farther than 3000 m, or has departed (A3)."""
+    return system.heard.tone != Tone.NORMAL or not system.heard.within_3000
+
+
+def caution_means_no_train_within_1500_m(site: Railway, system: Worksite) -> bool:
+    """While caution alone sounds each train is farther than 1500 m, or has departed (A3)."""
+    return system.heard.tone != Tone.CAUTION or not system.heard.within_1500
+
+
+def unknown_is_never_normal(site: Railway, system: Worksite) -> bool:
+    """Without fault tone or alarm each train of the line is on the list, and known as it should be (A2, A8)."""
+    return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.unknown
+
+
+def a_departing_train_never_masks_an_approaching_one(site: Railway, system: Worksite) -> bool:
+    """If a matched train is within 1500 m and has not departed, the alarm sounds, whatever the others do (A3)."""
+    return system.heard.tone == Tone.ALARM or not system.heard.matched_within_1500
+
+
+def in_a_section_not_to_be_used_no_tone_is_normal(site: Railway, system: Worksite) -> bool:
+    """A worker who has a fix, and is in such a section, hears the fault tone or the alarm (A4, A5, A6)."""
+    return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.not_to_be_used
+
+
+# ---- what it rests on
+
+
+def the_worker_is_within_reach_of_his_fix(site: Railway, system: Worksite) -> bool:
+    """The worker has got no farther from his fix than error and age allow (A1)."""
+    worker = system.handset.worker
+    return not is_fix(worker.place_mm, worker.age_ms) or (
+        magnitude(system.worker_um - UM_A_MM * worker.place_mm) <= worker_off_um(site.register.bounds, worker)
+    )
+
+
+def trains_are_within_reach_of_right_fixes(site: Railway, system: Worksite) -> bool:
+    """No antenna has got farther from where it was told than error and age allow (A1)."""
+    return all(
+        magnitude(body.antenna_um - UM_A_MM * system.handset.trains[train].fix.place_mm)
+        <= train_off_um(site.register.bounds, system.handset.trains[train].fix)
+        for train, body in system.bodies.items()
+        if train in system.handset.trains
+        and body.fix_is_right
+        and is_fix(system.handset.trains[train].fix.place_mm, system.handset.trains[train].fix.age_ms)
+    )
+
+
+def trains_are_within_reach_of_the_display(site: Railway, system: Worksite) -> bool:
+    """Nor from the stretch that the display shows (A1, A2)."""
+    return all(
+        UM_A_MM * (system.handset.trains[train].display.from_mm - site.register.display_error_mm)
+        - site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
+        <= body.antenna_um
+        <= UM_A_MM * (system.handset.trains[train].display.to_mm + site.register.display_error_mm)
+        + site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
+        for train, body in system.bodies.items()
+        if train in system.handset.trains and machine.is_display(system.handset.trains[train].display)
+    )
+
+
+def wrong_fixes_are_contradicted(site: Railway, system: Worksite) -> bool:
+    """A fix that is wrong is one that the display contradicts (A2)."""
+    return all(
+        a_wrong_fix_is_contradicted(site, system.handset.trains[train], body.fix_is_right)
+        for train, body in system.bodies.items()
+        if train in system.handset.trains
+    )
+
+
+def told_directions_still_hold(site: Railway, system: Worksite) -> bool:
+    """While it counts, no direction told is against that of the train (A3)."""
+    return all(
+        no_train_turns_sooner(site, system.handset.trains[train], body.heading)
+        for train, body in system.bodies.items()
+        if train in system.handset.trains
+    )
+
+
+def no_train_of_the_line_is_longer(site: Railway, system: Worksite) -> bool:
+    """Trains are as long as written, or shorter (A1)."""
+    return all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
+
+
+def a_fresh_list_has_every_train(site: Railway, system: Worksite) -> bool:
+    """While the list is fresh, every train of the line is on it (A1)."""
+    return not machine.is_linked(site.register, system.handset) or all(
+        train in system.handset.trains for train in system.bodies
+    )
+
+
+INITIAL = (nothing_was_told,)
+SAFETY = (
+    the_normal_tone_means_no_train_within_3000_m,
+    caution_means_no_train_within_1500_m,
+    unknown_is_never_normal,
+    a_departing_train_never_masks_an_approaching_one,
+    in_a_section_not_to_be_used_no_tone_is_normal,
+)
+INVARIANTS = (
+    *SAFETY,
+    the_worker_is_within_reach_of_his_fix,
+    trains_are_within_reach_of_right_fixes,
+    trains_are_within_reach_of_the_display,
+    wrong_fixes_are_contradicted,
+    told_directions_still_hold,
+    no_train_of_the_line_is_longer,
+    a_fresh_list_has_every_train,
+)
+PREMISES = (world.the_alarm_limit_is_within_an_hour,)
+STEPS = (
+    world.come,
+    world.leave,
+    world.intend,
+    world.pass_time,
+    world.hear_list,
+    world.hear_named,
+    world.hear_gone,
+    world.take_fix,
+    world.take_display,
+    world.take_worker_fix,
+    world.look_at_the_battery,
+    world.listen,
+)
+
+THEORY = Theory(
+    "alarm_tone",
+    Railway,
+    Worksite,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    by_name(PREMISES),
+    quantified=True,
+)

@@ -1,0 +1,335 @@
+"""A worker's day: trains that come, pass and go, tunnels, shunting, stabled trains, and sources that fail."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.alarm import tone as machine
+from kernel.alarm.distance import (
+    GREATEST_AGE_MS,
+    NO_WORKER_FIX,
+    UM_A_MM,
+    TrainFix,
+    WorkerFix,
+    nearest_um,
+)
+from kernel.alarm.tone import (
+    NO_DISPLAY,
+    NOTHING_KNOWN,
+    Display,
+    Tone,
+)
+from models.alarm.alarm_tone import Body, Heard, Railway, gap_um, has_departed
+from proofs.alarm.witnesses import one_decision
+from proofs.alarm.witnesses.worksite import (
+    ALARM,
+    BOUNDS,
+    CAUTION,
+    DOWN,
+    FAULT,
+    FIRST,
+    FRESH,
+    KM,
+    NORMAL,
+    OTHER,
+    REGISTER,
+    UNKNOWN,
+    UP,
+    WORKER_MM,
+    Day,
+    known,
+)
+
+# ---- days
+
+
+def a_train_comes_passes_and_goes_with_another_behind_it() -> None:
+    """The first departs, the second approaches: no tone is missed (004, 3.3; A3)."""
+    day = Day()
+    assert day.tone() == FAULT
+    day.hear()
+    assert day.tone() == NORMAL
+    day.come(FIRST, 6 * KM)
+    assert day.tone() == FAULT
+    day.come(OTHER, 4 * KM)
+    tones: list[tuple[Tone, Tone]] = []
+    for _ in range(460):
+        day.hear()
+        day.tell(FIRST, DOWN)
+        day.tell(OTHER, DOWN)
+        day.run(1_000, (FIRST, DOWN), (OTHER, DOWN))
+        alone = replace(day.system.handset, trains={FIRST: day.system.handset.trains[FIRST]})
+        heard = (day.tone(), machine.tone(REGISTER, alone))
+        if not tones or tones[-1] != heard:
+            tones.append(heard)
+    assert tones == [
+        (NORMAL, NORMAL),
+        (CAUTION, CAUTION),
+        (ALARM, ALARM),
+        (CAUTION, NORMAL),
+        (ALARM, NORMAL),
+        (NORMAL, NORMAL),
+    ]
+    day.step("leave", train=FIRST)
+    assert set(day.system.bodies) == {OTHER}
+    day.step("hear_gone", train=FIRST)
+    assert set(day.system.handset.trains) == {OTHER}
+    assert day.tone() == NORMAL
+
+
+def what_the_worker_hears_goes_into_history() -> None:
+    """The truth beside the tone, at each distance (A3)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 1_400_000)
+    day.tell(FIRST, DOWN)
+    assert day.tone() == ALARM
+    assert day.system.heard == Heard(ALARM, True, True, True, False, False)
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 2_900_000)
+    day.tell(FIRST)
+    assert day.tone() == CAUTION
+    assert day.system.heard == Heard(CAUTION, True, False, False, False, False)
+    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+    assert day.tone() == FAULT
+    assert day.system.heard == Heard(FAULT, True, False, False, True, False)
+    day = Day(worker_mm=40 * KM)
+    day.hear()
+    assert day.tone() == FAULT
+    assert day.system.heard == Heard(FAULT, False, False, False, False, True)
+    day.come(FIRST, 40 * KM)
+    assert day.tone() == FAULT
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True)
+    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+    assert day.tone() == FAULT
+    assert day.system.heard == Heard(FAULT, True, True, False, True, False)
+    day = Day()
+    day.hear()
+    day.step("look_at_the_battery", battery_well=False)
+    assert day.tone() == FAULT
+    assert day.system.heard == Heard(FAULT, False, False, False, True, False)
+
+
+def a_train_reaches_from_end_to_end() -> None:
+    """The gap is to its nearer end; it has departed when all of it is past (A3)."""
+    body = Body(0, DOWN, 58_000, 2_000, 0, DOWN, fix_is_right=True)
+    assert gap_um(body, UM_A_MM * 500_000) == UM_A_MM * 498_000
+    assert gap_um(body, -UM_A_MM * 500_000) == UM_A_MM * 442_000
+    assert gap_um(body, 0) == -UM_A_MM * 2_000
+    assert has_departed(body, -UM_A_MM * 158_000)
+    assert not has_departed(body, -UM_A_MM * 157_999)
+    assert not has_departed(replace(body, heading=UP), -UM_A_MM * 158_000)
+    assert not has_departed(replace(body, heading=UNKNOWN), -UM_A_MM * 158_000)
+    assert has_departed(replace(body, heading=UP), UM_A_MM * 102_000)
+    assert not has_departed(replace(body, heading=UP), UM_A_MM * 101_999)
+
+
+def a_wrong_fix_is_found() -> None:
+    """GPS 7 km off: the display contradicts it, and the tone is the fault tone until both agree (A2)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 1_000_000)
+    day.tell(FIRST, off_mm=-7 * KM)
+    assert day.tone() == FAULT
+    day.run(1_000)
+    day.tell(FIRST)
+    assert day.tone() == ALARM
+
+
+def a_list_that_is_not_heard_is_the_fault_tone() -> None:
+    """A train may come while the link is silent; the next list has to name it (A1, A8)."""
+    day = Day()
+    day.hear()
+    day.run(8_000)
+    at_um = UM_A_MM * WORKER_MM
+    body = Body(at_um, DOWN, 58_000, 2_000, at_um, DOWN, fix_is_right=True)
+    before = day.system
+    assert day.step("come", train=FIRST, body=body) == before
+    day.run(1)
+    assert day.tone() == FAULT
+    day.step("come", train=FIRST, body=body)
+    assert FIRST in day.system.bodies
+    before = day.system
+    assert day.step("hear_list", age_ms=0, servers_well=True) == before
+    day.step("hear_named", train=FIRST)
+    day.hear()
+    assert day.tone() == FAULT
+    day.hear(well=False)
+    day.step("hear_list", age_ms=0, servers_well=True)
+    day.step("look_at_the_battery", battery_well=False)
+    assert not day.system.handset.battery_well
+
+
+# ---- nature
+
+
+def what_is_not_on_the_list_stays_unknown() -> None:
+    """Reports of it change nothing (A2)."""
+    day = Day()
+    day.hear()
+    before = day.system
+    assert day.step("take_fix", train=FIRST, fix=known(0).fix, at_um=0, is_right=True) == before
+    assert day.step("take_display", train=FIRST, display=known(0).display, at_um=0) == before
+    assert day.step("intend", train=FIRST, to_um=0, heading=DOWN) == before
+    day.step("hear_named", train=FIRST)
+    day.step("take_fix", train=FIRST, fix=known(5).fix, at_um=0, is_right=True)
+    day.step("take_display", train=FIRST, display=known(5).display, at_um=0)
+    assert day.system.handset.trains == {FIRST: known(5)}
+    day.step("hear_named", train=FIRST)
+    assert day.system.handset.trains == {FIRST: NOTHING_KNOWN}
+
+
+def what_is_no_report_may_say_anything() -> None:
+    """Garbage from either source arrives, and is the fault tone; directions count only of trains that run (A1, A2)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 5 * KM)
+    day.run(1_000, (FIRST, DOWN))
+    day.tell(FIRST, DOWN)
+    for age_ms in (-1, GREATEST_AGE_MS + 1):
+        fix = TrainFix(7, age_ms, UP, True)
+        for right in (True, False):
+            day.step("take_fix", train=FIRST, fix=fix, at_um=0, is_right=right)
+            assert day.system.handset.trains[FIRST].fix == fix
+            assert day.system.bodies[FIRST].fix_is_right == right
+        assert day.tone() == FAULT
+        agrees = replace(fix, place_mm=day.system.bodies[FIRST].antenna_um // UM_A_MM)
+        day.step("take_fix", train=FIRST, fix=agrees, at_um=0, is_right=False)
+        assert day.system.handset.trains[FIRST].fix == agrees
+        day.tell(FIRST, DOWN)
+        assert nearest_um(BOUNDS, day.system.handset.trains[FIRST].fix, WorkerFix(7, age_ms)) == 0
+        shown = Display(7, 7, age_ms)
+        day.step("take_display", train=FIRST, display=shown, at_um=0)
+        assert day.system.handset.trains[FIRST].display == shown
+        day.tell(FIRST, DOWN)
+        own = WorkerFix(7, age_ms)
+        day.step("take_worker_fix", fix=own, at_um=0)
+        assert day.system.handset.worker == own
+        day.hear()
+    fix = day.system.handset.trains[FIRST].fix
+    for told in (replace(fix, direction=UP, is_running=False), replace(fix, direction=UNKNOWN)):
+        day.step("take_fix", train=FIRST, fix=told, at_um=day.system.bodies[FIRST].antenna_um, is_right=True)
+        assert day.system.handset.trains[FIRST].fix == told
+    day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0)
+    told = replace(fix, direction=UP)
+    day.step("take_fix", train=FIRST, fix=told, at_um=day.system.bodies[FIRST].antenna_um, is_right=True)
+    assert day.system.handset.trains[FIRST].fix == told
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """Too fast, too long, too wrong, turned too soon, off the list: such events are refused."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 5 * KM)
+    day.run(1_000, (FIRST, DOWN))
+    day.tell(FIRST, DOWN)
+    before = day.system
+    body, here_mm = before.bodies[FIRST], before.bodies[FIRST].antenna_um // UM_A_MM
+    told = before.handset.trains[FIRST]
+    assert day.step("hear_gone", train=FIRST) == before
+    assert day.step("come", train=FIRST, body=replace(body, antenna_um=0)) == before
+    fix, at_um = told.fix, body.antenna_um
+    for bad, really_um in (
+        (replace(fix, direction=UP), at_um),
+        (replace(fix, place_mm=here_mm + 20_001), at_um),
+        (replace(fix, place_mm=here_mm - 20_001), at_um),
+        (fix, at_um + 1),
+        (fix, at_um - 1),
+    ):
+        assert day.step("take_fix", train=FIRST, fix=bad, at_um=really_um, is_right=True) == before
+    assert day.step("take_fix", train=FIRST, fix=fix, at_um=0, is_right=False) == before
+    shown = told.display
+    for display, really_um in (
+        (replace(shown, from_mm=here_mm + 10_001), at_um),
+        (replace(shown, to_mm=here_mm - 10_001), at_um),
+        (shown, at_um + 1),
+        (shown, at_um - 1),
+    ):
+        assert day.step("take_display", train=FIRST, display=display, at_um=really_um) == before
+    day.step("take_display", train=FIRST, display=replace(shown, to_mm=here_mm - 10_000), at_um=at_um)
+    day.step("take_display", train=FIRST, display=shown, at_um=at_um)
+    assert day.system == before
+    own = WorkerFix(WORKER_MM, 0)
+    for worker, really_um in (
+        (replace(own, place_mm=WORKER_MM + 15_001), before.worker_um),
+        (replace(own, place_mm=WORKER_MM - 15_001), before.worker_um),
+        (own, before.worker_um + 1),
+    ):
+        assert day.step("take_worker_fix", fix=worker, at_um=really_um) == before
+    for to_um in (before.worker_um + 2_000_001, before.worker_um - 2_000_001):
+        assert day.step("pass_time", elapsed_ms=1_000, worker_to_um=to_um) == before
+    day.run(1_000, walks_mm_s=-2_000)
+    for to_um, heading in ((at_um + 27_000_001, DOWN), (at_um - 27_000_001, DOWN), (at_um, UP), (at_um, UNKNOWN)):
+        day.step("intend", train=FIRST, to_um=to_um, heading=heading)
+        before = day.system
+        assert day.step("pass_time", elapsed_ms=1_000, worker_to_um=before.worker_um) == before
+    day.step("intend", train=FIRST, to_um=at_um, heading=DOWN)
+    day.run(8_000)
+    day.tell(FIRST, off_mm=-7 * KM)
+    before = day.system
+    assert day.step("pass_time", elapsed_ms=12_001, worker_to_um=before.worker_um) == before
+    assert day.step("pass_time", elapsed_ms=12_000, worker_to_um=before.worker_um) != before
+
+
+def a_train_runs_as_it_heads() -> None:
+    """Backwards it gets nowhere, either way; nor does it while another train does as it should (A3)."""
+    day = Day()
+    day.hear()
+    day.come(OTHER, WORKER_MM, UP)
+    day.come(FIRST, WORKER_MM)
+    here_um = day.system.bodies[FIRST].antenna_um
+    for to_um, heading in ((here_um - 1, DOWN), (here_um + 1, UP)):
+        day.step("intend", train=FIRST, to_um=to_um, heading=heading)
+        before = day.system
+        assert day.step("pass_time", elapsed_ms=1, worker_to_um=before.worker_um) == before
+    day.run(1, (FIRST, UP))
+    day.run(1, (FIRST, DOWN), (OTHER, UP))
+
+
+def no_train_longer_than_written_comes() -> None:
+    """Nor one whose antenna is outside of it (A1)."""
+    day = Day()
+    day.step("hear_named", train=FIRST)
+    before = day.system
+    body = Body(0, UNKNOWN, 60_000, 60_000, 0, UNKNOWN, fix_is_right=True)
+    for below_mm, above_mm in ((60_001, 0), (0, 60_001), (-1, 0), (0, -1)):
+        bad = replace(body, below_mm=below_mm, above_mm=above_mm)
+        assert day.step("come", train=FIRST, body=bad) == before
+    day.step("come", train=FIRST, body=body)
+    assert day.system.bodies == {FIRST: body}
+
+
+def a_train_turns_when_it_can() -> None:
+    """After its report is too old for that, or while it shunts (A3, A5)."""
+    day = Day(worker_mm=50 * KM)
+    day.hear()
+    day.come(FIRST, 40 * KM)
+    day.run(1_000, (FIRST, DOWN))
+    day.tell(FIRST, DOWN, display=False)
+    assert day.tone() == NORMAL
+    day.run(1_000, (FIRST, UP))
+    day = Day()
+    day.site = Railway(replace(REGISTER, fresh=replace(FRESH, fix_ms=60_000, display_ms=60_000)))
+    day.hear()
+    day.come(FIRST, WORKER_MM + 5 * KM)
+    day.run(1_000, (FIRST, DOWN))
+    day.tell(FIRST, DOWN)
+    day.run(30_000, (FIRST, DOWN))
+    day.run(1, (FIRST, UP))
+
+
+WITNESSES = (
+    a_train_comes_passes_and_goes_with_another_behind_it,
+    what_the_worker_hears_goes_into_history,
+    a_train_reaches_from_end_to_end,
+    a_wrong_fix_is_found,
+    a_list_that_is_not_heard_is_the_fault_tone,
+    what_is_not_on_the_list_stays_unknown,
+    what_is_no_report_may_say_anything,
+    what_nature_does_not_do_does_not_happen,
+    a_train_runs_as_it_heads,
+    no_train_longer_than_written_comes,
+    a_train_turns_when_it_can,
+    *one_decision.WITNESSES,
+)

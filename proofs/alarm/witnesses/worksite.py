@@ -1,0 +1,151 @@
+"""A line with a tunnel, a yard and a siding, a worker with a handset, and what both sources tell (A1 to A8)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.alarm import tone as machine
+from kernel.alarm.distance import (
+    GREATEST_AGE_MS,
+    NO_TRAIN_FIX,
+    NO_WORKER_FIX,
+    UM_A_MM,
+    AlarmBounds,
+    Direction,
+    TrainFix,
+    WorkerFix,
+)
+from kernel.alarm.tone import (
+    NO_DISPLAY,
+    Display,
+    Freshness,
+    Handset,
+    Known,
+    NoUse,
+    Reason,
+    Register,
+    Section,
+    Tone,
+    Train,
+)
+from models.alarm.alarm_tone import Body, Heard, Railway, Worksite
+from proofs.alarm.alarm_tone import THEORY
+from proofs.onboard.witnesses.play import Play
+
+DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
+ALARM, FAULT, CAUTION, NORMAL = Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL
+BOUNDS = AlarmBounds(
+    train_mm_s=27_000,
+    worker_mm_s=2_000,
+    length_mm=60_000,
+    train_error_mm=20_000,
+    worker_error_mm=15_000,
+    turning_ms=30_000,
+)
+FRESH = Freshness(fix_ms=10_000, display_ms=12_000, server_ms=8_000, worker_ms=5_000)
+TUNNEL, YARD, SIDING = Section("tunnel"), Section("yard"), Section("siding")
+KM = 1_000_000
+REGISTER = Register(
+    BOUNDS,
+    FRESH,
+    display_error_mm=10_000,
+    tolerance_mm=50_000,
+    sections={
+        TUNNEL: NoUse(Reason.WITHOUT_GPS, 20 * KM, 23 * KM),
+        YARD: NoUse(Reason.SHUNTING, 40 * KM, 41 * KM),
+        SIDING: NoUse(Reason.STABLING, 60 * KM, 61 * KM),
+    },
+    stabled=frozenset({(Train("9D"), SIDING)}),
+)
+SITE = Railway(REGISTER)
+WORKER_MM = 10 * KM
+OFF_MM = 60_000 + 20_000 + 15_000
+"""Taken off with new fixes: length and both errors."""
+HUGE = 2**62
+SILENT = Heard(FAULT, False, False, False, False, False)
+FIRST, OTHER, STABLED = Train("1D"), Train("2U"), Train("9D")
+
+
+def known(place_mm: int, heading: Direction = UNKNOWN, *, age_ms: int = 0, shown: bool = True) -> Known:
+    """Both sources say the same, but for a display that shows nothing."""
+    fix = TrainFix(place_mm, age_ms, heading, heading != UNKNOWN)
+    return Known(fix, Display(place_mm - 2 * KM, place_mm + 2 * KM, age_ms) if shown else NO_DISPLAY)
+
+
+def handset(*trains: Known, worker_mm: int = WORKER_MM) -> Handset:
+    """All is well."""
+    names = (FIRST, OTHER)
+    return Handset(WorkerFix(worker_mm, 0), 0, True, True, dict(zip(names, trains, strict=False)))
+
+
+def tone(*trains: Known, worker_mm: int = WORKER_MM) -> Tone:
+    """The tone, all else being well."""
+    return machine.tone(REGISTER, handset(*trains, worker_mm=worker_mm))
+
+
+def stabled(display: Display, fix: TrainFix = NO_TRAIN_FIX, name: Train = STABLED, worker_mm: int = 50 * KM) -> Tone:
+    """The tone with one train on the display alone."""
+    return machine.tone(REGISTER, replace(handset(worker_mm=worker_mm), trains={name: Known(fix, display)}))
+
+
+class Day(Play[Railway, Worksite]):
+    """A worker who stands at 10 km, and hears the tone after each step."""
+
+    def __init__(self, worker_mm: int = WORKER_MM) -> None:
+        """Begin: nothing was told, and no train is there."""
+        nothing = Handset(NO_WORKER_FIX, GREATEST_AGE_MS + 1, servers_well=True, battery_well=True, trains={})
+        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, nothing, SILENT))
+
+    def tone(self) -> Tone:
+        """Listen."""
+        before = self.system
+        self.step("listen")
+        assert replace(self.system, heard=before.heard) == before
+        return self.system.heard.tone
+
+    def hear(self, *, age_ms: int = 0, well: bool = True) -> None:
+        """The server's list comes, and the worker's own fix."""
+        self.step("hear_list", age_ms=age_ms, servers_well=well)
+        self.step("take_worker_fix", fix=WorkerFix(self.system.worker_um // UM_A_MM, 0), at_um=self.system.worker_um)
+        assert (self.system.handset.server_age_ms, self.system.handset.servers_well) == (age_ms, well)
+
+    def come(self, train: Train, at_mm: int, heading: Direction = DOWN) -> None:
+        """A train comes onto the line, after the list has named it."""
+        self.step("hear_named", train=train)
+        at_um = UM_A_MM * at_mm
+        body = Body(at_um, heading, 58_000, 2_000, at_um, heading, fix_is_right=False)
+        self.step("come", train=train, body=body)
+        assert self.system.bodies[train] == replace(body, fix_is_right=True)
+
+    def tell(self, train: Train, heading: Direction = UNKNOWN, *, off_mm: int = 0, display: bool = True) -> Known:
+        """Both sources tell of a train, or GPS alone; ``off_mm``: how wrong the fix is."""
+        at_um = self.system.bodies[train].antenna_um
+        fix = TrainFix(at_um // UM_A_MM + off_mm, 0, heading, heading != UNKNOWN)
+        if display:
+            shown = Display(at_um // UM_A_MM - 2 * KM, at_um // UM_A_MM + 2 * KM, 0)
+            self.step("take_display", train=train, display=shown, at_um=at_um)
+            assert self.system.handset.trains[train].display == shown
+        right = abs(off_mm) <= BOUNDS.train_error_mm
+        self.step("take_fix", train=train, fix=fix, at_um=at_um, is_right=right)
+        assert self.system.handset.trains[train].fix == fix
+        assert self.system.bodies[train].fix_is_right == right
+        return self.system.handset.trains[train]
+
+    def run(self, elapsed_ms: int, *moves: tuple[Train, Direction], walks_mm_s: int = 0) -> None:
+        """Time passes; trains named run at the line's speed."""
+        for train, way in moves:
+            heading = self.system.bodies[train].heading if way == UNKNOWN else way
+            way_um = {DOWN: 27_000, UP: -27_000, UNKNOWN: 0}[way] * elapsed_ms
+            to_um = self.system.bodies[train].antenna_um + way_um
+            self.step("intend", train=train, to_um=to_um, heading=heading)
+            assert self.system.bodies[train].next_um == to_um
+            assert self.system.bodies[train].next_heading == heading
+        worker_to_um = self.system.worker_um + walks_mm_s * elapsed_ms
+        self.step("pass_time", elapsed_ms=elapsed_ms, worker_to_um=worker_to_um)
+        assert self.system.worker_um == worker_to_um
+        for train, _ in moves:
+            body = self.system.bodies[train]
+            assert (body.antenna_um, body.heading) == (body.next_um, body.next_heading)
+        for train, _ in moves:
+            body = self.system.bodies[train]
+            self.step("intend", train=train, to_um=body.antenna_um, heading=body.heading)

@@ -1,0 +1,1 @@
+"""What is claimed of the level crossing, a file a machine."""

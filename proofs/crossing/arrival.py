@@ -1,0 +1,134 @@
+"""What is claimed of the rule for warning: no train arrives before the warning time, whatever it does (X2, X3)."""
+
+from __future__ import annotations
+
+from kernel.crossing import arrival
+from kernel.crossing.arrival import UM_A_MM
+from kernel.onboard.arithmetic import smaller
+from models.crossing.arrival import Coming, Crossing, arrive, bounds_are_above_zero, decide, run_a_cycle, take_ranging
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
+    """At first contact the train is bounded by a ranging, and far enough; else the start point warns (X3)."""
+    return (
+        not system.decided
+        and not system.arrived
+        and not system.followed.warns
+        and system.warned_cycles == 0
+        and system.followed.age_cycles == 0
+        and system.silent_cycles == 0
+        and system.followed.way_um <= system.way_um
+        and system.pace_um <= site.bounds.line_um - system.followed.short_um
+        and 0 <= system.followed.short_um <= site.bounds.line_um
+        and system.worst.way_um == system.followed.way_um
+        and system.worst.short_um == system.followed.short_um
+        and system.left_cycles == site.bounds.warning_cycles + 1
+        and arrival.cannot_arrive(site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles)
+        and system.ranged.age_cycles == 0
+        and UM_A_MM * system.ranged.way_mm <= system.way_um
+        and system.pace_um <= site.bounds.cycle_ms * system.ranged.speed_mm_s
+    )
+
+
+# ---- safety
+
+
+def warned_long_enough_before_the_arrival(site: Crossing, system: Coming) -> bool:
+    """When the head is at the crossing, the warning had lasted the warning time as that cycle began (X2, X5)."""
+    return not system.arrived or system.warned_cycles > site.bounds.warning_cycles
+
+
+def lost_ranging_warns(site: Crossing, system: Coming) -> bool:
+    """A train in contact is warned of once the radio has been silent for longer than a ranging counts (X3)."""
+    return system.followed.warns or system.silent_cycles <= site.bounds.silence_cycles + 1
+
+
+# ---- what it rests on
+
+
+def no_pace_is_beyond_the_lines(site: Crossing, system: Coming) -> bool:
+    """What is reckoned with is no faster than the line allows, and does not move away (X2)."""
+    return 0 <= system.followed.short_um <= site.bounds.line_um and 0 <= system.worst.short_um <= site.bounds.line_um
+
+
+def the_ranging_still_bounds_the_train(site: Crossing, system: Coming) -> bool:
+    """Since the ranging the train has come no nearer than at the line's speed, and gained no more than it can (X1)."""
+    way_um = system.ranged.age_cycles * site.bounds.line_um
+    gain_um = system.ranged.age_cycles * site.bounds.gain_um
+    return (
+        system.ranged.age_cycles >= 0
+        and UM_A_MM * system.ranged.way_mm - way_um <= system.way_um
+        and system.pace_um <= site.bounds.cycle_ms * system.ranged.speed_mm_s + gain_um
+    )
+
+
+def no_ranging_counts_as_newer_than_it_is(site: Crossing, system: Coming) -> bool:
+    """What the crossing rests on is as old as the radio's silence, or too old to count (X3)."""
+    least_cycles = system.silent_cycles - 1 if system.decided else system.silent_cycles
+    return (
+        system.followed.age_cycles >= 0
+        and smaller(least_cycles, site.bounds.silence_cycles + 1) <= system.followed.age_cycles
+    )
+
+
+def what_is_followed_bounds_the_train(site: Crossing, system: Coming) -> bool:
+    """While the ranging counts, the train is no nearer and no faster than the crossing holds it to be (X2)."""
+    return system.followed.age_cycles > site.bounds.silence_cycles or (
+        system.followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.followed.short_um
+    )
+
+
+def the_worst_bounds_the_train(site: Crossing, system: Coming) -> bool:
+    """The train is no nearer and no faster than the worst since the last decision not to warn (X2)."""
+    return system.worst.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.worst.short_um
+
+
+def cycles_are_counted_from_none(site: Crossing, system: Coming) -> bool:
+    """Silence and warning last no negative time, and what is not warned of counts no cycle (X2, X3)."""
+    return (
+        system.silent_cycles >= 0 and system.warned_cycles >= 0 and (system.followed.warns or system.warned_cycles == 0)
+    )
+
+
+def what_is_not_warned_of_is_left(site: Crossing, system: Coming) -> bool:
+    """The warning and what is left last the warning time, the cycle of arrival and that until a decision (X2)."""
+    begun_cycles = 1 if system.decided and not system.followed.warns else 0
+    return system.warned_cycles + system.left_cycles == site.bounds.warning_cycles + 1 + begun_cycles
+
+
+def even_the_worst_cannot_arrive_too_early(site: Crossing, system: Coming) -> bool:
+    """For what is left of the warning time, even the worst does not arrive (X2)."""
+    return system.left_cycles <= 0 or arrival.cannot_arrive(
+        site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles
+    )
+
+
+INITIAL = (contact_is_made_in_time,)
+SAFETY = (warned_long_enough_before_the_arrival, lost_ranging_warns)
+INVARIANTS = (
+    *SAFETY,
+    no_pace_is_beyond_the_lines,
+    the_ranging_still_bounds_the_train,
+    no_ranging_counts_as_newer_than_it_is,
+    what_is_followed_bounds_the_train,
+    the_worst_bounds_the_train,
+    cycles_are_counted_from_none,
+    what_is_not_warned_of_is_left,
+    even_the_worst_cannot_arrive_too_early,
+)
+PREMISES = (bounds_are_above_zero,)
+STEPS = (decide, run_a_cycle, arrive, take_ranging)
+
+THEORY = Theory(
+    "arrival",
+    Crossing,
+    Coming,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    by_name(PREMISES),
+)

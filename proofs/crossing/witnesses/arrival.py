@@ -1,0 +1,295 @@
+"""Trains before a crossing: fast, slow, stopping, reversing, starting anew, and with a radio that fails (X1 to X3)."""
+
+from __future__ import annotations
+
+from kernel.crossing import arrival as machine
+from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
+from models.crossing.arrival import Coming, Crossing
+from proofs.crossing.arrival import THEORY
+from proofs.onboard.witnesses.play import Play
+from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
+
+BOUNDS = ArrivalBounds(line_um=3_000_000, gain_um=10_000, cycle_ms=100, warning_cycles=350, silence_cycles=20)
+"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
+SITE = Crossing(BOUNDS)
+NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
+
+
+def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
+    """A train that has just been ranged, exactly."""
+    way_um, pace_um = UM_A_MM * way_mm, BOUNDS.cycle_ms * speed_mm_s
+    return Coming(
+        way_um=way_um,
+        pace_um=pace_um,
+        ranged=Ranging(True, way_mm, speed_mm_s, 0),
+        arrived=False,
+        decided=False,
+        worst=Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, False),
+        left_cycles=BOUNDS.warning_cycles + 1,
+        silent_cycles=0,
+        warned_cycles=0,
+        followed=Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, False),
+    )
+
+
+class Train(Play[Crossing, Coming]):
+    """A train in contact; ranged exactly and at once in each cycle, if not told otherwise."""
+
+    def __init__(self, system: Coming | None = None) -> None:
+        """Begin."""
+        super().__init__(THEORY, SITE, contacted() if system is None else system)
+
+    def range(self) -> None:
+        """Take a ranging, exact but for rounding to the safe side."""
+        way_mm, speed_mm_s = self.system.way_um // UM_A_MM, -(-self.system.pace_um // BOUNDS.cycle_ms)
+        self.step("take_ranging", way_mm=way_mm, speed_mm_s=speed_mm_s)
+        assert self.system.ranged == Ranging(True, way_mm, speed_mm_s, 0)
+
+    def decide(self, ranging: Ranging | None = None) -> None:
+        """The crossing decides, by the ranging under way if not told otherwise."""
+        self.step("decide", ranging=self.system.ranged if ranging is None else ranging)
+        assert self.system.decided
+
+    def run(self, pace_um: int) -> None:
+        """Come to a pace within a cycle, as far as can be."""
+        before = self.system
+        to_um = before.way_um - max(before.pace_um, pace_um)
+        self.step("run_a_cycle", to_um=to_um, pace_um=pace_um)
+        assert (self.system.way_um, self.system.pace_um, self.system.decided) == (to_um, pace_um, False)
+
+    def cycle(self, pace_um: int, ranging: Ranging | None = None) -> None:
+        """One ranging, one decision, one cycle."""
+        if ranging is None:
+            self.range()
+        self.decide(ranging)
+        self.run(pace_um)
+
+    def faster(self) -> int:
+        """The pace that it has after gaining all that it can."""
+        return min(self.system.pace_um + BOUNDS.gain_um, BOUNDS.line_um)
+
+    def warns(self) -> bool:
+        """Whether it asks for the warning."""
+        return self.system.followed.warns
+
+    def to_the_crossing(self) -> int:
+        """Run at its worst until it is there; give for how many cycles there was a warning before the last."""
+        while self.system.way_um > 0:
+            self.cycle(self.faster())
+        self.step("arrive")
+        assert self.system.arrived
+        return self.system.warned_cycles - 1
+
+
+# ---- the moment
+
+
+def at_the_lines_speed_the_warning_time_is_met_to_the_cycle() -> None:
+    """At 30 m/s, from wherever: the time itself and the cycle until the next decision, no more (X2, X5)."""
+    for way_mm in (2_000_000, 2_001_000, 2_002_999):
+        train = Train(contacted(way_mm, 30_000))
+        assert 350 <= train.to_the_crossing() <= 351
+
+
+def gaining_all_the_way_the_warning_time_is_met_to_the_cycle() -> None:
+    """From a stop 400 m before: it does not come to the line's speed; and from 1000 m, where it does (X2)."""
+    for way_mm, speed_mm_s in ((700_000, 0), (1_000_000, 5_000), (1_500_000, 10_000)):
+        train = Train(contacted(way_mm, speed_mm_s))
+        assert 350 <= train.to_the_crossing() <= 351
+
+
+def a_slow_train_is_warned_of_later() -> None:
+    """From 1056 m at 30 m/s, from 745 m at 5 m/s, from 608 m at a standstill: to the micrometre (X2)."""
+    for speed_mm_s, begins_mm in ((30_000, 1_056_000), (5_000, 744_750), (0, 607_500)):
+        pace_um = BOUNDS.cycle_ms * speed_mm_s
+        short_um = BOUNDS.line_um - pace_um
+        assert worst_way_um(pace_um, 352) == UM_A_MM * begins_mm
+        assert not machine.cannot_arrive(BOUNDS, UM_A_MM * begins_mm, short_um, 352)
+        assert machine.cannot_arrive(BOUNDS, UM_A_MM * begins_mm + 1, short_um, 352)
+    for cycles in (1, 249, 250, 251):
+        way_um = worst_way_um(500_000, cycles)
+        assert not machine.cannot_arrive(BOUNDS, way_um, 2_500_000, cycles)
+        assert machine.cannot_arrive(BOUNDS, way_um + 1, 2_500_000, cycles)
+
+
+def worst_way_um(pace_um: int, cycles: int) -> int:
+    """The way that a train makes at its worst, added up cycle by cycle."""
+    way_um = 0
+    for _ in range(cycles):
+        pace_um = min(pace_um + BOUNDS.gain_um, BOUNDS.line_um)
+        way_um += pace_um
+    return way_um
+
+
+def a_train_that_stops_short_asks_for_no_warning() -> None:
+    """Standing at a station some 790 m before the crossing, for as long as it is ranged; then it starts (X2)."""
+    train = Train(contacted(1_000_000, 5_000))
+    while train.system.way_um > 800_000_000:
+        train.cycle(500_000)
+    while train.system.pace_um > 0:
+        train.cycle(train.system.pace_um - 10_000)
+    for _ in range(100):
+        train.cycle(0)
+        assert not train.warns()
+    assert 350 <= train.to_the_crossing() <= 351
+
+
+def a_train_that_reverses_may_turn_again() -> None:
+    """Moving away it counts as standing, and one that turns is warned of in time (X2)."""
+    train = Train(contacted(700_000, 0))
+    for pace_um in (-10_000, -20_000, -500_000, -500_000):
+        train.cycle(pace_um)
+        assert not train.warns()
+        assert train.system.followed.short_um <= BOUNDS.line_um - BOUNDS.gain_um
+    train.range()
+    train.decide()
+    assert train.system.followed.short_um == BOUNDS.line_um
+    train.run(-500_000)
+    while train.system.pace_um < 0:
+        train.cycle(train.system.pace_um + 10_000)
+    assert train.to_the_crossing() >= 350
+
+
+def a_warning_once_begun_is_kept() -> None:
+    """Though the train then stops (X2, X4)."""
+    train = Train(contacted(1_100_000, 30_000))
+    while not train.warns():
+        train.cycle(3_000_000)
+    for _ in range(50):
+        train.cycle(0)
+        assert train.warns()
+    assert train.system.warned_cycles >= 50
+    assert train.to_the_crossing() > 350
+
+
+# ---- the radio
+
+
+def lost_ranging_warns_at_once() -> None:
+    """Two seconds after the last ranging, far from the crossing, and not before (X3)."""
+    train = Train(contacted(9_000_000, 20_000))
+    for silent in range(1, 23):
+        train.cycle(2_000_000, NOTHING)
+        assert train.system.silent_cycles == silent
+        assert train.warns() == (silent == 22)
+    assert train.system.warned_cycles == 1
+    assert train.system.followed.age_cycles == 21
+    lost = train.system.followed
+    for _ in range(5):
+        train.cycle(2_000_000, NOTHING)
+        assert train.system.followed == lost
+
+
+def without_rangings_the_worst_is_reckoned_with() -> None:
+    """Within the two seconds that a ranging counts a train may come near enough: it is warned of in time (X2)."""
+    train = Train(contacted(1_100_000, 30_000))
+    while train.system.way_um > 0:
+        train.cycle(3_000_000, NOTHING)
+    train.step("arrive")
+    assert 350 <= train.system.warned_cycles - 1 <= 351
+
+
+def a_ranging_again_takes_the_place_of_the_worst() -> None:
+    """Until then the train is held to gain speed, no more; the newer counts, and silence begins anew (X1, X2)."""
+    train = Train(contacted(3_000_000, 20_000))
+    for _ in range(15):
+        train.cycle(2_000_000, NOTHING)
+    assert train.system.followed.way_um == 3_000_000_000 - 15 * 2_000_000 - 120 * 10_000
+    assert train.system.way_um == 3_000_000_000 - 15 * 2_000_000
+    assert train.system.followed.short_um == 850_000
+    train.range()
+    train.decide()
+    assert train.system.followed == Followed(train.system.way_um, 1_000_000, 0, False)
+    assert train.system.silent_cycles == 0
+
+
+def a_late_ranging_is_shortened_by_its_age() -> None:
+    """By the line's speed, and the train may have gained since; at any age that counts (X2)."""
+    train = Train(contacted(3_000_000, 20_000))
+    train.range()
+    told = train.system.ranged
+    for _ in range(5):
+        train.decide(NOTHING)
+        train.run(2_000_000)
+    train.decide(Ranging(True, told.way_mm, told.speed_mm_s, 5))
+    assert train.system.followed == Followed(3_000_000_000 - 5 * 3_000_000, 950_000, 5, False)
+    for age_cycles, counts in ((20, True), (21, False), (0, True), (-1, False)):
+        assert machine.counts(BOUNDS, Ranging(True, 0, 0, age_cycles)) == counts
+    assert machine.taken(BOUNDS, train.system.followed, Ranging(True, 9_000, 29_950, 7)).short_um == 0
+
+
+def what_is_out_of_range_does_not_count() -> None:
+    """Beyond 100 km and beyond 200 m/s it is no ranging of a train; the edges are (X1)."""
+    held = contacted().followed
+    for way_mm, speed_mm_s, counts in (
+        (FARTHEST_MM, 200_000, True),
+        (FARTHEST_MM + 1, 0, False),
+        (-FARTHEST_MM, -(2**62), True),
+        (-FARTHEST_MM - 1, 0, False),
+        (0, 200_001, False),
+    ):
+        ranging = Ranging(True, way_mm, speed_mm_s, 0)
+        assert machine.counts(BOUNDS, ranging) == counts
+        assert (machine.taken(BOUNDS, held, ranging) == held) != counts
+    assert not machine.counts(BOUNDS, NOTHING)
+
+
+def every_number_fits_into_64_bits() -> None:
+    """Up to 200 m/s, 4 m/s², a cycle of a second and two minutes of warning (X2)."""
+    bounds = with_ints(Checked, ArrivalBounds(200_000_000, 4_000_000, 1_000, 120, 10))
+    for way_mm in (-FARTHEST_MM, 0, FARTHEST_MM, 2**62):
+        for speed_mm_s in (-(2**62), 0, 200_000, 2**62):
+            ranging = Ranging(True, Checked(way_mm), Checked(speed_mm_s), Checked(10))
+            held = Followed(Checked(0), Checked(200_000_000), Checked(0), False)
+            assert machine.aged(bounds, machine.follow(bounds, held, ranging)).age_cycles <= 11
+
+
+# ---- nature
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """Each of the assumptions refuses its event, at its edge and not within (X1, X2)."""
+    train = Train(contacted(2_000_000, 20_000))
+    start = train.system
+    for far in ({"way_mm": 2_000_001, "speed_mm_s": 20_000}, {"way_mm": 2_000_000, "speed_mm_s": 19_999}):
+        assert train.step("take_ranging", **far) == start
+    ranging = start.ranged
+    train.step("run_a_cycle", to_um=start.way_um - 2_000_000, pace_um=2_000_000)
+    assert train.step("arrive") == start
+    train.decide(NOTHING)
+    held = train.system
+    assert train.step("decide", ranging=ranging) == held
+    for event in (
+        {"to_um": start.way_um - 2_000_001, "pace_um": 2_000_000},
+        {"to_um": start.way_um, "pace_um": 2_010_001},
+    ):
+        assert train.step("run_a_cycle", **event) == held
+    train.run(2_010_000)
+    held = train.system
+    for other in (
+        Ranging(True, ranging.way_mm + 1, ranging.speed_mm_s, 1),
+        Ranging(True, ranging.way_mm, ranging.speed_mm_s - 1, 1),
+        Ranging(True, ranging.way_mm, ranging.speed_mm_s, 0),
+    ):
+        assert train.step("decide", ranging=other) == held
+    fast = Train(contacted(2_000_000, 30_000))
+    fast.decide()
+    held = fast.system
+    assert fast.step("run_a_cycle", to_um=held.way_um, pace_um=3_000_001) == held
+
+
+WITNESSES = (
+    at_the_lines_speed_the_warning_time_is_met_to_the_cycle,
+    gaining_all_the_way_the_warning_time_is_met_to_the_cycle,
+    a_slow_train_is_warned_of_later,
+    a_train_that_stops_short_asks_for_no_warning,
+    a_train_that_reverses_may_turn_again,
+    a_warning_once_begun_is_kept,
+    lost_ranging_warns_at_once,
+    without_rangings_the_worst_is_reckoned_with,
+    a_ranging_again_takes_the_place_of_the_worst,
+    a_late_ranging_is_shortened_by_its_age,
+    what_is_out_of_range_does_not_count,
+    every_number_fits_into_64_bits,
+    what_nature_does_not_do_does_not_happen,
+)

@@ -1,0 +1,95 @@
+"""Contracts on what the tone is made of, for CrossHair (`make crosshair`): leading asserts assume, later ones claim."""
+
+from __future__ import annotations
+
+from kernel.alarm.distance import AlarmBounds, Direction, TrainFix, WorkerFix
+from kernel.alarm.tone import (
+    Display,
+    Freshness,
+    Handset,
+    Known,
+    Register,
+    Tone,
+    agree,
+    from_stretch_um,
+    has_display,
+    has_fix,
+    is_matched,
+    nearest_by_display_um,
+    tone,
+)
+
+BOUNDS = AlarmBounds(
+    train_mm_s=27_000,
+    worker_mm_s=2_000,
+    length_mm=60_000,
+    train_error_mm=20_000,
+    worker_error_mm=15_000,
+    turning_ms=30_000,
+)
+REGISTER = Register(
+    BOUNDS,
+    Freshness(fix_ms=10_000, display_ms=12_000, server_ms=8_000, worker_ms=5_000),
+    display_error_mm=10_000,
+    tolerance_mm=50_000,
+    sections={},
+    stabled=frozenset(),
+)
+WORKER = WorkerFix(place_mm=0, age_ms=0)
+
+
+def known(place_mm: int, age_ms: int, from_mm: int, to_mm: int, shown_ms: int) -> Known:
+    """What both sources say."""
+    return Known(TrainFix(place_mm, age_ms, Direction.UNKNOWN, False), Display(from_mm, to_mm, shown_ms))
+
+
+def a_fix_is_fresh_for_ten_seconds(age_ms: int) -> None:
+    """Here; a negative age is none (A1)."""
+    assert isinstance(age_ms, int)
+    assert has_fix(REGISTER, known(0, age_ms, 0, 0, 0)) == (0 <= age_ms <= 10_000)
+
+
+def a_display_is_fresh_for_twelve_seconds(shown_ms: int) -> None:
+    """Here; a negative age is none (A1)."""
+    assert isinstance(shown_ms, int)
+    assert has_display(REGISTER, known(0, 0, 0, 0, shown_ms)) == (0 <= shown_ms <= 12_000)
+
+
+def what_is_far_outside_of_the_stretch_does_not_agree(place_mm: int, from_mm: int, to_mm: int) -> None:
+    """By more than the tolerance (A2)."""
+    assert place_mm > to_mm + 50_000
+    told = known(place_mm, 0, from_mm, to_mm, 0)
+    assert not agree(REGISTER, told)
+    assert not is_matched(REGISTER, told)
+
+
+def a_place_in_the_stretch_agrees(place_mm: int, from_mm: int, to_mm: int) -> None:
+    """Whatever the stretch (A2)."""
+    assert from_mm <= place_mm <= to_mm
+    assert agree(REGISTER, known(place_mm, 0, from_mm, to_mm, 0))
+
+
+def a_stretch_is_as_far_as_its_nearer_end(from_mm: int, way_mm: int) -> None:
+    """Less a train's length and the worker's error (A4, A6)."""
+    assert from_mm >= 0
+    assert way_mm >= 0
+    ahead_um = from_stretch_um(BOUNDS, from_mm, from_mm + way_mm, WORKER)
+    behind_um = from_stretch_um(BOUNDS, -from_mm - way_mm, -from_mm, WORKER)
+    assert ahead_um == 1_000 * (from_mm - 75_000)
+    assert behind_um == ahead_um
+
+
+def a_display_that_grows_old_comes_nearer(from_mm: int, age_ms: int) -> None:
+    """By the line's greatest speed (A1, A6)."""
+    assert 0 <= age_ms <= 3_600_000
+    assert from_mm >= 0
+    told = nearest_by_display_um(REGISTER, Display(from_mm, from_mm, age_ms), WORKER)
+    assert told == 1_000 * (from_mm - 85_000) - 27_000 * age_ms
+
+
+def with_no_train_on_the_line_all_must_be_well(age_ms: int, own_ms: int, well: bool, battery: bool) -> None:
+    """For the normal tone (A8)."""
+    assert isinstance(age_ms, int)
+    heard = tone(REGISTER, Handset(WorkerFix(0, own_ms), age_ms, well, battery, {}))
+    normal = well and battery and 0 <= age_ms <= 8_000 and 0 <= own_ms <= 5_000
+    assert heard == (Tone.NORMAL if normal else Tone.FAULT)
