@@ -20,7 +20,6 @@ from fuzz.jolted.searching import SEEDS, Found, Search
 from fuzz.jolted.seeds import runs_in, site_for, states
 from fuzz.jolted.telling import differing
 from fuzz.machines.places import TINY
-from fuzz.planted.draw import drawn
 from fuzz.targets.jolted import Jolted, search_on
 from fuzz.targets.target import Batch, Result
 from models.layouts import load
@@ -31,9 +30,14 @@ from tests.layouts.stations import ROOT
 
 ROUNDS = 1_500
 """Some six hundred thousand events."""
-FAULTS = {number: fault.name for number, fault in enumerate(drawn(), 1)}
-UNREACHED = {24: "answer", 25: "note_statement", 26: "send_tail_report"}
-"""Faults that traffic does not come upon, by their number in the draw, and the step that shows each."""
+OLD_LIFE = "kernel.standing.answer: or-operand life <= unit.life"
+UNREACHED = {
+    OLD_LIFE: "answer",
+    "kernel.supervision.note_statement: or-operand epoch != centre.epoch": "note_statement",
+    "kernel.tail_evidence.reports_left: guard if evidence is None or evidence.left != left"
+    " or evidence.entered != entered: False": "send_tail_report",
+}
+"""Faults that traffic does not come upon, and the step that shows each."""
 
 
 @cache
@@ -101,13 +105,13 @@ def test_every_word_of_a_state_is_in_a_leaf() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", UNREACHED)
-def test_a_fault_that_traffic_does_not_reach_is_found(number: int) -> None:
-    failures = [json.loads(text) for text in result(FAULTS[number]).failures]
-    assert UNREACHED[number] in {failure["step"] for failure in failures}
-    assert all(failure["planted"] == {"name": FAULTS[number]} for failure in failures)
+@pytest.mark.parametrize("fault", UNREACHED)
+def test_a_fault_that_traffic_does_not_reach_is_found(fault: str) -> None:
+    failures = [json.loads(text) for text in result(fault).failures]
+    assert UNREACHED[fault] in {failure["step"] for failure in failures}
+    assert all(failure["planted"] == {"name": fault} for failure in failures)
     assert not any(AGREES in failure["violated"] for failure in failures)
-    shown = next(failure for failure in failures if failure["step"] == UNREACHED[number])
+    shown = next(failure for failure in failures if failure["step"] == UNREACHED[fault])
     assert set(shown["violated"]) <= {*NAMES, UNDEFINED}
     assert decoded(shown["step"], shown["event"])
     assert shown["state"]
@@ -128,7 +132,7 @@ def test_a_batch_is_the_same_again() -> None:
 
 
 def test_what_is_found_does_not_depend_on_what_was_searched_before() -> None:
-    fault = FAULTS[24]
+    fault = OLD_LIFE
     first = result(fault).failures
     search(fault)[0].run(4, 7, 200)
     target = Jolted(TINY, fault, ROUNDS)
@@ -159,8 +163,8 @@ def test_a_judge_that_finds_what_is_not_so_is_noticed() -> None:
 
 def test_a_step_that_does_something_else_is_noticed() -> None:
     """Found with a fault planted in the engine and none in CPython: the two are not of one mind."""
-    native = search(FAULTS[24])[0].native
-    finds = search(FAULTS[24])[0].run(4, 0, ROUNDS).finds
+    native = search(OLD_LIFE)[0].native
+    finds = search(OLD_LIFE)[0].run(4, 0, ROUNDS).finds
     said = [confirmed(native, {}, find, False) for find in finds if find.judged is not None]
     assert said
     assert {each.violated for each in said} == {(AGREES,)}
