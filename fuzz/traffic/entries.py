@@ -14,7 +14,7 @@ import numba
 from llvmlite import ir
 from numba import cfunc, types
 
-from fuzz.traffic.compiling import built_in, compiled, kept_in, one_at_a_time
+from fuzz.traffic.compiling import KEPT, built_in, compiled
 from fuzz.traffic.places import DESK, ENTRIES, MEMORY, MOST_ENTRIES
 
 _numba: Any = numba
@@ -58,10 +58,10 @@ def entry(function: Callable[..., Any]) -> Any:
 def callbacks() -> tuple[Any, ...]:
     """Compile every entry of the modules imported so far; the desk has their addresses from ``ENTRIES`` on."""
     made = []
-    with one_at_a_time():
+    with KEPT.one_at_a_time():
         for function in _ENTRIES:
             extra = len(inspect.signature(function).parameters) - 2
-            with kept_in() as kept:
+            with KEPT.kept_in() as kept:
                 made.append(cfunc(_WORD(_WORDS, _WORDS, *([_WORD] * extra)), cache=kept)(function))
     return tuple(made)
 

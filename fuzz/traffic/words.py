@@ -38,37 +38,21 @@ def leading(typingctx: Any, word: Any) -> Any:
     return types.int64(types.int64), lower
 
 
-@built_in
-def times(typingctx: Any, one: Any, other: Any) -> Any:
-    """Multiply modulo 2**64: numba's own product of signed words must not overflow."""
-    del typingctx, one, other
+def _wrapping(instruction: str) -> Any:
+    """An instruction on two words, modulo 2**64: numba's own on signed words must not overflow."""
 
-    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.mul(*args)
+    def typed(typingctx: Any, one: Any, other: Any) -> Any:
+        del typingctx, one, other
 
-    return types.int64(types.int64, types.int64), lower
+        def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            return getattr(builder, instruction)(*args)
 
+        return types.int64(types.int64, types.int64), lower
 
-@built_in
-def plus(typingctx: Any, one: Any, other: Any) -> Any:
-    """Add modulo 2**64."""
-    del typingctx, one, other
-
-    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.add(*args)
-
-    return types.int64(types.int64, types.int64), lower
+    return built_in(typed)
 
 
-@built_in
-def minus(typingctx: Any, one: Any, other: Any) -> Any:
-    """Subtract modulo 2**64."""
-    del typingctx, one, other
-
-    def lower(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        return builder.sub(*args)
-
-    return types.int64(types.int64, types.int64), lower
+times, plus, minus = (_wrapping(each) for each in ("mul", "add", "sub"))
 
 
 # ---- drawing
