@@ -83,7 +83,7 @@ class BitsSet(Set):
 
         def bit(e: Emitter) -> ir.Value:
             numbers = [num.emit(e) for num in words]
-            return e.has_bit(e.load(self.place.array, self.index(e, numbers)), numbers[self.place.order[-1]])
+            return e.has_bit(e.load_members(self.place.array, self.index(e, numbers)), numbers[self.place.order[-1]])
 
         return Test(bit)
 
@@ -96,7 +96,7 @@ class BitsSet(Set):
             if len(indices) < len(axes):
                 e.loop(axes[len(indices)], lambda index: below([*indices, index]))
                 return
-            word = e.load(self.place.array, [*before, *indices])
+            word = e.load_members(self.place.array, [*before, *indices])
             first = e.build.shl(indices[-1], I64(6))
             e.each_bit(word, lambda bit: body(self.element([*indices[:-1], e.build.add(first, bit)])))
 

@@ -6,7 +6,8 @@ functional text means, whatever it updates and in whatever order.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from llvmlite import ir
 
@@ -17,6 +18,9 @@ I64, I1 = ir.IntType(64), ir.IntType(1)
 FUNCTION = ir.FunctionType(I64, [I64.as_pointer()])
 STORE, OR, AND_NOT = 0, 1, 2
 """What an entry of the log does to its word."""
+GROWN, SHRUNK = "grown", "shrunk"
+GROWS, EITHER_WAY, SHRINKS = 1, 0, -1
+"""What is asked becomes truer as a set grows, may change either way, or becomes truer as it shrinks."""
 ENTRY_WORDS = 3
 LOG_COUNT, BROKEN = HEADER.index("log_count"), HEADER.index("broken")
 UNROLLED = 4
@@ -30,11 +34,13 @@ class Emitter:
         self.memory = memory
         self.function = ir.Function(module, FUNCTION, name)
         self.function.args[0].add_attribute("noalias")
+        self.function.args[0].attributes.dereferenceable = 8 * memory.words
         self.words = self.function.args[0]
         self.entry = self.function.append_basic_block("entry")
         self.build = ir.IRBuilder(self.function.append_basic_block("body"))
         self.first = self.build.block
-        self.parts = 0
+        self.sense = GROWS
+        self.asked_when: dict[str, int] = {GROWN: 0, SHRUNK: 0}
         self.entries = self.variable()
 
     def variable(self, value: int = 0) -> ir.AllocaInstr:
@@ -48,6 +54,10 @@ class Emitter:
         """Write down how many entries the log has, and return."""
         self.build.store(self.build.load(self.entries), self.pointer(I64(LOG_COUNT)))
         self.build.ret(result)
+        self.begin()
+
+    def begin(self) -> None:
+        """All local variables are declared."""
         with self.build.goto_block(self.entry):
             self.build.branch(self.first)
 
@@ -78,9 +88,25 @@ class Emitter:
 
     def load(self, array: Array, at: Sequence[ir.Value]) -> ir.Value:
         """Read a word."""
-        if array.part >= 0:
-            self.parts |= 1 << array.part
+        self._note_read(array, EITHER_WAY)
         return self.build.load(self.pointer(self.address(array, at)))
+
+    def load_members(self, array: Array, at: Sequence[ir.Value]) -> ir.Value:
+        """Read a word of a set's bits, for nothing but whether there is something."""
+        self._note_read(array, self.sense)
+        return self.build.load(self.pointer(self.address(array, at)))
+
+    def _note_read(self, array: Array, sense: int) -> None:
+        if array.part >= 0:
+            self.asked_when[GROWN] |= (sense != GROWS) << array.part
+            self.asked_when[SHRUNK] |= (sense != SHRINKS) << array.part
+
+    @contextmanager
+    def in_sense(self, sense: int) -> Iterator[None]:
+        """Emit a condition of which what is asked grows truer, or less true, or changes either way, as sets grow."""
+        before, self.sense = self.sense, sense
+        yield
+        self.sense = before
 
     def write(self, array: Array, at: Sequence[ir.Value], does: int, word: ir.Value) -> None:
         """Put an entry in the log."""

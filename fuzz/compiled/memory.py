@@ -27,22 +27,26 @@ from fuzz.compiled.places import (
     lists_of,
     spread,
 )
-from kernel.centre import Centre
+from kernel.centre import Centre, Grant
 from kernel.names import Car, Route, Run, Serial, Train
 from kernel.terminal import Terminal
-from kernel.unit import Unit
+from kernel.unit import Order, Unit
 from models.world.state import Formation, Radio, Site, System, Track
 from proofs.lift.kinds import Kind, MapKind, RecordKind, Scalar, TupleKind, fields_of, kind_of_type
 
 Ints = npt.NDArray[np.int64]
-HEADER = ("broken", "changed", "state_hash", "log_count", "accepted")
-"""Words at the beginning: assumptions broken by the last step, parts of the state that it changed since they were
-last judged, the hash of the state, how many entries the log has, and how many steps changed something."""
+HEADER = ("broken", "grown", "shrunk", "state_hash", "log_count", "accepted")
+"""Words at the beginning: assumptions broken by the last step; parts of the state that have got something, and that
+have lost something, since they were last judged (what is no set does both); the hash of the state; how many entries
+the log has; how many steps changed something."""
+ALL_PARTS = -1
 HEADER_WORDS = 16
 EVENT_WORDS = 64
 PARTS: tuple[str, ...] = (
     *(f"centre_{field.name}" for field in fields(Centre)),
+    *(f"centre_runs_{field.name}" for field in fields(Grant)),
     *("units", *(f"units_{field.name}" for field in fields(Unit))),
+    *(f"units_orders_{field.name}" for field in fields(Order)),
     *("terminals", *(f"terminals_{field.name}" for field in fields(Terminal))),
     *(f"radio_{field.name}" for field in fields(Radio)),
     *(f"track_{field.name}" for field in fields(Track)),

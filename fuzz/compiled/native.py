@@ -11,7 +11,18 @@ import llvmlite.binding as llvm
 from llvmlite import ir
 
 from fuzz.compiled.contents import content, write
-from fuzz.compiled.emitter import ENTRY_WORDS, FUNCTION, I64, LOG_COUNT, OR, STORE, Emitter
+from fuzz.compiled.emitter import (
+    AND_NOT,
+    ENTRY_WORDS,
+    FUNCTION,
+    GROWN,
+    I64,
+    LOG_COUNT,
+    OR,
+    SHRUNK,
+    STORE,
+    Emitter,
+)
 from fuzz.compiled.memory import HEADER, KEYS, Ints, Memory, Packing, lay_out
 from fuzz.compiled.places import Place, Planner
 from fuzz.compiled.reading import Reader
@@ -43,7 +54,9 @@ ASSUMED: tuple[str, ...] = (
 ASSUMPTIONS: Mapping[Code, int] = {getattr(assumptions, name): at for at, name in enumerate(ASSUMED)}
 SPEED_LEVEL = 2
 TWO = ir.FunctionType(I64, [I64.as_pointer(), I64])
-CHANGED, STATE_HASH, ACCEPTED = (HEADER.index(name) for name in ("changed", "state_hash", "accepted"))
+STATE_HASH, ACCEPTED = (HEADER.index(name) for name in ("state_hash", "accepted"))
+WAYS: Mapping[str, int] = {GROWN: AND_NOT, SHRUNK: OR}
+"""What a part does, and the entry of the log that does the contrary."""
 I32_SHIFT, FIRST_SHIFT = 32, 29
 
 
@@ -53,7 +66,7 @@ class Native:
 
     ``step(memory, kind)``: take the event in the buffer; 1 if the state changed.
     ``step_beyond(memory, kind)``: the same though nature does not do so; see ``broken`` in the header.
-    ``judge(memory)``: the number of the first invariant that is false, of those that read what has changed; or -1.
+    ``judge(memory)``: the number of the first invariant that what has changed has made false; or -1.
     ``why(memory, kind)``: the number of the kernel's refusal of the event; or -1.
     ``holds_N(memory)``: 1 if the invariant of this number holds.
     """
@@ -61,7 +74,7 @@ class Native:
     memory: Memory
     addresses: Mapping[str, int]
     engine: Any = field(repr=False)
-    reads: Mapping[str, int] = field(repr=False)
+    asked_when: Mapping[str, Mapping[str, int]] = field(repr=False)
 
     def call(self, name: str, memory: Ints, *numbers: int) -> int:
         """Call one of the functions."""
@@ -88,7 +101,7 @@ def compiled(memory: Memory, sources: Sources | None = None) -> Native:
     text = str(building.module)
     engine = _engine(text)
     names = ("step", "step_beyond", "judge", "why", *(f"holds_{at}" for at in range(len(INVARIANTS))))
-    return Native(memory, {name: engine.get_function_address(name) for name in names}, engine, building.reads)
+    return Native(memory, {name: engine.get_function_address(name) for name in names}, engine, building.asked_when)
 
 
 def event_places(memory: Memory, kind: int) -> dict[str, Place]:
@@ -104,7 +117,7 @@ class _Building:
         self.memory, self.sources = memory, sources
         self.module = ir.Module("heisoku")
         self.module.triple = llvm.get_default_triple()
-        self.reads: dict[str, int] = {}
+        self.asked_when: dict[str, Mapping[str, int]] = {}
         apply = self._apply()
         steps, beyond, whys = {}, {}, {}
         for kind, transition in enumerate(TRANSITIONS):
@@ -141,8 +154,13 @@ class _Building:
         e = Emitter(self.module, f"holds_{at}", self.memory)
         reader = Reader(self.memory)
         value = truth_of(reader.call(INVARIANTS[name], {"site": reader.site(), "system": reader.system()}))
-        e.finish(value.word().emit(e))
-        self.reads[name] = e.parts
+        holds, false = e.block(), e.block()
+        value.jump(e, holds, false)
+        for block, word in ((holds, 1), (false, 0)):
+            e.enter(block)
+            e.build.ret(I64(word))
+        e.begin()
+        self.asked_when[name] = e.asked_when
         return e.function
 
     def _apply(self) -> ir.Function:
@@ -152,7 +170,7 @@ class _Building:
         """
         e = Emitter(self.module, "apply", self.memory)
         b = e.build
-        changed = e.variable()
+        changed = {way: e.variable() for way in WAYS}
         before = b.load(e.pointer(I64(STATE_HASH)))
 
         def entry(index: ir.Value) -> None:
@@ -167,15 +185,19 @@ class _Building:
             b.cbranch(e.equal(new, old), after, differs)
             e.enter(differs)
             b.store(new, place)
-            b.store(b.or_(b.load(changed), b.shl(I64(1), b.ashr(does, I64(2)))), changed)
+            part = b.shl(I64(1), b.ashr(does, I64(2)))
+            for way, contrary in WAYS.items():
+                did = b.select(e.equal(what, I64(contrary)), I64(0), part)
+                b.store(b.or_(b.load(changed[way]), did), changed[way])
             state_hash = e.pointer(I64(STATE_HASH))
             b.store(b.add(b.load(state_hash), b.sub(_mixed(e, address, new), _mixed(e, address, old))), state_hash)
             b.branch(after)
             e.enter(after)
 
         e.loop_to(b.load(e.pointer(I64(LOG_COUNT))), entry)
-        noted = e.pointer(I64(CHANGED))
-        b.store(b.or_(b.load(noted), b.load(changed)), noted)
+        for way in WAYS:
+            noted = e.pointer(I64(HEADER.index(way)))
+            b.store(b.or_(b.load(noted), b.load(changed[way])), noted)
         result = b.zext(b.icmp_signed("!=", b.load(e.pointer(I64(STATE_HASH))), before), I64)
         accepted = e.pointer(I64(ACCEPTED))
         b.store(b.add(b.load(accepted), result), accepted)
@@ -200,17 +222,19 @@ class _Building:
             b.ret(found if then is None else b.call(then, [words]))
 
     def _judge(self, cases: Mapping[str, ir.Function]) -> None:
-        """Ask the invariants that read what has changed."""
+        """Ask the invariants that what has changed may have made false."""
         function = ir.Function(self.module, FUNCTION, "judge")
         (words,) = function.args
         b = ir.IRBuilder(function.append_basic_block())
-        place = b.gep(words, [I64(CHANGED)])
-        changed = b.load(place)
-        b.store(I64(0), place)
+        changed = {}
+        for way in WAYS:
+            place = b.gep(words, [I64(HEADER.index(way))])
+            changed[way] = b.load(place)
+            b.store(I64(0), place)
         for at, (name, case) in enumerate(cases.items()):
             asked, false, after = (function.append_basic_block() for _ in range(3))
-            touched = b.icmp_signed("!=", b.and_(changed, I64(self.reads[name])), I64(0))
-            b.cbranch(touched, asked, after)
+            touched = (b.and_(changed[way], I64(self.asked_when[name][way])) for way in WAYS)
+            b.cbranch(b.icmp_signed("!=", b.or_(*touched), I64(0)), asked, after)
             b.position_at_end(asked)
             b.cbranch(b.icmp_signed("==", b.call(case, [words]), I64(0)), false, after)
             b.position_at_end(false)

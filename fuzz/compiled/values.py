@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from llvmlite import ir
 
-from fuzz.compiled.emitter import I1, I64, Emitter
+from fuzz.compiled.emitter import EITHER_WAY, I1, I64, Emitter
 from proofs.lift.kinds import Scalar
 
 Key = Hashable
@@ -52,7 +52,8 @@ class Truth:
 
         def emit(e: Emitter) -> ir.Value:
             yes, no, after = e.block(), e.block(), e.block()
-            self.jump(e, yes, no)
+            with e.in_sense(EITHER_WAY):
+                self.jump(e, yes, no)
             for each in (yes, no):
                 e.enter(each)
                 e.build.branch(after)
@@ -107,7 +108,8 @@ class Not(Truth):
 
     def jump(self, e: Emitter, yes: ir.Block, no: ir.Block) -> None:
         """The other way round."""
-        self.of.jump(e, no, yes)
+        with e.in_sense(-e.sense):
+            self.of.jump(e, no, yes)
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,8 @@ class IfTrue(Truth):
     def jump(self, e: Emitter, yes: ir.Block, no: ir.Block) -> None:
         """Only one of them is looked at."""
         first, second = e.block(), e.block()
-        self.condition.jump(e, first, second)
+        with e.in_sense(EITHER_WAY):
+            self.condition.jump(e, first, second)
         e.enter(first)
         self.one.jump(e, yes, no)
         e.enter(second)
@@ -204,7 +207,8 @@ def word_if(condition: Truth, one: Num, other: Num) -> Num:
 
     def emit(e: Emitter) -> ir.Value:
         yes, no, after = e.block(), e.block(), e.block()
-        condition.jump(e, yes, no)
+        with e.in_sense(EITHER_WAY):
+            condition.jump(e, yes, no)
         found = []
         for begin, num in ((yes, one), (no, other)):
             e.enter(begin)
@@ -361,7 +365,7 @@ def subset(one: Set, other: Set) -> Truth:
     def loops(e: Emitter, found: ir.Block) -> None:
         def body(element: Value) -> None:
             further = e.block()
-            other.contains(element).jump(e, further, found)
+            negation(other.contains(element)).jump(e, found, further)
             e.enter(further)
 
         one.each(e, body)

@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from fuzz.compiled.memory import HEADER, Ints, Memory
+from fuzz.compiled.memory import ALL_PARTS, HEADER, Ints, Memory
 from fuzz.compiled.native import Native, event_places
 from fuzz.compiled.places import Array, Bits, Words, spread
 from fuzz.failures.replaying import ERRORS, UNDEFINED
 from fuzz.jolted.searching import Find
-from fuzz.jolted.words import ALL_PARTS
 from models.world.state import Site, System
 from proofs.catalogue import INVARIANTS
 from proofs.lift.kinds import Scalar
@@ -85,7 +84,7 @@ def _judged(
     """Compare what both say of the invariants after the event."""
     false, raised = asked(native.memory.site, after)
     if find.judged is None:
-        words[HEADER.index("changed")] = ALL_PARTS
+        words[[HEADER.index("grown"), HEADER.index("shrunk")]] = ALL_PARTS
         number = native.call("judge", words)
         said = (NAMES[number],) if number >= 0 else ()
     else:

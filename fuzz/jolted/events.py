@@ -121,7 +121,7 @@ def _try(t: Any, w: Any, m: Any, kind: Any) -> Any:
     if m[t.reports_count] >= MOST_REPORTED:
         return False
     draw_event(t, w, m, kind)
-    m[t.changed] = 0
+    m[t.grown] = m[t.shrunk] = 0
     changed = call(w.calls[STEP], (w.calls[MEMORY_AT], kind))
     note_step(t, w, m)
     false = NOWHERE

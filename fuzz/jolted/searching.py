@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fuzz.compiled.memory import HEADER, Ints
+from fuzz.compiled.memory import ALL_PARTS, HEADER, Ints
 from fuzz.compiled.native import Native
 from fuzz.jolted import states as counted
 from fuzz.jolted.events import search
 from fuzz.jolted.seeds import states
 from fuzz.jolted.tables import record_of, tables_of
-from fuzz.jolted.words import ALL_PARTS, LOG_WORDS, MOST_FALSE, MOST_FOUND, NOWHERE, RANDOM, WORK
+from fuzz.jolted.words import LOG_WORDS, MOST_FALSE, MOST_FOUND, NOWHERE, RANDOM, WORK
 from models.layouts import Imported
 from proofs.transitions import TRANSITIONS
 
@@ -117,7 +117,7 @@ class Search:
         for system, runs in states(imported, count):
             words = memory.new()
             memory.pack(words, system, runs)
-            words[HEADER.index("changed")] = ALL_PARTS
+            words[[HEADER.index("grown"), HEADER.index("shrunk")]] = ALL_PARTS
             if self.native.call("judge", words) == -1:
                 packed.append(words[: memory.bounds()[1]])
         assert packed, "every state of traffic breaks an invariant"

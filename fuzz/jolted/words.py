@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from fuzz.compiled.memory import ALL_PARTS
 from fuzz.compiled.native import REFUSED
 from fuzz.jolted.compiling import compiled
 from fuzz.jolted.leaves import REPORT_TYPES, RUN, TYPES
@@ -27,7 +28,6 @@ GOLDEN = 0x9E3779B97F4A7C15 - (1 << 64)
 LOW_32 = (1 << 32) - 1
 NOWHERE = -1
 LOG_WORDS = 3
-ALL_PARTS = -1
 (RANDOM, JOURNAL_COUNT, TRAIL_COUNT, FACT_COUNT, SAID_COUNT, FALSE_COUNT, SHARE) = range(7)
 NOT_CHANGED, CHANGED_SOMETHING, REFUSED_FROM = range(3)
 """What came of an event: nothing, and no refusal says why; something; or, from here on, the number of a refusal."""
@@ -111,9 +111,10 @@ def put(t: Any, w: Any, m: Any, at: Any, word: Any, part: Any) -> None:
     w.numbers[JOURNAL_COUNT] += 1
     m[at] = word
     if part < 0:
-        m[t.changed] = ALL_PARTS
+        m[t.grown] = m[t.shrunk] = ALL_PARTS
     else:
-        m[t.changed] |= 1 << part
+        m[t.grown] |= 1 << part
+        m[t.shrunk] |= 1 << part
 
 
 @compiled
@@ -157,7 +158,7 @@ def take_back(t: Any, w: Any, m: Any) -> None:
         at = m[t.journal + entry]
         m[at] = m[t.before + at]
     w.numbers[JOURNAL_COUNT] = 0
-    m[t.changed] = 0
+    m[t.grown] = m[t.shrunk] = 0
 
 
 @compiled
@@ -169,7 +170,7 @@ def let_stand(t: Any, w: Any, m: Any) -> None:
         m[t.trail + w.numbers[TRAIL_COUNT]] = at
         w.numbers[TRAIL_COUNT] += 1
     w.numbers[JOURNAL_COUNT] = 0
-    m[t.changed] = 0
+    m[t.grown] = m[t.shrunk] = 0
 
 
 @compiled
@@ -199,7 +200,7 @@ def begin(t: Any, w: Any, m: Any, state: Any) -> None:
         m[at] = word
         m[t.before + at] = word
         m[t.kept + at] = word
-    m[t.changed] = 0
+    m[t.grown] = m[t.shrunk] = 0
     w.numbers[JOURNAL_COUNT] = 0
     w.numbers[TRAIL_COUNT] = 0
 

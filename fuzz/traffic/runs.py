@@ -9,7 +9,7 @@ from typing import Any, get_origin
 import numpy as np
 
 from fuzz.compiled.domains import bits_of
-from fuzz.compiled.memory import HEADER
+from fuzz.compiled.memory import ALL_PARTS, HEADER
 from fuzz.compiled.native import ASSUMED, REFUSED, Native
 from fuzz.failures.trace import TRAFFIC, Event, LayoutFile, Trace
 from fuzz.traffic import places, steps, tables
@@ -36,7 +36,6 @@ ENDS = (
     "nobody arrives",
 )
 """Why a trace ended, by its number in ``fuzz.traffic.steps``."""
-ALL_PARTS = -1
 OUTCOMES = len(REFUSED) + 2
 NO_REASON, CHANGED = len(REFUSED), len(REFUSED) + 1
 
@@ -97,7 +96,7 @@ class Traffic:
         at = {car: frozenset[Block]() for car in laid.site.formation.train_of}
         lies = {point: Position(laid.domains.names["Position"][0]) for point in laid.site.layout.points}
         laid.pack(self.memory, start(laid.site, at, lies), ())
-        self.memory[HEADER.index("changed")] = ALL_PARTS
+        self.memory[[HEADER.index("grown"), HEADER.index("shrunk")]] = ALL_PARTS
         self._fresh = self.memory[: laid.bounds()[1]].copy()
         self.desk = desk_for(laid)
         addresses, words = self.native.addresses, self.desk.words

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, replace
 from functools import cache
@@ -11,8 +12,9 @@ from typing import Any
 
 import pytest
 
-from fuzz.compiled.memory import HEADER
+from fuzz.compiled.memory import ALL_PARTS, HEADER
 from fuzz.compiled.native import ASSUMED, REFUSED, Native, native
+from fuzz.compiled.places import Array, Bits, Fields, Place, Table, arrays_of
 from fuzz.compiled.refusals import REFUSALS
 from kernel.names import Position, Read, Run
 from models.layouts import load
@@ -34,6 +36,7 @@ SLOTS = 56
 ABSURD_EVENTS = 1_200
 SPOILT_STATES = 60
 FEW = (1, 2)
+CHANGED = [HEADER.index(way) for way in ("grown", "shrunk")]
 
 
 @cache
@@ -218,19 +221,57 @@ def test_each_invariant_says_the_same_of_states_that_cannot_be(name: str) -> Non
     assert all(True in answers for answers in said.values())
 
 
+@pytest.mark.parametrize("name", STATIONS)
+def test_whatever_falsifies_an_invariant_has_it_asked(name: str) -> None:
+    """Of a set's bits only what has grown, or what has shrunk, has to have an invariant asked that was true before."""
+    code, random, falsified = compiled(name), Random(5), Counter[str]()
+    sets = {each.name for each in _sets_of(code.memory.state)}
+    arrays = [array for array in arrays_of(code.memory.state) if array.part >= 0]
+    for _, system, runs in states(name, 9, SPOILT_STATES):
+        drawing = Drawing(code, runs, random)
+        before, after = code.memory.new(), code.memory.new()
+        code.memory.pack(before, system, runs)
+        for _ in range(10):
+            code.memory.pack(after, drawing.spoilt(RecordKind(System), system), runs)
+            done = {"grown": 0, "shrunk": 0}
+            for array in arrays:
+                old, new = (words[array.base : array.base + array.size] for words in (before, after))
+                differs, is_set = bool((old != new).any()), array.name in sets
+                done["grown"] |= (bool((new & ~old).any()) if is_set else differs) << array.part
+                done["shrunk"] |= (bool((old & ~new).any()) if is_set else differs) << array.part
+            for at, claim in enumerate(INVARIANTS):
+                if not code.call(f"holds_{at}", after):
+                    asked_when = code.asked_when[claim]
+                    assert any(done[way] & asked_when[way] for way in done), f"{claim} would not be asked"
+                    falsified[claim] += 1
+    assert len(falsified) > 0.5 * len(INVARIANTS), falsified
+
+
+def _sets_of(place: Place) -> Iterator[Array]:
+    match place:
+        case Bits():
+            yield place.array
+        case Fields():
+            for each in place.places.values():
+                yield from _sets_of(each)
+        case Table():
+            yield place.keys.array
+            yield from _sets_of(place.value)
+
+
 def test_the_judge_names_the_first_invariant_that_a_change_broke() -> None:
     code = compiled("passing_station")
     played, system, runs = list(states("passing_station", 7, 30))[-1]
     memory = code.memory.new()
     code.memory.pack(memory, system, runs)
-    memory[HEADER.index("changed")] = -1
+    memory[CHANGED] = ALL_PARTS
     assert code.call("judge", memory) == -1
-    assert memory[HEADER.index("changed")] == 0
+    assert not memory[CHANGED].any()
     cars = sorted(system.track.at)
     together = replace(system, track=replace(system.track, at=dict.fromkeys(cars, system.track.at[cars[0]])))
     code.memory.pack(memory, together, runs)
     assert code.call("judge", memory) == -1, "nothing has changed since it was last asked"
-    memory[HEADER.index("changed")] = -1
+    memory[CHANGED] = ALL_PARTS
     broken = [claim for claim, holds in INVARIANTS.items() if not holds(played.play.site, together)]
     assert list(INVARIANTS)[code.call("judge", memory)] == broken[0]
 
