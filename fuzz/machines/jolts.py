@@ -7,6 +7,7 @@ is a counterexample to induction: of guards that hold against what the rest of t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from enum import Enum
 from random import Random
@@ -83,19 +84,33 @@ def thinned(place: Place, random: Random) -> Place:
     """The same place on a layout that says less: one thing that it maps is left out, some of it or all.
 
     The axioms leave a layout free to say nothing of some things that every importer says; the proof holds for such
-    layouts too.  Where the axioms ask for what was chosen, the place is as it was.
+    layouts too.
     """
+    name = random.choice(free_to_say_nothing_of(place))
+    known = sorted(getattr(place.site.layout, name), key=repr)
+    thin = _saying(place.site, name, random.sample(known, random.randrange(len(known))) if random.randrange(2) else ())
+    return replace(place, site=thin) if _is_surely_legal(thin) else place
+
+
+def free_to_say_nothing_of(place: Place) -> list[str]:
+    """What of the things that a place's layout maps may be left out altogether."""
     layout = place.site.layout
-    maps = [name for name, kind in fields_of(Layout).items() if isinstance(kind, MapKind)]
-    name = random.choice(maps)
-    known = sorted(getattr(layout, name), key=repr)
-    left = () if random.randrange(2) else random.sample(known, max(0, len(known) - 1))
-    changes: dict[str, Any] = {name: {key: getattr(layout, name)[key] for key in left}}
-    thin = replace(place.site, layout=replace(layout, **changes))
+    maps = [name for name, kind in fields_of(Layout).items() if isinstance(kind, MapKind) and getattr(layout, name)]
+    return [name for name in maps if _is_surely_legal(_saying(place.site, name, ()))]
+
+
+def _saying(site: Site, name: str, keys: Sequence[Any]) -> Site:
+    """The same site; of one thing that its layout maps it says nothing but of these keys."""
+    changes: dict[str, Any] = {name: {key: getattr(site.layout, name)[key] for key in keys}}
+    return replace(site, layout=replace(site.layout, **changes))
+
+
+def _is_surely_legal(site: Site) -> bool:
+    """Whether it is legal, and no axiom looks up what it does not say."""
     try:
-        return replace(place, site=thin) if is_legal(thin) else place
+        return is_legal(site)
     except ERRORS:
-        return place
+        return False
 
 
 def jolted_walk(place: Place, sources: Sources, random: Random) -> Jolted:

@@ -47,19 +47,19 @@ def carriers(fault: Planted) -> list[Target]:
 
 
 def hunting(on: Sequence[Target], seed: int, first: int, found: Any, answers: Any) -> None:
-    """One process: every other batch of what is quick to start, each time with one of the other targets."""
-    number = first
-    quick, others = on[:QUICK], on[QUICK:]
+    """One process: every other batch; each target that is quick to start, and the others together, get the same time."""
+    lanes = [lane for lane in (*([each] for each in on[:QUICK]), list(on[QUICK:])) if lane]
+    spent, done = [0.0] * len(lanes), [0] * len(lanes)
     while not found.is_set():
-        for target in (*quick, *others[number % len(others) :][:1]) if others else quick:
-            if found.is_set():
-                return
-            failures = target.run(Batch(target.name, number, seed, ())).failures
-            if failures:
-                found.set()
-                answers.put(target.name)
-                return
-        number += PROCESSES
+        at = min(range(len(lanes)), key=lambda lane: spent[lane])
+        number = first + PROCESSES * done[at]
+        target = lanes[at][number % len(lanes[at])]
+        began = time.perf_counter()
+        if target.run(Batch(target.name, number, seed, ())).failures:
+            found.set()
+            answers.put(target.name)
+        spent[at] += time.perf_counter() - began
+        done[at] += 1
 
 
 def seconds_until_found(fault: Planted, seed: int, most: float = SECONDS) -> tuple[float, str] | None:
