@@ -47,7 +47,7 @@ def carriers(fault: Planted) -> list[Target]:
 
 
 def hunting(on: Sequence[Target], seed: int, first: int, found: Any, answers: Any) -> None:
-    """One process: every other batch; each target that is quick to start, and the others together, get the same time."""
+    """One process: every other batch; each quick target, and the others together, get the same time."""
     lanes = [lane for lane in (*([each] for each in on[:QUICK]), list(on[QUICK:])) if lane]
     spent, done = [0.0] * len(lanes), [0] * len(lanes)
     while not found.is_set():
