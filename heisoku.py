@@ -59,6 +59,14 @@ class Paper(StrEnum):
     INERTIAL_SENSORS = "001"
 
 
+class Day(StrEnum):
+    """Whose days to simulate."""
+
+    CROSSING = "crossing"
+    TRAM = "tram"
+    ALARM = "alarm"
+
+
 Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
@@ -283,6 +291,39 @@ def ride(
     ridden = sum(one.rides for one in found.values())
     print_line(out, f"{ridden:,} rides with seed {seed}: {CHECKED[HOLDS if holds else DOES_NOT_HOLD]}")
     raise typer.Exit(HOLDS if holds else DOES_NOT_HOLD)
+
+
+@app.command()
+def days(
+    system: Annotated[Day, typer.Argument(help="Whose days.", show_default=False)],
+    days: Annotated[int, typer.Option(metavar="N", min=1, help="Days to simulate.")] = 200,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    json: Json = None,
+) -> None:
+    """Simulate whole days of a system with faults, and hold what its machines decide against the truth.
+
+    No claim may be broken on any day.  What the safe side costs is told: needless warnings, alarms, holds.
+
+    Examples:
+
+    * `heisoku days crossing --days 100 --json out/crossing.json`
+    """
+    from models.days.campaign import live_all, outcome
+    from models.days.report import print_outcome, record
+    from models.days.systems import system_of
+    from proofs.records import commit, versions
+
+    writable(json)
+    out = console()
+    with progress("days") as step:
+        found = outcome(system_of(system.value), live_all(system.value, seed, days, jobs, step))
+    print_outcome(out, found)
+    if json:
+        write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
+    verdict = HOLDS if found.holds else DOES_NOT_HOLD
+    print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {CHECKED[verdict]}")
+    raise typer.Exit(verdict)
 
 
 app.command()(fuzz)

@@ -5,13 +5,12 @@ A ride is the same whatever campaign it is in: its line goes by its batch, its f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
 
+from models.processes import spread
 from models.rides.plan import CYCLES, LENGTH_MM, LINE_M, READER
 from models.rides.tally import COLUMNS, FAULTS, Numbers
 from models.sensors.traces import Setup, traces
@@ -70,16 +69,8 @@ def ride_all(
     todo = [(fault, batch) for fault in campaigns for batch in batches(seed, rides, fault)]
     found: dict[str, list[Numbers]] = {fault: [] for fault in campaigns}
     done = 0
-    for (fault, batch), rows in zip(todo, _results([batch for _, batch in todo], jobs), strict=True):
+    for (fault, batch), rows in zip(todo, spread(ridden, [batch for _, batch in todo], jobs), strict=True):
         found[fault].append(rows)
         done += batch.rides
         progress(done, rides * len(campaigns), fault or "rides")
     return {fault: np.concatenate(rows) for fault, rows in found.items()}
-
-
-def _results(todo: Sequence[Batch], jobs: int) -> Iterator[Numbers]:
-    if jobs <= 1 or len(todo) <= 1:
-        yield from map(ridden, todo)
-        return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(ridden, todo)

@@ -1,0 +1,94 @@
+"""Many days of a system: batches over as many processes as wanted, and what they come to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.days.system import Numbers, System
+from models.days.systems import system_of
+from models.processes import spread
+
+DAYS_A_BATCH = 25
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Some days of a system, by their numbers."""
+
+    system: str
+    seed: int
+    days: range
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a campaign of days came to.
+
+    ``days``: so many.  ``sums``, ``most``, ``on_days``: of each column all, the most in a day, and on how many days.
+    ``violated``: days with a claim broken; ``unexplained``: those on which every assumption held.
+    """
+
+    system: System
+    days: int
+    sums: Mapping[str, int]
+    most: Mapping[str, int]
+    on_days: Mapping[str, int]
+    violated: int
+    unexplained: int
+
+    @property
+    def holds(self) -> bool:
+        """Tell whether nothing claimed was false on any day."""
+        return self.violated == 0
+
+    @property
+    def bound(self) -> float:
+        """The 95 % upper bound of the share of days with a claim broken, where none was seen: 3/n."""
+        return 3 / self.days
+
+    @property
+    def hours(self) -> float:
+        """Hours of traffic in all."""
+        return self.days * self.system.hours
+
+    @property
+    def faults(self) -> int:
+        """Faults in all."""
+        return sum(self.sums[name] for name in self.system.faults)
+
+
+def lived(batch: Batch) -> Numbers:
+    """Simulate a batch; a row for each day, a column for each of the system's."""
+    return system_of(batch.system).simulate(batch.seed, batch.days)
+
+
+def live_all(
+    name: str, seed: int, days: int, jobs: int, progress: Callable[[int, int, str], object] = lambda *_: None
+) -> Numbers:
+    """Simulate a campaign; a row for each day, in order."""
+    todo = [Batch(name, seed, range(first, min(first + DAYS_A_BATCH, days))) for first in range(0, days, DAYS_A_BATCH)]
+    rows = []
+    for batch, found in zip(todo, spread(lived, todo, jobs), strict=True):
+        rows.append(found)
+        progress(batch.days.stop, days, name)
+    return np.concatenate(rows)
+
+
+def outcome(system: System, rows: Numbers) -> Outcome:
+    """Sum up a campaign."""
+    columns = {name: rows[:, place] for place, name in enumerate(system.columns)}
+    violated, broken = (
+        np.any([columns[name] > 0 for name in names], axis=0) for names in (system.claims, system.assumptions)
+    )
+    return Outcome(
+        system=system,
+        days=len(rows),
+        sums={name: int(column.sum()) for name, column in columns.items()},
+        most={name: int(column.max()) for name, column in columns.items()},
+        on_days={name: int((column > 0).sum()) for name, column in columns.items()},
+        violated=int(violated.sum()),
+        unexplained=int((violated & ~broken).sum()),
+    )

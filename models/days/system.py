@@ -1,0 +1,40 @@
+"""A system whose days are simulated, and what is counted of each day."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+Numbers = npt.NDArray[np.int64]
+"""A row for each day, a column for each of a system's ``columns``."""
+
+
+@dataclass(frozen=True)
+class System:
+    """How days of a system are simulated, and the names of the columns that come of it.
+
+    Each mapping goes from a column's name to what it counts, in words:
+    ``claims``: what must not be.  ``assumptions``: those of the proofs, held against the truth: how often broken.
+    ``monitors``: what the machines noticed.  ``faults``: those drawn.  ``prices``: what it costs to be on the safe
+    side, with units.  ``counts``: the rest.
+    ``hours``: of traffic in a day.
+    ``simulate``: from a seed and the numbers of days to their rows; a day is the same in whatever range it stands.
+    """
+
+    name: str
+    claims: Mapping[str, str]
+    assumptions: Mapping[str, str]
+    monitors: Mapping[str, str]
+    faults: Mapping[str, str]
+    prices: Mapping[str, str]
+    counts: Mapping[str, str]
+    hours: float
+    simulate: Callable[[int, range], Numbers] = field(repr=False)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Every column's name, in order."""
+        return (*self.claims, *self.assumptions, *self.monitors, *self.faults, *self.prices, *self.counts)
