@@ -1,0 +1,79 @@
+"""Every piece of evidence that a command produces, by its id."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from models.days.systems import NAMES as SYSTEMS
+from models.reproduce import PAPERS
+from proofs.theories import THEORIES
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One piece: what it shows, the command that makes it, and the file under ``out/`` that it stands in."""
+
+    name: str
+    shows: str
+    command: str
+    record: str
+
+
+def catalogue() -> Mapping[str, Evidence]:
+    """All of it, by id."""
+    made = [
+        *(
+            Evidence(
+                f"prove:{theory}.{claim}",
+                f"every transition of {theory} keeps `{claim}`, in every world that its assumptions allow",
+                f"heisoku prove --solver both --only '^{theory}\\.'",
+                "prove.json",
+            )
+            for theory, each in THEORIES.items()
+            for claim in each.safety
+        ),
+        *(
+            Evidence(
+                f"witness:{theory}",
+                f"each transition of {theory} happens in some run, and does what it should",
+                "make test",
+                "test.xml",
+            )
+            for theory in THEORIES
+        ),
+        *(
+            Evidence(f"check:{path.name}", f"{path.name} satisfies every axiom", "make check", "check.json")
+            for path in sorted((ROOT / "layouts").glob("*.toml"))
+        ),
+        Evidence("ride", "machines on board against the truth of simulated trains", "make ride", "ride.json"),
+        Evidence("beyond", "the same with faults beyond their declared ranges", "make beyond", "beyond.json"),
+        *(
+            Evidence(
+                f"days:{system}",
+                f"whole days of the {system} with faults, against the truth",
+                f"heisoku days {system} --json out/days-{system}.json",
+                f"days-{system}.json",
+            )
+            for system in SYSTEMS
+        ),
+        *(
+            Evidence(
+                f"reproduce:{paper}",
+                f"the figures of paper {paper} beside ours",
+                f"heisoku reproduce {paper} --json out/{paper}.json",
+                f"{paper}.json",
+            )
+            for paper in PAPERS
+        ),
+        Evidence(
+            "fuzz", "faulty traffic through the kernel, every invariant after each step", "make fuzz", "fuzz.json"
+        ),
+        Evidence("mutate", "what becomes of the proofs when a guard is dropped", "heisoku mutate", "mutate.json"),
+        Evidence("crosshair", "contracts of machines on the bytecode that runs", "make crosshair", "crosshair.txt"),
+        Evidence("test", "tests of the kernel, the lifter and everything else", "make test", "test.xml"),
+    ]
+    return {each.name: each for each in made}
