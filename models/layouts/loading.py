@@ -7,6 +7,7 @@ from pathlib import Path
 
 from models.layouts.native import import_native
 from models.layouts.railjson import import_railjson
+from models.layouts.railml import import_railml
 from models.layouts.reading import format_of, parse_json, parse_toml, read_text
 from models.layouts.results import BadInput, Imported
 from models.layouts.table import import_table
@@ -31,6 +32,8 @@ def load_text(name: str, text: str, trains: Sequence[str] = TRAINS) -> Imported:
     try:
         if kind == "json":
             return import_railjson(name, parse_json(name, text), fleet)
+        if kind == "xml":
+            return import_railml(name, text, fleet)
         if kind == "yaml":
             return import_table(name, parse_yaml(name, text), fleet)
         return import_native(name, parse_toml(name, text), fleet)

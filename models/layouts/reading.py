@@ -17,7 +17,7 @@ from jsonschema.exceptions import ValidationError
 
 from models.layouts.results import BadInput
 
-Format = Literal["json", "toml", "yaml"]
+Format = Literal["json", "toml", "xml", "yaml"]
 DEEPEST_NESTING = 100
 """Levels of nesting that a layout file may have; none needs more than ten."""
 LONGEST_NAME = 200
@@ -37,19 +37,20 @@ def read_text(file: Path) -> str:
         what = f"is not UTF-8 text (byte 0x{content[error.start]:02x})"
         raise BadInput(str(file), f"byte {error.start}", what, "save it as UTF-8") from error
     if not text.strip():
-        raise BadInput(str(file), "file", "is empty", "give a layout in TOML, RailJSON or an interlocking table")
+        raise BadInput(
+            str(file), "file", "is empty", "give a layout in TOML, RailJSON, railML or an interlocking table"
+        )
     if "\0" in text:
         raise BadInput(str(file), f"character {text.index(chr(0))}", "is not text (a zero byte)", "save it as UTF-8")
     return text
 
 
 def format_of(file: str, text: str) -> Format:
-    """JSON, YAML or TOML, told by the first line that says anything."""
+    """JSON, XML, YAML or TOML, told by the first line that says anything."""
     significant = (line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#"))
     first = next(significant, "").lstrip()
     if first.startswith("<"):
-        what = "is XML; railML is not read"
-        raise BadInput(file, "line 1", what, "bring the layout as TOML, RailJSON or an interlocking table")
+        return "xml"
     if first.startswith(("{", "[[[", '["', "[{")) or first == "[":
         return "json"
     return "yaml" if YAML_KEY.match(first) or first.startswith(("- ", "&", "%YAML")) else "toml"

@@ -111,7 +111,9 @@ RAILJSON: dict[str, tuple[bytes, str]] = {
     "truncated YAML": (b"interlocking-table:\n  - id: 1\n    path: [a, ", "line"),
     "YAML tag": (b"interlocking-table: !!python/object/apply:os.system [ls]", "interlocking-table"),
     "two YAML documents": (b"a: 1\n---\nb: 2\n", "second document"),
-    "XML": (b"<railML/>", "railML is not read"),
+    "XML": (b"<html/>", "is XML, but html and no railML"),
+    "railML of no version": (b"<railML/>", "has no attribute version"),
+    "railML 2": (b"<railml version='2.4'/>", "railML 2.4, which is not read"),
     "nonsense": (b"hello world", "line 1"),
     "TOML of another kind": (b"[project]\nname = 'x'\n", "has no 'format'"),
 }

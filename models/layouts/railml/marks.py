@@ -1,0 +1,100 @@
+"""Where blocks end: at train detection elements, and at signals that a route begins or ends at.
+
+A train without track circuits is found at tags alone, so a signal that routes begin or end at has a pair of tags
+of its own, unless a detector stands in the same place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from models.layouts.findings import Findings
+from models.layouts.railml.document import Document, Element, kind_of
+from models.layouts.railml.topology import Topology
+from models.layouts.track import HIGH, LOW, Mark
+
+DIRECTIONS = {"normal": HIGH, "reverse": LOW}
+CUTS = {"trainDetectionElement": True, "signalIS": True, "bufferStop": False, "border": False}
+"""What a mark can be, and whether track goes on behind it."""
+
+
+@dataclass
+class Marks:
+    """Marks by name; ``of``: for an element's id, the mark that stands in its place.
+
+    ``side``: for a signal, the end of its net element that trains it speaks to run to.
+    ``signals``: the signals; ``detectors``: marks that a detector stands at; ``parts``: those of them at
+    which a route is released in parts, by the sections beside them.
+    """
+
+    marks: dict[str, Mark] = field(default_factory=dict)
+    of: dict[str, str] = field(default_factory=dict)
+    side: dict[str, int] = field(default_factory=dict)
+    signals: set[str] = field(default_factory=set)
+    detectors: set[str] = field(default_factory=set)
+    parts: set[str] = field(default_factory=set)
+
+
+def read_marks(source: Document, topology: Topology, signals: Mapping[str, Element], findings: Findings) -> Marks:
+    """Read them; ``signals``: those that routes begin or end at.
+
+    Raises:
+        BadInput: one lies nowhere.
+    """
+    found = Marks()
+    at: dict[tuple[str, int], str] = {}
+    for kind, cuts in CUTS.items():
+        for element in source.all(kind):
+            name = element.get("id")
+            if name is None or (kind == "signalIS" and name not in signals):
+                continue
+            spot = source.first("spotLocation", element)
+            if spot is None:
+                if name in signals:
+                    raise source.bad(element, "has no place on the track", "add its spotLocation")
+                findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out")
+                continue
+            mark = _mark(source, topology, name, spot, cuts)
+            found.of[name] = at.setdefault((mark.track, mark.at_mm), name)
+            if found.of[name] == name:
+                found.marks[name] = mark
+            elif found.marks[found.of[name]].cuts != cuts:
+                what = f"lies at the same place as '{found.of[name]}' (net element '{mark.track}', {mark.at_mm} mm)"
+                raise source.bad(element, what, "move or remove one of the two")
+            if kind == "signalIS":
+                found.signals.add(name)
+            if kind == "trainDetectionElement":
+                found.detectors.add(found.of[name])
+            direction = spot.get("applicationDirection", "")
+            if direction in DIRECTIONS:
+                found.side[name] = DIRECTIONS[direction]
+    return found
+
+
+def _mark(source: Document, topology: Topology, name: str, spot: Element, cuts: bool) -> Mark:
+    """A mark in its place."""
+    track = source.attribute(spot, "netElementRef")
+    if track not in topology.lengths_mm:
+        missing = "not of the finest level" if track in source.by_id else "not there"
+        raise source.bad(source.by_id[name], f"lies on net element '{track[:40]}', which is {missing}", "correct it")
+    length_mm = topology.lengths_mm[track]
+    for attribute in ("intrinsicCoord", "pos"):
+        if spot.get(attribute) is not None:
+            most = 1.0 if attribute == "intrinsicCoord" else length_mm / 1000
+            value = source.number(spot, attribute, 0.0, most)
+            return Mark(name, track, round(value * (length_mm if attribute == "intrinsicCoord" else 1000)), cuts)
+    raise source.bad(source.by_id[name], "its spotLocation has neither intrinsicCoord nor pos", "say where it lies")
+
+
+def signal_of(source: Document, element: Element) -> Element:
+    """The element on the track that an interlocking's element, such as a ``signalIL``, refers to."""
+    seen = set()
+    while kind_of(element) not in CUTS:
+        refers = source.first("refersTo", element)
+        name = element.get("id")
+        if refers is None or name in seen:
+            raise source.bad(element, "refers to no signal, detector, buffer stop or border", "add its refersTo")
+        seen.add(name)
+        element = source.referred(refers)
+    return element

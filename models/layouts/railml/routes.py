@@ -1,0 +1,195 @@
+"""railML's routes, followed over the track: what the file says of their points is held against the way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
+
+from models.layouts.findings import Findings
+from models.layouts.following import Wanted
+from models.layouts.railml.document import Document, Element
+from models.layouts.railml.marks import Marks, signal_of
+from models.layouts.track import Cut, Heading, Joint, Segments, Stop
+
+MOST_WAYS = 64
+"""So many ways from a signal are looked at; a station has fewer."""
+MOST_STEPS = 20_000
+NOT_READ = ("overlap", "conflictingRoute", "routeRelation", "combinedRoute")
+
+Ends = tuple[Element, Element, Element]
+"""A route, and the elements on the track that it begins and ends at."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """A way over the track: the mark it ends at and its heading there, points, marks passed, segments run over."""
+
+    to: str
+    arrives: Heading
+    positions: Mapping[str, str]
+    passed: tuple[str, ...]
+    segments: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A route with its way."""
+
+    wanted: Wanted
+    way: Way
+
+
+def route_ends(source: Document) -> dict[str, Ends]:
+    """Each route with the elements on the track that it begins and ends at.
+
+    Raises:
+        BadInput: one does not say them.
+    """
+    found = {}
+    for route in source.all("route"):
+        ends = []
+        for kind in ("routeEntry", "routeExit"):
+            end = source.first(kind, route)
+            refers = None if end is None else source.first("refersTo", end)
+            if refers is None:
+                raise source.bad(route, f"has no {kind} that refers to anything", "add it")
+            ends.append(signal_of(source, source.referred(refers)))
+        found[source.attribute(route, "id")] = (route, ends[0], ends[1])
+    return found
+
+
+def follow(
+    source: Document, segments: Segments, marks: Marks, routes: Mapping[str, Ends], findings: Findings
+) -> list[Followed]:
+    """The routes of the file; where it has none, from each signal to the next one that speaks to the same trains.
+
+    Raises:
+        BadInput: a route has no way over the track, or more than one; or there is nothing to derive one from.
+    """
+    for kind in NOT_READ:
+        names = [each.get("id", "?") for each in source.all(kind)]
+        if names:
+            findings.remark(names, f"{len(names)} of {kind} are not read: they are derived from the track")
+    if routes:
+        return [_followed(source, segments, marks, ends, findings) for ends in routes.values()]
+    derived = list(_derived(segments, marks))
+    if not derived:
+        raise source.bad(None, "has no routes, and no signals that they could be derived from", "give its routes")
+    names = [each.wanted.name for each in derived]
+    findings.remark(names, f"the file has no routes: {len(names)} are derived, from signal to signal")
+    return derived
+
+
+def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, findings: Findings) -> Followed:
+    route, (first, last) = ends[0], (source.attribute(each, "id") for each in ends[1:])
+    name, given = source.attribute(route, "id"), dict(_facing(source, route, segments))
+    side = _side(source, segments, marks, ends[1])
+    goal = marks.of.get(last)
+    if goal is None:
+        raise source.bad(ends[2], "has no place on the track", "add its spotLocation")
+    ways = [
+        way
+        for way in ways_from(segments, marks.of[first], side, lambda mark, _: mark == goal)
+        if all(way.positions.get(point, position) == position for point, position in given.items())
+    ]
+    if not ways:
+        what = f"no way leads from '{first}' to '{last}'" + (" with its points so" if given else "")
+        raise source.bad(route, what, "correct its ends, the direction of its entry, or its points")
+    if len(ways) > 1:
+        what = f"{len(ways)} ways lead from '{first}' to '{last}'"
+        raise source.bad(route, what, "name the position of each facing point")
+    (way,) = ways
+    idle = [point for point in given if point not in way.positions]
+    if idle:
+        findings.remark([name, *idle], f"route '{name}' names points that are not on its way: {', '.join(idle)}")
+    if marks.side.get(last, way.arrives[1]) != way.arrives[1]:
+        findings.remark([name, last], f"route '{name}' ends at '{last}', which speaks to trains the other way")
+    parts = tuple(mark for mark in way.passed if mark in marks.parts)
+    wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, dict(way.positions), parts)
+    return Followed(wanted, way)
+
+
+def _side(source: Document, segments: Segments, marks: Marks, entry: Element) -> int:
+    """The side of its entry that a route runs to."""
+    name = source.attribute(entry, "id")
+    if name not in marks.of:
+        raise source.bad(entry, "has no place on the track", "add its spotLocation")
+    if name in marks.side:
+        return marks.side[name]
+    sides = list(segments.beside[marks.of[name]])
+    if len(sides) > 1:
+        raise source.bad(entry, "says of no direction that it speaks to", "add applicationDirection normal or reverse")
+    return sides[0]
+
+
+def _facing(source: Document, route: Element, segments: Segments) -> Iterator[tuple[str, str]]:
+    """The positions that a route names for points."""
+    for kind in ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition"):
+        for item in source.all(kind, route):
+            refers = source.first("refersToSwitch", item)
+            if refers is None:
+                raise source.bad(item, "refers to no switch", "add its refersToSwitch")
+            switch = source.referred(refers)
+            physical = source.first("refersTo", switch)
+            point = switch if physical is None else source.referred(physical)
+            name, position = source.attribute(point, "id"), source.attribute(item, "inPosition")
+            junction = segments.station.junctions.get(name)
+            if junction is None or position not in junction.kind.positions:
+                raise source.bad(item, f"'{name}' is no point that can lie '{position[:40]}'", "correct it")
+            yield name, position
+
+
+def _derived(segments: Segments, marks: Marks) -> Iterator[Followed]:
+    """From each signal every way to the next one that speaks to the same trains, or to the end of track."""
+    speaking = {(marks.of[signal], side) for signal, side in marks.side.items() if signal in marks.signals}
+
+    def ends(mark: str, heading: Heading) -> bool:
+        return (mark, heading[1]) in speaking or not segments.station.marks[mark].cuts
+
+    for entry, side in sorted(speaking):
+        if side not in segments.beside[entry]:
+            continue
+        ways = ways_from(segments, entry, side, ends)
+        for way in ways:
+            twin = sum(other.to == way.to for other in ways) > 1
+            over = ", ".join(f"{point} {position}" for point, position in sorted(way.positions.items()))
+            name = f"{entry} - {way.to}" + (f" over {over}" if twin and over else "")
+            parts = tuple(mark for mark in way.passed if mark in marks.parts)
+            yield Followed(Wanted(name, f"derived route '{name}'", entry, side, way.to, way.positions, parts), way)
+
+
+def ways_from(segments: Segments, mark: str, side: int, ends: Callable[[str, Heading], bool]) -> list[Way]:
+    """Ways from a mark to the first ones that end a way, over no track twice; so many of them at most."""
+    if side not in segments.beside[mark]:
+        return []
+    return list(islice(_ways(segments, segments.beside[mark][side], ends), MOST_WAYS))
+
+
+def _ways(segments: Segments, heading: Heading, ends: Callable[[str, Heading], bool]) -> Iterator[Way]:
+    steps = 0
+    going: list[tuple[Heading, dict[str, str], tuple[str, ...], tuple[int, ...]]] = [(heading, {}, (), ())]
+    while going and steps < MOST_STEPS:
+        steps += 1
+        now, positions, passed, over = going.pop()
+        if now[0] in over:
+            continue
+        over = (*over, now[0])
+        match segments.at[now]:
+            case Cut(mark, beyond):
+                if ends(mark, now):
+                    yield Way(mark, now, positions, passed, over)
+                else:
+                    going.append((beyond, positions, (*passed, mark), over))
+            case Stop(str() as mark):
+                if ends(mark, now):
+                    yield Way(mark, now, positions, passed, over)
+            case Joint() as joint:
+                point = segments.station.junctions[joint.junction]
+                for _, choices, onward in segments.onward(joint):
+                    lies = positions
+                    if point.is_point:
+                        if positions.get(point.name, choices[0]) != choices[0]:
+                            continue
+                        lies = {**positions, point.name: choices[0]}
+                    going.append((onward, lies, passed, over))

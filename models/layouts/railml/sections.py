@@ -1,0 +1,89 @@
+"""railML's TVD sections, held against the track: what demarcates one, and which a route runs through."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+import networkx
+
+from models.layouts.findings import Findings
+from models.layouts.railml.document import Document
+from models.layouts.railml.marks import Marks
+from models.layouts.railml.routes import Followed
+from models.layouts.track import Cut, Segments, Stop
+
+DEMARCATING = ("hasDemarcatingTraindetector", "hasDemarcatingBufferstop", "hasDemarcatingBorder")
+
+
+def note_parts(source: Document, marks: Marks) -> None:
+    """Note the detectors of sections that say after what delay a part of a route is released.
+
+    Raises:
+        BadInput: a section is demarcated by what is not there.
+    """
+    for section, bounds in _told(source, marks).items():
+        if source.by_id[section].get("partialRouteReleaseDelay") is not None:
+            marks.parts |= bounds & marks.detectors
+
+
+def compare_sections(
+    source: Document, segments: Segments, marks: Marks, routes: Sequence[Followed], findings: Findings
+) -> None:
+    """Remark on sections that no piece of track is, and on routes that name others than they run through."""
+    told = _told(source, marks)
+    of: dict[int, frozenset[str]] = {}
+    matched: set[str] = set()
+    for inside, around in _regions(segments, marks):
+        names = frozenset(section for section, bounds in told.items() if bounds == around)
+        if names:
+            of.update(dict.fromkeys(inside, names))
+            matched |= names
+        if len(names) > 1:
+            text = f"sections {_listed(names)} are demarcated alike: it is one piece of track"
+            findings.remark(sorted(names), text)
+    for section in sorted(told.keys() - matched):
+        text = f"no piece of track lies between what demarcates section '{section}': {_listed(told[section])}"
+        findings.remark([section], text)
+    for route in routes:
+        name = route.wanted.name
+        if name not in source.by_id or not told:
+            continue
+        listed = source.all("hasTvdSection", source.by_id[name])
+        named = {source.attribute(source.referred(each), "id") for each in listed}
+        run = {of[each] for each in route.way.segments if each in of}
+        if any(not named & alike for alike in run) or not named <= frozenset().union(*run):
+            through = "; ".join(sorted(" or ".join(sorted(alike)) for alike in run)) or "none"
+            text = f"route '{name}' names the sections {_listed(named)}, and runs through {through}"
+            findings.remark([name], text)
+
+
+def _listed(names: Collection[str]) -> str:
+    return ", ".join(sorted(names)) or "none"
+
+
+def _told(source: Document, marks: Marks) -> Mapping[str, frozenset[str]]:
+    """For each section the marks that demarcate it, as far as they have a place."""
+    found = {}
+    for section in source.all("tvdSection"):
+        bounds = [source.referred(each) for kind in DEMARCATING for each in source.all(kind, section)]
+        names = [source.attribute(each, "id") for each in bounds]
+        found[source.attribute(section, "id")] = frozenset(marks.of.get(name, name) for name in names)
+    return found
+
+
+def _regions(segments: Segments, marks: Marks) -> Iterator[tuple[frozenset[int], frozenset[str]]]:
+    """The pieces of track between detectors, with the detectors and the ends of track around each."""
+    graph: networkx.Graph[int] = networkx.Graph()
+    graph.add_nodes_from(range(len(segments.segments)))
+    around: dict[int, set[str]] = {each: set() for each in graph}
+    for heading, end in segments.at.items():
+        match end:
+            case Cut(mark, beyond) if mark not in marks.detectors:
+                graph.add_edge(heading[0], beyond[0])
+            case Cut(mark, _) | Stop(str() as mark):
+                around[heading[0]].add(mark)
+    for junction in segments.station.junctions.values():
+        first, *others = (segments.leaving[end][0] for end in junction.ports.values())
+        graph.add_edges_from((first, other) for other in others)
+    for inside in networkx.connected_components(graph):
+        yield frozenset(inside), frozenset(mark for each in inside for mark in around[each])

@@ -1,0 +1,240 @@
+"""Track and junctions from railML's topology: net elements, and how their ends are related.
+
+Ends of net elements that are related, navigable or not, meet in one place.  What can be run from which to
+which makes it a joint, a point, a crossing or a slip; a ``switchIS`` or ``crossing`` that refers to one of
+the relations gives its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import hypot
+
+import networkx
+
+from models.layouts.findings import Findings
+from models.layouts.numbers import LONGEST_DISTANCE_MM
+from models.layouts.railml.document import Document, Element
+from models.layouts.track import HIGH, LOW, Junction, Kind
+
+End = tuple[str, int]
+"""A net element, and the end of it (``LOW`` or ``HIGH``)."""
+MM_A_METRE = 1_000
+LONGEST_M = LONGEST_DISTANCE_MM / MM_A_METRE
+BY_POSITION = {0.0: LOW, 1.0: HIGH}
+FARTHEST_M = 1e9
+TOLERANCE = 0.01
+"""By so much of it a length may differ from the drawing's before that is worth a remark."""
+
+
+@dataclass(frozen=True)
+class Topology:
+    """Lengths of the net elements in mm, and where their ends meet."""
+
+    lengths_mm: Mapping[str, int]
+    junctions: Mapping[str, Junction]
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """A place in which ends meet: the relations there, and the pairs that can be run."""
+
+    ends: tuple[End, ...]
+    relations: tuple[str, ...]
+    ways: tuple[tuple[End, End], ...]
+
+
+@dataclass(frozen=True)
+class Named:
+    """What names a place: a switch or a crossing, and the relation of each branch by railML's word for it."""
+
+    element: Element
+    branches: Mapping[str, str] = field(default_factory=dict)
+
+
+def read_topology(source: Document, findings: Findings) -> Topology:
+    """Read it.
+
+    Raises:
+        BadInput: there is none, an end is related to none, or a place is nothing that rails can be.
+    """
+    micro = _micro(source)
+    lengths_mm = {name: _length_mm(source, name, findings) for name in micro}
+    named = dict(_named(source))
+    junctions: dict[str, Junction] = {}
+    for meeting in _meetings(source, lengths_mm):
+        junction = _junction(source, meeting, named, findings)
+        junctions[junction.name] = junction
+    for relation, names in named.items():
+        if names.element.get("id") not in junctions:
+            raise source.bad(names.element, f"its relation '{relation}' joins no ends here", "correct the topology")
+    return Topology(lengths_mm, junctions)
+
+
+def _micro(source: Document) -> list[str]:
+    """The net elements of the finest level; all that collect no others where no level is said to be that."""
+    every = {source.attribute(each, "id"): each for each in source.all("netElement")}
+    level = next((each for each in source.all("level") if each.get("descriptionLevel") == "Micro"), None)
+    if level is not None:
+        listed = [source.attribute(each, "ref") for each in source.all("networkResource", level)]
+        found = [name for name in listed if name in every]
+    else:
+        found = [name for name, each in every.items() if source.first("elementPart", each) is None]
+    if not found:
+        raise source.bad(None, "has no netElement: there is no track", "give the topology at the level Micro")
+    return list(dict.fromkeys(found))
+
+
+# ---- lengths
+
+
+def _length_mm(source: Document, name: str, findings: Findings) -> int:
+    """A net element's length: its own, else the track's that is all of it, else that of its drawing."""
+    element = source.by_id[name]
+    drawn_m = _drawn_m(source, element)
+    if element.get("length") is not None:
+        told_m: float | None = source.number(element, "length", 0.001, LONGEST_M)
+    else:
+        told_m = _of_track_m(source, name)
+    if told_m is None and drawn_m is None:
+        raise source.bad(element, "has no length, and no track or coordinates that give one", "add the length")
+    if told_m is None:
+        findings.remark([name], f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}")
+    elif drawn_m is not None and abs(drawn_m - told_m) > TOLERANCE * told_m:
+        findings.remark([name], f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long")
+    length_m = told_m if told_m is not None else drawn_m
+    if length_m is None or not 0.001 <= length_m <= LONGEST_M:
+        raise source.bad(element, f"its length is {length_m!r:.40} m", f"give 0.001 to {LONGEST_M} m")
+    return round(length_m * MM_A_METRE)
+
+
+def _drawn_m(source: Document, element: Element) -> float | None:
+    """The way along the drawing of a net element, in what its coordinates are given in."""
+    points = [
+        (source.number(each, "x", -FARTHEST_M, FARTHEST_M), source.number(each, "y", -FARTHEST_M, FARTHEST_M))
+        for each in source.all("geometricCoordinate", element)
+        if each.get("x") is not None
+    ]
+    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points)) if len(points) > 1 else None
+
+
+def _of_track_m(source: Document, name: str) -> float | None:
+    """The length of the track that is this net element and no other."""
+    for track in source.all("track"):
+        parts = list(source.all("associatedNetElement", track))
+        length = source.first("length", track)
+        if length is not None and len(parts) == 1 and parts[0].get("netElementRef") == name:
+            return source.number(length, "value", 0.001, LONGEST_M)
+    return None
+
+
+# ---- places
+
+
+def _meetings(source: Document, known: Mapping[str, int]) -> Iterator[Meeting]:
+    """Every place in which ends meet."""
+    graph: networkx.Graph[End] = networkx.Graph()
+    for relation in source.all("netRelation"):
+        one, other = (_end(source, relation, each) for each in ("A", "B"))
+        if one[0] not in known or other[0] not in known:
+            continue
+        if one == other:
+            raise source.bad(relation, "relates an end to itself", "correct its elements or positions")
+        navigable = source.attribute(relation, "navigability") != "None"
+        ran = navigable or graph.get_edge_data(one, other, {}).get("ran", False)
+        graph.add_edge(one, other, ran=ran)
+        graph.edges[one, other].setdefault("names", []).append(source.attribute(relation, "id"))
+    for ends in sorted(sorted(each) for each in networkx.connected_components(graph)):
+        inside = graph.subgraph(ends)
+        related = list(inside.edges(data=True))
+        relations = sorted(name for _, _, found in related for name in found["names"])
+        ways = sorted((min(one, other), max(one, other)) for one, other, found in related if found["ran"])
+        yield Meeting(tuple(ends), tuple(relations), tuple(ways))
+
+
+def _end(source: Document, relation: Element, side: str) -> End:
+    referring = source.first(f"element{side}", relation)
+    if referring is None:
+        raise source.bad(relation, f"has no element{side}", "add it")
+    source.referred(referring)
+    position = source.number(relation, f"positionOn{side}", 0, 1)
+    if position not in BY_POSITION:
+        raise source.bad(relation, f"positionOn{side} is {position:g}: no end", "give 0 or 1")
+    return source.attribute(referring, "ref"), BY_POSITION[position]
+
+
+def _named(source: Document) -> Iterator[tuple[str, Named]]:
+    """For each relation that is a branch of a switch or crossing, that."""
+    for kind in ("switchIS", "crossing", "crossingIS"):
+        for element in source.all(kind):
+            branches = {
+                f"{word}{number}": source.attribute(branch, "netRelationRef")
+                for word in ("left", "right", "straight", "turning")
+                for number, branch in enumerate(source.all(f"{word}Branch", element))
+                if branch.get("netRelationRef") is not None
+            }
+            if len(branches) == 0:
+                raise source.bad(element, "has no branch that refers to a net relation", "add its branches")
+            for branch, relation in branches.items():
+                if relation not in source.by_id:
+                    what = f"its {branch[:-1]} branch refers to '{relation}', which is not there"
+                    raise source.bad(element, what, "correct the reference or add the relation")
+                yield relation, Named(element, branches)
+
+
+def _junction(source: Document, meeting: Meeting, named: Mapping[str, Named], findings: Findings) -> Junction:
+    """What rails make of a place."""
+    by = next((named[name] for name in meeting.relations if name in named), None)
+    element = source.by_id[meeting.relations[0]] if by is None else by.element
+    name = source.attribute(element, "id")
+    ports = {f"end{at}": end for at, end in enumerate(meeting.ends)}
+    port_of = {end: port for port, end in ports.items()}
+    ways = [(port_of[one], port_of[other]) for one, other in meeting.ways]
+    kind = _kind(source, element, ways, by, port_of)
+    if kind is None:
+        what = f"{len(ports)} ends of track meet here, and {len(ways)} ways lead from one to another"
+        raise source.bad(element, f"{what}: no joint, point, crossing or slip has that", "correct the relations")
+    if by is None and len(kind.positions) > 1:
+        findings.remark([name], f"relation '{name}' is at a point that no switch names: it goes by the relation's id")
+    return Junction(name, kind, ports)
+
+
+def _kind(
+    source: Document, element: Element, ways: list[tuple[str, str]], by: Named | None, port_of: Mapping[End, str]
+) -> Kind | None:
+    """The kind of a junction, by which ends lead to which; positions of a point are railML's words."""
+    ports = tuple(port_of.values())
+    met = [port for way in ways for port in way]
+    if len(ports) == len(met) and len(set(met)) == len(met):
+        return Kind(ports, {"static": tuple(ways)})
+    if len(ports) == 3 and len(ways) == 2:
+        sides = _sides(source, by, ways, port_of) or {"branch1": ways[0], "branch2": ways[1]}
+        if set(sides.values()) != set(ways):
+            raise source.bad(element, "its branches are not the ways over this point", "correct its branches")
+        return Kind(ports, {side: (way,) for side, way in sides.items()})
+    if len(ports) == 4 and len(ways) in (3, 4) and all(port in met for port in ports) and _is_slip(ways):
+        return Kind(ports, {f"{one}_{other}": ((one, other),) for one, other in ways})
+    return None
+
+
+def _is_slip(ways: list[tuple[str, str]]) -> bool:
+    """Whether the ways of four ends lead from two on one side to two on the other."""
+    graph: networkx.Graph[str] = networkx.Graph(ways)
+    return networkx.is_connected(graph) and networkx.is_bipartite(graph)
+
+
+def _sides(
+    source: Document, by: Named | None, ways: list[tuple[str, str]], port_of: Mapping[End, str]
+) -> dict[str, tuple[str, str]]:
+    """For the left and the right branch of a switch, the way over it."""
+    found = {}
+    for branch, relation in {} if by is None else dict(by.branches).items():
+        element = source.by_id[relation]
+        ends = [_end(source, element, each) for each in ("A", "B")]
+        pair = [port_of[end] for end in ends if end in port_of]
+        way = next((each for each in ways if set(each) == set(pair)), None)
+        if way is not None:
+            found[branch[:-1]] = way
+    return found
