@@ -21,8 +21,11 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from evidence.manifest.command import manifest, verify
+from evidence.report.command import report
 from fuzz.campaign.command import fuzz
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, write_json, write_whole
+from proofs.mutants.command import mutate
+from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json, write_whole
 
 if TYPE_CHECKING:
     from models.layouts import CheckResult, Imported
@@ -57,6 +60,9 @@ class Paper(StrEnum):
 
     IC_TAGS = "000"
     INERTIAL_SENSORS = "001"
+    TRAMS = "002"
+    CROSSINGS = "003"
+    TRACK_WORKERS = "004"
 
 
 class Day(StrEnum):
@@ -84,6 +90,10 @@ def prove(
         str | None,
         typer.Option(metavar="PATTERN", help='Only obligations, as "row column", that match.', show_default=False),
     ] = None,
+    keep: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Keep the SMT-LIB text of every obligation there.", show_default=False),
+    ] = None,
 ) -> None:
     """Prove the kernel: every transition keeps every invariant, on every layout.
 
@@ -103,7 +113,7 @@ def prove(
     except re.error as error:
         raise Refused(f"--only {only}: not a pattern ({error}); give a part of a name") from error
     with progress("proving") as step:
-        report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step)
+        report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step, keep=keep)
     if not report.obligations:
         raise Refused(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
     print_matrix(console(), report)
@@ -154,7 +164,8 @@ def check(layouts: Layouts, json: Json = None) -> None:
     aside = f", {unread} not read" if unread else ""
     print_line(out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {CHECKED[worst]}")
     if json:
-        write_json(json, {"verdict": CHECKED[worst], "layouts": entries})
+        record = {"verdict": CHECKED[worst], "layouts": entries, "versions": versions(), "commit": commit()}
+        write_json(json, record)
     raise typer.Exit(worst)
 
 
@@ -218,7 +229,6 @@ def reproduce(
     from models.reproduce import PAPERS
     from models.reproduce.pictures import png
     from models.reproduce.tables import show, table_as_text
-    from proofs.records import commit, versions
 
     if output is not None and output.exists() and not output.is_dir():
         raise Refused(f"{output}: is not a folder; name another")
@@ -270,7 +280,6 @@ def ride(
     from models.rides.report import print_beyond, print_outcome, record
     from models.rides.tally import outcome
     from models.sensors.faults import names
-    from proofs.records import commit, versions
 
     writable(json)
     asked = list(names()) if beyond == ["each"] else list(beyond or ())
@@ -312,7 +321,6 @@ def days(
     from models.days.campaign import live_all, outcome
     from models.days.report import print_outcome, record
     from models.days.systems import system_of
-    from proofs.records import commit, versions
 
     writable(json)
     out = console()
@@ -326,7 +334,31 @@ def days(
     raise typer.Exit(verdict)
 
 
+@app.command()
+def handset(
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="F.html", help="The page.", show_default=False)],
+    day: Annotated[int, typer.Option(metavar="N", min=0, help="Of which day.")] = 0,
+    minutes: Annotated[int, typer.Option(metavar="N", min=1, max=240, help="So many minutes of it.")] = 60,
+    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+) -> None:
+    """Write a track worker's handset as one page, fed by a simulated day: tones, trains, both views.
+
+    Examples:
+
+    * `heisoku handset -o out/handset.html --minutes 20`
+    """
+    from models.alarm.page.writing import write
+
+    writable(output)
+    write(output, seed, day, length_s=60 * minutes)
+    print_line(console(), f"{output}: {minutes} minutes of day {day} with seed {seed}")
+
+
 app.command()(fuzz)
+app.command()(mutate)
+app.command()(manifest)
+app.command()(report)
+app.command()(verify)
 
 
 @app.command()

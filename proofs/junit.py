@@ -25,6 +25,14 @@ def junit_xml(report: Report) -> bytes:
         suite = etree.SubElement(root, "testsuite", name="heisoku prove", tests="1", failures="1")
         case = etree.SubElement(suite, "testcase", classname="heisoku", name="something is proved")
         etree.SubElement(case, "failure", type="undecided", message="no obligation was put to a solver")
+    missed = [each for each in report.canaries if not each["noticed"]]
+    if missed:
+        suite = etree.SubElement(root, "testsuite", name="canaries", tests=str(len(missed)), failures=str(len(missed)))
+        for each in missed:
+            case = etree.SubElement(
+                suite, "testcase", classname="canaries", name=clean(f"{each['canary']} [{each['solver']}]")
+            )
+            etree.SubElement(case, "failure", type="undecided", message=f"{each['solver']} answers {each['answer']}")
     count(root)
     return etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True)
 

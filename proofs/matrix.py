@@ -13,7 +13,7 @@ from pathlib import PurePath
 from rich.console import Console
 from rich.text import Text
 
-from proofs.records import Obligation, Report, Verdict, overall, theory_of
+from proofs.records import CanarySeen, Obligation, Report, Verdict, overall, theory_of
 
 MARK: Mapping[Verdict, tuple[str, str]] = {
     "proved": (".", "green"),
@@ -37,7 +37,7 @@ def print_matrix(console: Console, report: Report) -> None:
     cells = cells_of(report.obligations)
     spell_out(console, [cell for cell in cells.values() if verdict_of(cell) != "proved"])
     for line in totals(report, theories):
-        console.print(line, highlight=False)
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
 
 
 def by_theory(obligations: Iterable[Obligation]) -> dict[str, list[Obligation]]:
@@ -146,12 +146,25 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
         *(f"{theory}: {counted(obligations)}" for theory, obligations in theories.items() if len(theories) > 1),
         counted(report.obligations),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
+        *on_canaries(report.canaries),
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
     ]
     split = sum(len({answer["verdict"] for answer in cell}) > 1 for cell in cells.values())
     if split:
         lines.insert(-1, f"{split} obligations on which solvers or seeds differ")
     return lines
+
+
+def on_canaries(seen: Sequence[CanarySeen]) -> list[str]:
+    """Whether each solver saw what does not hold; whatever it says is worth nothing where it did not."""
+    missed = [each for each in seen if not each["noticed"]]
+    if not missed:
+        return [f"{len(seen)} canaries put to the solvers, none missed"] * bool(seen)
+    return [
+        f"{each['solver']} {each['solver_version']} answers {each['answer']} to what does not hold,"
+        f" {each['canary']}: nothing that it proved is believed"
+        for each in missed
+    ]
 
 
 def counted(obligations: Sequence[Obligation]) -> str:

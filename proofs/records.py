@@ -55,6 +55,16 @@ class Obligation(TypedDict):
     note: NotRequired[str]
 
 
+class CanarySeen(TypedDict):
+    """One question whose answer is known (:mod:`proofs.canaries`), put to one solver, and what it answered."""
+
+    canary: str
+    solver: str
+    solver_version: str
+    answer: str
+    noticed: bool
+
+
 class Record(TypedDict):
     """One proof run, as it is written to ``out/prove.json``; ``commit`` is null outside a git checkout."""
 
@@ -62,22 +72,28 @@ class Record(TypedDict):
     obligations: list[Obligation]
     lifting_seconds: float
     wall_seconds: float
+    canaries: list[CanarySeen]
     versions: dict[str, str]
     commit: str | None
 
 
 @dataclass(frozen=True)
 class Report:
-    """What a proof run gives back; ``seconds`` of lifting are apart from those of the whole run."""
+    """What a proof run gives back; ``seconds`` of lifting are apart from those of the whole run.
+
+    ``canaries``: what each solver answered to questions whose answer is known.
+    """
 
     obligations: Sequence[Obligation]
     lifting_seconds: float
     wall_seconds: float
+    canaries: Sequence[CanarySeen] = ()
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the whole run."""
-        return overall([obligation["verdict"] for obligation in self.obligations])
+        """The verdict on the whole run; a solver that misses a canary has decided nothing."""
+        doubted: list[Verdict] = ["undecided"] * (not all(each["noticed"] for each in self.canaries))
+        return overall([*doubted, *(obligation["verdict"] for obligation in self.obligations)])
 
     @property
     def exit_code(self) -> int:
@@ -91,6 +107,7 @@ class Report:
             "obligations": [{**each, "theory": theory_of(each["transition"])[0]} for each in self.obligations],
             "lifting_seconds": round(self.lifting_seconds, 3),
             "wall_seconds": round(self.wall_seconds, 3),
+            "canaries": [*self.canaries],
             "versions": versions(),
             "commit": commit(),
         }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import hashlib
 import inspect
 import re
@@ -13,8 +14,8 @@ from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 
-from proofs import lookups, scripts, smtlib, solvers
-from proofs.records import Obligation, Report, Source, Verdict
+from proofs import canaries, lookups, scripts, smtlib, solvers
+from proofs.records import Obligation, Report, Source, Verdict, write_whole
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.workbench import Part, Workbench
@@ -24,12 +25,13 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @dataclass(frozen=True)
 class Task:
-    """A few obligations of one row, for one process."""
+    """A few obligations of one row, for one process; ``keep``: the folder in which their texts are kept."""
 
     row: str
     columns: tuple[str, ...]
     solvers: tuple[str, ...]
     seeds: int
+    keep: Path | None = None
 
 
 @cache
@@ -68,6 +70,16 @@ def lifting_seconds() -> float:
     return sum(bench(theory).seconds for theory in THEORIES)
 
 
+def text_of(asked: list[Part]) -> bytes:
+    """The SMT-LIB text of an obligation: all its parts, one after the other, each with its question."""
+    return "".join(smtlib.script(part) for part in asked).encode()
+
+
+def digest_of(asked: list[Part]) -> str:
+    """The hash of that text."""
+    return hashlib.sha256(text_of(asked)).hexdigest()
+
+
 def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], digest: str) -> Obligation:
     """Ask one solver for every part of one obligation; any answer but ``unsat`` leaves it unproved."""
     replies = [solvers.ask(solver, part, seed) for part in asked]
@@ -95,8 +107,9 @@ def work(task: Task) -> tuple[list[Obligation], float]:
     found = []
     for column in task.columns:
         asked = parts(task.row, column)
-        text = "".join(smtlib.script(part) for part in asked)
-        digest = hashlib.sha256(text.encode()).hexdigest()
+        digest = digest_of(asked)
+        if task.keep is not None:
+            write_whole(kept(task.keep, task.row, column), gzip.compress(text_of(asked), mtime=0))
         found += [
             settle(task.row, column, solver, seed, asked, digest)
             for solver in task.solvers
@@ -105,13 +118,18 @@ def work(task: Task) -> tuple[list[Obligation], float]:
     return found, lifting_seconds() - before
 
 
-def tasks(asked: tuple[str, ...], seeds: int, only: str | None) -> Iterator[Task]:
+def kept(folder: Path, row: str, column: str) -> Path:
+    """The file that the text of an obligation is kept in."""
+    return folder / row / f"{column}.smt2.gz"
+
+
+def tasks(asked: tuple[str, ...], seeds: int, only: str | None, keep: Path | None = None) -> Iterator[Task]:
     """Cut the matrix into tasks, whole rows in a few pieces so that every process stays busy."""
     pattern = re.compile(only or "")
     for row in ROWS:
         chosen = [column for column in columns(row) if pattern.search(f"{row} {column}")]
         for start in range(0, len(chosen), 20):
-            yield Task(row, tuple(chosen[start : start + 20]), asked, seeds)
+            yield Task(row, tuple(chosen[start : start + 20]), asked, seeds, keep)
 
 
 def prove_all(
@@ -120,18 +138,24 @@ def prove_all(
     jobs: int = 2,
     seeds: int = 1,
     only: str | None = None,
+    keep: Path | None = None,
     progress: Callable[[int, int, str], object] = lambda done, total, what: None,
 ) -> Report:
-    """Prove every obligation whose row and column match ``only``; nothing matched gives an empty report."""
+    """Prove every obligation whose row and column match ``only``; nothing matched gives an empty report.
+
+    ``keep``: a folder for the SMT-LIB text of each.
+    """
     began = time.perf_counter()
-    todo = list(tasks(("z3", "cvc5") if solver == "both" else (solver,), seeds, only))
+    asked = ("z3", "cvc5") if solver == "both" else (solver,)
+    todo = list(tasks(asked, seeds, only, keep))
+    seen = canaries.seen(asked) if todo else []
     obligations: list[Obligation] = []
     lifting = 0.0
     for done, (found, seconds) in enumerate(_results(todo, jobs), 1):
         obligations += found
         lifting += seconds
         progress(done, len(todo), todo[done - 1].row)
-    return Report(obligations, lifting, time.perf_counter() - began)
+    return Report(obligations, lifting, time.perf_counter() - began, seen)
 
 
 def _results(todo: list[Task], jobs: int) -> Iterable[tuple[list[Obligation], float]]:

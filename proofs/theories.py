@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
-from proofs.crossing import arrival
+from proofs.crossing import arrival, crossing, due
 from proofs.onboard import (
     antenna_spacing,
     brake_watch,
@@ -26,6 +26,7 @@ from proofs.onboard import (
     train_length,
 )
 from proofs.theory import READING, START, Theory
+from proofs.tram import cycle, dispatching, stopping
 
 IN_ORDER: tuple[Theory, ...] = (
     INTERLOCKING,
@@ -44,6 +45,11 @@ IN_ORDER: tuple[Theory, ...] = (
     alarm_distance.THEORY,
     alarm_tone.THEORY,
     arrival.THEORY,
+    dispatching.THEORY,
+    stopping.THEORY,
+    cycle.THEORY,
+    due.THEORY,
+    crossing.THEORY,
 )
 """The theories, in the order of the matrix."""
 

@@ -27,12 +27,14 @@ from fuzz.campaign.sought import seek
 from fuzz.campaign.store import Store
 from fuzz.campaign.view import View
 from fuzz.campaign.worker import work_on
+from fuzz.targets.days import Days
 from fuzz.targets.interlocking import Interlocking
 from fuzz.targets.jolted import Jolted
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Target
 from fuzz.targets.walks import Walks
+from models.days.systems import NAMES
 from proofs.records import UNDECIDED, commit, versions, write_json
 
 COLUMNS_OF_A_FILE = 120
@@ -64,6 +66,7 @@ OFFERED: Mapping[str, Making] = {
     "walks": lambda layouts: [Walks()],
     "link": lambda layouts: [LinkRuns()],
     "rides": lambda layouts: [Rides()],
+    "days": lambda layouts: [Days(name) for name in NAMES],
 }
 """What --target names: each gives the targets that it stands for.  Those that need layouts stand in ON_LAYOUTS too."""
 ON_LAYOUTS: frozenset[str] = frozenset({"interlocking", "jolted"})

@@ -4,7 +4,9 @@ Every train is known by two sources: its GPS, and the traffic display (TID).  Wh
 agree, the train is where its GPS says.  Where they do not, the tone is the fault tone, except for three
 things that are registered beforehand, for the paper's reason that they happen every day (004, 4):
 
-- a stretch without GPS, tunnel and both zones beside it: the train is put at the end nearest the worker;
+- a stretch without GPS, tunnel and both zones beside it: from its entry, zone A, on the train may be anywhere from
+  its last fix to the outer end of the other zone, B, and counts at the end of that which is nearest the worker;
+  seen in zone B, and on the display there, it is known as any other;
 - shunting in a station: GPS alone, and the direction is not believed;
 - a stabled train on the roster, its engine off: the display alone.
 
@@ -14,6 +16,10 @@ The order is alarm, fault, caution, normal.  The alarm comes first because it is
 once, whatever else does not work.  The fault tone comes before caution because caution also says that all
 other trains are far, and that is not known then.  Nothing is kept from one decision to the next: the tone
 follows from what is known now, so no train's tone hides another's.
+
+A train lost without GPS also counts by the stretch that the display shows, which the paper does not do: the ends of
+the section say where it is only while it neither turns in the tunnel nor leaves it unseen, and the display says so
+whatever it does.  It may be the nearer of both, and is for a worker behind the train; that is the price.
 """
 
 from __future__ import annotations
@@ -28,6 +34,7 @@ from kernel.alarm.distance import (
     NO_TRAIN_FIX,
     UM_A_MM,
     AlarmBounds,
+    Direction,
     TrainFix,
     WorkerFix,
     is_fix,
@@ -67,11 +74,15 @@ class Reason(Enum):
 
 @dataclass(frozen=True)
 class NoUse:
-    """A section that is not to be used, from one kilometrage to another (A4, A5, A6)."""
+    """A section that is not to be used, from one kilometrage to another (A4, A5, A6).
+
+    ``zone_mm``: without GPS, so long is the stretch at either end where there is GPS yet: zones A and B (004, 4.1).
+    """
 
     reason: Reason
     from_mm: int
     to_mm: int
+    zone_mm: int
 
 
 @dataclass(frozen=True)
@@ -239,13 +250,18 @@ def is_within(section: NoUse, place_mm: int) -> bool:
     return section.from_mm <= place_mm <= section.to_mm
 
 
+def is_shunting(register: Register, known: Known) -> bool:
+    """Tell whether a train is not on the display, and GPS puts it where trains shunt (004, 4.2; A5)."""
+    return not has_display(register, known) and any(
+        section.reason == Reason.SHUNTING and is_within(section, known.fix.place_mm)
+        for _name, section in register.sections.items()
+    )
+
+
 def is_registered(register: Register, train: Train, known: Known) -> bool:
     """Tell whether it is registered that one source alone knows of a train (A4, A5, A6)."""
     if has_fix(register, known):
-        return not has_display(register, known) and any(
-            section.reason == Reason.SHUNTING and is_within(section, known.fix.place_mm)
-            for _name, section in register.sections.items()
-        )
+        return is_shunting(register, known)
     return has_display(register, known) and (
         was_lost_without_gps(register, known)
         or any(
@@ -258,11 +274,27 @@ def is_registered(register: Register, train: Train, known: Known) -> bool:
     )
 
 
+def runs(fix: TrainFix, way: Direction) -> bool:
+    """Tell whether a train ran that way at its last fix; of one that stands it is not known (A3)."""
+    return fix.is_running and fix.direction == way
+
+
+def is_in_zone_b(section: NoUse, fix: TrainFix) -> bool:
+    """Tell whether GPS sees a train in the zone by which it leaves a section without GPS (004, 4.1; A4)."""
+    return (runs(fix, Direction.DOWN) and fix.place_mm > section.to_mm - section.zone_mm) or (
+        runs(fix, Direction.UP) and fix.place_mm < section.from_mm + section.zone_mm
+    )
+
+
+def is_put_forward(section: NoUse, fix: TrainFix) -> bool:
+    """Tell whether a train is on its way through a section without GPS: entered, and not seen in zone B (A4)."""
+    return section.reason == Reason.WITHOUT_GPS and is_within(section, fix.place_mm) and not is_in_zone_b(section, fix)
+
+
 def was_lost_without_gps(register: Register, known: Known) -> bool:
-    """Tell whether the last fix, an hour old at most, is in a section without GPS (A4)."""
+    """Tell whether the last fix, an hour old at most, was on the way through a section without GPS (A4)."""
     return is_fix(known.fix.place_mm, known.fix.age_ms) and any(
-        section.reason == Reason.WITHOUT_GPS and is_within(section, known.fix.place_mm)
-        for _name, section in register.sections.items()
+        is_put_forward(section, known.fix) for _name, section in register.sections.items()
     )
 
 
@@ -292,12 +324,21 @@ def may_be_by_display(register: Register, known: Known, worker: WorkerFix, limit
     )
 
 
-def is_put_at_the_end(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
-    """Tell whether a section without GPS, in which a train was lost, has an end that near (004, 4.1; A4)."""
+def from_way_through_um(bounds: AlarmBounds, section: NoUse, fix: TrainFix, worker: WorkerFix) -> int:
+    """Give how far a train on its way through is at the least: from its last fix to the outer end of zone B (A4).
+
+    Of one that stood, or whose direction is unknown, either end may be the outer one.
+    """
+    from_mm = fix.place_mm - bounds.train_error_mm if runs(fix, Direction.DOWN) else section.from_mm
+    to_mm = fix.place_mm + bounds.train_error_mm if runs(fix, Direction.UP) else section.to_mm
+    return from_stretch_um(bounds, from_mm, to_mm, worker)
+
+
+def may_be_on_its_way_through(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train on its way through a section without GPS may be that near (004, 4.1; A4)."""
     return any(
-        section.reason == Reason.WITHOUT_GPS
-        and is_within(section, known.fix.place_mm)
-        and from_stretch_um(register.bounds, section.from_mm, section.to_mm, worker) <= UM_A_MM * limit_mm
+        is_put_forward(section, known.fix)
+        and from_way_through_um(register.bounds, section, known.fix, worker) <= UM_A_MM * limit_mm
         for _name, section in register.sections.items()
     )
 
@@ -308,11 +349,15 @@ def may_be_near(register: Register, known: Known, worker: WorkerFix, limit_mm: i
     The direction counts only where both sources agree.
     """
     if is_matched(register, known):
-        return distance.may_approach_within(register.bounds, known.fix, worker, limit_mm)
+        return distance.may_approach_within(register.bounds, known.fix, worker, limit_mm) or (
+            may_be_on_its_way_through(register, known, worker, limit_mm)
+            and not distance.is_departing(register.bounds, known.fix, worker)
+        )
     if has_fix(register, known):
         return nearest_um(register.bounds, known.fix, worker) <= UM_A_MM * limit_mm
     return has_display(register, known) and (
-        may_be_by_display(register, known, worker, limit_mm) or is_put_at_the_end(register, known, worker, limit_mm)
+        may_be_by_display(register, known, worker, limit_mm)
+        or may_be_on_its_way_through(register, known, worker, limit_mm)
     )
 
 

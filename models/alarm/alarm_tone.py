@@ -11,7 +11,18 @@ from dataclasses import dataclass, replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, PAST_MM, UM_A_MM, Direction, TrainFix, WorkerFix, is_fix
-from kernel.alarm.tone import ALARM_MM, CAUTION_MM, NOTHING_KNOWN, Display, Handset, Known, Register, Tone, Train
+from kernel.alarm.tone import (
+    ALARM_MM,
+    CAUTION_MM,
+    NOTHING_KNOWN,
+    Display,
+    Handset,
+    Known,
+    NoUse,
+    Register,
+    Tone,
+    Train,
+)
 from kernel.maps import Map
 from kernel.onboard.arithmetic import larger, magnitude
 
@@ -49,6 +60,8 @@ class Heard:
     ``within_3000``, ``within_1500``: some train was, and had not departed.
     ``matched_within_1500``: one of which both sources agreed, while the worker had a fix.
     ``unknown``: some train was not on the list, or not known as it should be, or the worker's place was not.
+    ``beyond_a_tunnel``: one was on its way through a section without GPS, as far as the handset knew, and the worker,
+    who had a fix, less than 1500 m beyond the end by which it would come out.
     ``not_to_be_used``: the worker was in a section that is not to be used, and had a fix.
     """
 
@@ -57,6 +70,7 @@ class Heard:
     within_1500: bool
     matched_within_1500: bool
     unknown: bool
+    beyond_a_tunnel: bool
     not_to_be_used: bool
 
 
@@ -96,12 +110,37 @@ def is_known(site: Railway, train: Train, handset: Handset) -> bool:
     )
 
 
+def is_just_beyond(section: NoUse, fix: TrainFix, worker_um: int) -> bool:
+    """Tell whether the worker is within 1500 m of an end by which a train may come out of a section (A4)."""
+    down_um, up_um = worker_um - UM_A_MM * section.to_mm, UM_A_MM * section.from_mm - worker_um
+    return (not machine.runs(fix, Direction.UP) and 0 <= down_um <= UM_A_MM * ALARM_MM) or (
+        not machine.runs(fix, Direction.DOWN) and 0 <= up_um <= UM_A_MM * ALARM_MM
+    )
+
+
+def may_come_out_at(site: Railway, known: Known, worker_um: int) -> bool:
+    """Tell whether a train, on the display, is on its way through a section towards the worker (A4)."""
+    return (
+        machine.has_display(site.register, known)
+        and (machine.agree(site.register, known) or not machine.has_fix(site.register, known))
+        and any(
+            machine.is_put_forward(section, known.fix) and is_just_beyond(section, known.fix, worker_um)
+            for _name, section in site.register.sections.items()
+        )
+    )
+
+
 # ---- premises
 
 
 def the_alarm_limit_is_within_an_hour(site: Railway) -> bool:
     """What counts as fresh is within the ranges of reports (A1)."""
     return site.register.fresh.server_ms <= GREATEST_AGE_MS
+
+
+def the_error_is_not_negative(site: Railway) -> bool:
+    """The error of a train's fix is written as a way, not below zero (A1)."""
+    return site.register.bounds.train_error_mm >= 0
 
 
 # ---- assumptions
@@ -151,15 +190,20 @@ def a_worker_fix_is_within_its_error(site: Railway, fix: WorkerFix, at_um: int) 
 
 
 def a_wrong_fix_is_contradicted(site: Railway, known: Known, is_right: bool) -> bool:
-    """While a fix is wrong, the display is there, fresh, and shows the train elsewhere (A2).
+    """No wrong fix agrees with a fresh display, nor puts a train that is not on the display where trains shunt (A2).
 
-    So GPS does not err by less than the display can tell, nor while the display is silent.
+    So GPS does not err by less than the display can tell.  That is not true of nature: under a roof or in a cutting a
+    fix is off by 100 m, and the display shows a stretch of some km.  It cannot be had for less: only these two sources
+    tell of a train, so what both tell alike is believed, and a yard has one source alone.  The error as written has to
+    be one that is measured on the line, and stretches where it is exceeded are registered.
+
+    It says nothing of a wrong fix that agrees with no display, because there is none: then no tone is mild.
     """
-    return (
-        is_right
-        or not is_fix(known.fix.place_mm, known.fix.age_ms)
-        or (machine.has_display(site.register, known) and not machine.agree(site.register, known))
-    )
+    if is_right or not is_fix(known.fix.place_mm, known.fix.age_ms):
+        return True
+    if machine.has_display(site.register, known):
+        return not machine.agree(site.register, known)
+    return not machine.is_shunting(site.register, known)
 
 
 def no_train_turns_sooner(site: Railway, known: Known, heading: Direction) -> bool:
@@ -182,7 +226,7 @@ def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um
 
 
 def sources_do_not_fail_together(site: Railway, system: Worksite, elapsed_ms: int) -> bool:
-    """Nor do they as time passes (A2)."""
+    """As time passes, no display falls silent while a wrong fix puts its train where trains shunt (A2, A5)."""
     return all(
         a_wrong_fix_is_contradicted(
             site, machine.older_known(system.handset.trains[train], elapsed_ms), body.fix_is_right
@@ -361,6 +405,11 @@ def listen(site: Railway, system: Worksite) -> Worksite:
             unknown=not handset.battery_well
             or not machine.has_worker(site.register, handset)
             or any(not is_known(site, train, handset) for train in system.bodies),
+            beyond_a_tunnel=has_fix
+            and any(
+                train in handset.trains and may_come_out_at(site, handset.trains[train], worker_um)
+                for train in system.bodies
+            ),
             not_to_be_used=has_fix
             and any(
                 UM_A_MM * section.from_mm <= worker_um <= UM_A_MM * section.to_mm

@@ -4,7 +4,9 @@ What is rewritten, and nothing else:
 
 - a frozen dataclass is a named tuple (``records.py``), its construction gives every field in order;
 - ``replace(record, field=...)`` is a function made for these fields, resolved by the record's type;
-- a member of an enumeration is its number;
+- a member of an enumeration is its number, and so is a name: whoever calls gives numbers in place of texts;
+- a map is a typed list of pairs, a set one of items (``maps.py``): ``in``, ``[key]``, ``| {key: value}``;
+- ``any``, ``all`` and ``{key: ...}`` over ``some_map.items()`` are loops in functions made for them (``loops.py``);
 - docstrings, asserts (they are proved) and annotations are left out.
 
 ``//`` and ``%`` round down as in Python, and a divisor of 0 raises. Integers have 64 bits, see
@@ -30,7 +32,20 @@ from typing import Any
 import numba
 from numba.extending import overload
 
-from models.compiled.records import LEAST, MOST, hints_of, is_enumeration, is_record, number_of, packed, tuple_class
+from models.compiled import loops, maps
+from models.compiled.records import (
+    LEAST,
+    MOST,
+    hints_of,
+    is_enumeration,
+    is_map,
+    is_name,
+    is_record,
+    is_set,
+    number_of,
+    packed,
+    tuple_class,
+)
 
 Code = Callable[..., Any]
 
@@ -39,7 +54,7 @@ KNOWN = (
     *(ast.IfExp, ast.BoolOp, ast.UnaryOp, ast.BinOp, ast.Compare, ast.Call, ast.keyword, ast.Attribute),
     *(ast.Subscript, ast.Tuple, ast.Name, ast.Constant, ast.Load, ast.Store, ast.And, ast.Or, ast.Not, ast.USub),
     *(ast.Add, ast.Sub, ast.Mult, ast.FloorDiv, ast.Mod),
-    *(ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.In, ast.NotIn),
+    *(ast.Eq, ast.NotEq, ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.In, ast.NotIn, ast.DictComp),
 )
 """The constructs that mean the same to numba as to CPython, for the types of the machines on board."""
 
@@ -87,7 +102,7 @@ class _Program:
                 names[name] = packed(value)
         for tree in _parsed(module).body:
             if isinstance(tree, ast.FunctionDef):
-                names[tree.name] = numba.njit(Rewriting(module, tree).function(names))
+                names[tree.name] = numba.njit(Rewriting(module, tree, self.names).function(names))
             elif isinstance(tree, ast.ClassDef):
                 _check_class(module, tree)
             elif not isinstance(tree, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.Expr):
@@ -98,10 +113,13 @@ class _Program:
 class Rewriting(ast.NodeTransformer):
     """Rewrites one function."""
 
-    def __init__(self, module: types.ModuleType, tree: ast.FunctionDef) -> None:
-        self._module, self._tree = module, tree
+    def __init__(
+        self, module: types.ModuleType, tree: ast.FunctionDef, names_of: Callable[[types.ModuleType], dict[str, Any]]
+    ) -> None:
+        self._module, self._tree, self._names_of = module, tree, names_of
         self._at: ast.AST = tree
         self._made: dict[str, Any] = {}
+        self._locals = loops.locals_of(tree)
 
     def function(self, names: dict[str, Any]) -> Code:
         """Return the function as numba is to have it, with these global names."""
@@ -167,9 +185,83 @@ class Rewriting(ast.NodeTransformer):
             raise self._refused(node, f"{node.id} is an enumeration without a member, or beyond 64 bits")
         return node
 
-    def visit_Call(self, node: ast.Call) -> ast.Call:
+    def visit_Compare(self, node: ast.Compare) -> ast.expr:
+        """Look for a key in a map as for an item in a set or a tuple."""
+        looked_for = [op for op in node.ops if isinstance(op, ast.In | ast.NotIn)]
+        if not looked_for:
+            return typing.cast(ast.expr, self.generic_visit(node))
+        if len(node.ops) > 1:
+            raise self._refused(node, "a chain with in cannot be compiled")
+        found: ast.expr = self._helped(node, maps.contains, self.visit(node.comparators[0]), self.visit(node.left))
+        if isinstance(looked_for[0], ast.NotIn):
+            found = ast.UnaryOp(ast.Not(), found)
+        return ast.copy_location(found, node)
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        """Take an item of a tuple by a number that is written there, else a value of a map by its key."""
+        if isinstance(node.slice, ast.Constant | ast.UnaryOp):
+            return typing.cast(ast.expr, self.generic_visit(node))
+        return self._helped(node, maps.value_at, self.visit(node.value), self.visit(node.slice))
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        """Put one entry into a map."""
+        if not isinstance(node.op, ast.BitOr):
+            return typing.cast(ast.expr, self.generic_visit(node))
+        if not isinstance(node.right, ast.Dict) or len(node.right.keys) != 1 or node.right.keys[0] is None:
+            raise self._refused(node, "BitOr cannot be compiled but with one entry on its right")
+        key, value = self.visit(node.right.keys[0]), self.visit(node.right.values[0])
+        return self._helped(node, maps.with_entry, self.visit(node.left), key, value)
+
+    def visit_DictComp(self, node: ast.DictComp) -> ast.expr:
+        """Make a map of the entries of another, with the same keys."""
+        target = node.generators[0].target
+        keys = target.elts if isinstance(target, ast.Tuple) else [target]
+        if ast.dump(node.key) != ast.dump(ast.Name(getattr(keys[0], "id", ""), ast.Load())):
+            raise self._refused(node, "a map with other keys cannot be compiled")
+        return self._looped(node, node.generators, "map", node.value)
+
+    def _looped(self, node: ast.expr, generators: list[ast.comprehension], kind: str, each: ast.expr) -> ast.expr:
+        problem = loops.problem_of(generators)
+        if problem:
+            raise self._refused(node, problem)
+        (only,) = generators
+        names = tuple(typing.cast(ast.Name, name).id for name in typing.cast(ast.Tuple, only.target).elts)
+        source = typing.cast(ast.Attribute, typing.cast(ast.Call, only.iter).func).value
+        conditions = [self.visit(test) for test in only.ifs]
+        loop = loops.Loop(kind, names, conditions, self.visit(each))
+        free = loop.free(self._locals)
+        name = f"__{kind}_{self._tree.name}_{node.lineno}_{node.col_offset}"
+        whole = ast.fix_missing_locations(ast.Module([ast.copy_location(loop.function(name, free), node)], []))
+        made: dict[str, Any] = {}
+        exec(compile(whole, _path(self._module), "exec"), self._names_of(self._module), made)
+        self._made |= {name: numba.njit(made[name]), loops.LIST: loops.TypedList}
+        given = [self.visit(source), *(ast.Name(each, ast.Load()) for each in free)]
+        return ast.copy_location(ast.Call(ast.Name(name, ast.Load()), given, []), node)
+
+    def _helped(self, node: ast.expr, helper: Code, *arguments: ast.expr) -> ast.expr:
+        name = f"__{helper.__name__}"
+        self._made[name] = helper
+        return ast.copy_location(ast.Call(ast.Name(name, ast.Load()), list(arguments), []), node)
+
+    def _called(self, node: ast.Call) -> tuple[Any, ast.expr]:
+        """What is called, and by which name of this module: one of another module gets a name of its own."""
+        if isinstance(node.func, ast.Name):
+            return vars(self._module).get(node.func.id), node.func
+        if isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name):
+            other = vars(self._module).get(node.func.value.id)
+            if isinstance(other, types.ModuleType) and _is_machines(vars(other).get(node.func.attr)):
+                name = f"__{node.func.value.id}_{node.func.attr}"
+                self._made[name] = self._names_of(other)[node.func.attr]
+                return vars(other)[node.func.attr], ast.Name(name, ast.Load())
+        return None, node.func
+
+    def visit_Call(self, node: ast.Call) -> ast.expr:
         """Construct with every field in order; replace by a function made for it; call what is a function."""
-        called = vars(self._module).get(node.func.id) if isinstance(node.func, ast.Name) else None
+        if isinstance(node.func, ast.Name) and node.func.id in ("any", "all") and len(node.args) == 1:
+            if not isinstance(node.args[0], ast.GeneratorExp):
+                raise self._refused(node, f"{node.func.id} of what is written nowhere cannot be compiled")
+            return self._looped(node, node.args[0].generators, node.func.id, node.args[0].elt)
+        called, function = self._called(node)
         given = {keyword.arg: self.visit(keyword.value) for keyword in node.keywords}
         if None in given:
             raise self._refused(node, "a call with ** cannot be compiled")
@@ -179,9 +271,9 @@ class Rewriting(ast.NodeTransformer):
             self._made[name] = replacement(tuple(map(str, given)))
             new = ast.Call(ast.Name(name, ast.Load()), [*arguments, *given.values()], [])
         elif is_record(called):
-            new = ast.Call(node.func, self._fields(node, called, arguments, given), [])
+            new = ast.Call(function, self._fields(node, called, arguments, given), [])
         elif _is_machines(called):
-            new = ast.Call(node.func, arguments, [ast.keyword(name, value) for name, value in given.items()])
+            new = ast.Call(function, arguments, [ast.keyword(name, value) for name, value in given.items()])
         else:
             raise self._refused(node, f"{ast.unparse(node.func)} is no function of a machine")
         return ast.copy_location(new, node)
@@ -235,10 +327,15 @@ def _check_class(module: types.ModuleType, tree: ast.ClassDef) -> None:
 
 
 def _check_type(module: types.ModuleType, node: ast.AST, annotation: Any) -> None:
-    if typing.get_origin(annotation) is tuple:
+    if typing.get_origin(annotation) is tuple or is_map(annotation) or is_set(annotation):
         for item in typing.get_args(annotation):
             _check_type(module, node, item)
-    elif annotation not in (int, bool) and not is_enumeration(annotation) and not is_record(annotation):
+    elif (
+        annotation not in (int, bool)
+        and not is_name(annotation)
+        and not is_enumeration(annotation)
+        and not is_record(annotation)
+    ):
         raise _refused(module, node, f"a value of type {annotation} cannot be compiled")
 
 

@@ -1,6 +1,7 @@
 """What compiled code holds in place of the machines' records: named tuples of the same fields.
 
-An enumeration's member becomes its number in order of definition, from 0.
+An enumeration's member becomes its number in order of definition, from 0.  A map becomes a typed list of pairs of
+key and value, in the order of the map; a set, a typed list of its items.
 """
 
 from __future__ import annotations
@@ -8,10 +9,17 @@ from __future__ import annotations
 import dataclasses
 import typing
 from collections import namedtuple
+from collections.abc import Mapping
 from enum import Enum
 from functools import cache
 from typing import Any
 
+from numba import types as known_types
+from numba.typed import List
+
+from kernel.maps import Map
+
+types: Any = known_types
 LEAST, MOST = -(2**63), 2**63 - 1
 """The integers that compiled code can hold. A sum or product beyond them wraps round without a word:
 that none arises from inputs within the declared ranges is the machine's duty, and tests watch it."""
@@ -54,12 +62,46 @@ def number_of(member: Enum) -> int:
     return list(type(member)).index(member)
 
 
-def packed(value: Any) -> Any:
-    """Return a machine's value as compiled code takes it.
+def is_map(type_: Any) -> bool:
+    """Whether a type is that of a map."""
+    return typing.get_origin(type_) is Map
+
+
+def is_set(type_: Any) -> bool:
+    """Whether a type is that of a set."""
+    return typing.get_origin(type_) is frozenset
+
+
+def is_name(type_: Any) -> bool:
+    """Whether a type is that of names of something, which are numbers in compiled code."""
+    return isinstance(type_, typing.NewType) and type_.__supertype__ in (str, int)
+
+
+@cache
+def compiled_type(type_: Any) -> Any:
+    """Return what numba calls the type that stands for a machine's type."""
+    if type_ is bool:
+        return types.boolean
+    if type_ is int or is_enumeration(type_) or is_name(type_):
+        return types.int64
+    items = tuple(compiled_type(item) for item in typing.get_args(type_))
+    if is_map(type_):
+        return types.ListType(types.Tuple(items))
+    if is_set(type_):
+        return types.ListType(items[0])
+    if is_record(type_):
+        fields = [compiled_type(hint) for hint in hints_of(type_).values()]
+        return types.BaseTuple.from_types(fields, tuple_class(type_))
+    assert typing.get_origin(type_) is tuple, f"{type_} cannot be compiled"
+    return types.Tuple(items)
+
+
+def packed(value: Any, type_: Any = None) -> Any:
+    """Return a machine's value as compiled code takes it; a map or a set that stands in no record needs its type.
 
     Raises:
         OverflowError: an integer in it does not fit 64 bits.
-        TypeError: something in it is no record, tuple, member of an enumeration, int or bool.
+        TypeError: something in it is no record, tuple, map, set, member of an enumeration, int or bool.
     """
     if isinstance(value, Enum):
         return number_of(value)
@@ -69,12 +111,26 @@ def packed(value: Any) -> Any:
         if not LEAST <= value <= MOST:
             raise OverflowError(f"{value} does not fit 64 bits")
         return int(value)
+    if isinstance(value, Mapping | frozenset) and type_ is not None:
+        return _listed(value, type_)
     if isinstance(value, tuple):
         return tuple(packed(item) for item in value)
     cls: Any = type(value)
     if is_record(cls):
-        return tuple_class(cls)(*(packed(getattr(value, name)) for name in hints_of(cls)))
+        return tuple_class(cls)(*(packed(getattr(value, name), hint) for name, hint in hints_of(cls).items()))
     raise TypeError(f"{value!r} cannot be handed to compiled code")
+
+
+def _listed(value: Any, type_: Any) -> Any:
+    listed: Any = List.empty_list(compiled_type(type_).item_type)
+    if is_set(type_):
+        items = [packed(item) for item in sorted(value)]
+    else:
+        of = typing.get_args(type_)[1]
+        items = [(packed(key), packed(item, of)) for key, item in value.items()]
+    for item in items:
+        listed.append(item)
+    return listed
 
 
 def unpacked(value: Any, type_: Any) -> Any:
@@ -85,6 +141,15 @@ def unpacked(value: Any, type_: Any) -> Any:
         return type_(*(unpacked(item, hint) for item, hint in zip(value, hints.values(), strict=True)))
     if is_enumeration(type_):
         return list(type_)[value]
+    if is_name(type_):
+        return value
+    if is_map(type_):
+        key, of = typing.get_args(type_)
+        found = {unpacked(one, key): unpacked(other, of) for one, other in value}
+        assert len(found) == len(value), "a key stands twice"
+        return found
+    if is_set(type_):
+        return frozenset(unpacked(item, typing.get_args(type_)[0]) for item in value)
     if typing.get_origin(type_) is tuple:
         return tuple(unpacked(item, hint) for item, hint in zip(value, typing.get_args(type_), strict=True))
     assert type(value) is type_, f"{value!r} is no {type_.__name__}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from models.reproduce import paper_000, paper_001
+from models.reproduce import paper_000, paper_001, paper_002, paper_003, paper_004
 from models.reproduce.tables import Reproduction
 
 
@@ -24,5 +24,11 @@ class Paper:
     runs: int
 
 
-PAPERS = {"000": Paper(paper_000.reproduce, 400), "001": Paper(paper_001.reproduce, 220)}
+PAPERS = {
+    "000": Paper(paper_000.reproduce, 400),
+    "001": Paper(paper_001.reproduce, 220),
+    "002": Paper(paper_002.reproduce, 20),
+    "003": Paper(paper_003.reproduce, 10),
+    "004": Paper(paper_004.reproduce, 20),
+}
 """By the paper's number."""

@@ -24,6 +24,7 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
     return (
         system.heard.tone == Tone.FAULT
         and not system.heard.matched_within_1500
+        and not system.heard.beyond_a_tunnel
         and all(False for _train in system.handset.trains)
         and system.handset.server_age_ms > GREATEST_AGE_MS
         and system.handset.worker.age_ms > GREATEST_AGE_MS
@@ -53,6 +54,11 @@ def unknown_is_never_normal(site: Railway, system: Worksite) -> bool:
 def a_departing_train_never_masks_an_approaching_one(site: Railway, system: Worksite) -> bool:
     """If a matched train is within 1500 m and has not departed, the alarm sounds, whatever the others do (A3)."""
     return system.heard.tone == Tone.ALARM or not system.heard.matched_within_1500
+
+
+def a_train_in_a_tunnel_counts_at_its_outer_end(site: Railway, system: Worksite) -> bool:
+    """If a train is on its way through a section, who is within 1500 m of its outer end hears the alarm (A4)."""
+    return system.heard.tone == Tone.ALARM or not system.heard.beyond_a_tunnel
 
 
 def in_a_section_not_to_be_used_no_tone_is_normal(site: Railway, system: Worksite) -> bool:
@@ -132,6 +138,7 @@ SAFETY = (
     caution_means_no_train_within_1500_m,
     unknown_is_never_normal,
     a_departing_train_never_masks_an_approaching_one,
+    a_train_in_a_tunnel_counts_at_its_outer_end,
     in_a_section_not_to_be_used_no_tone_is_normal,
 )
 INVARIANTS = (
@@ -144,7 +151,7 @@ INVARIANTS = (
     no_train_of_the_line_is_longer,
     a_fresh_list_has_every_train,
 )
-PREMISES = (world.the_alarm_limit_is_within_an_hour,)
+PREMISES = (world.the_alarm_limit_is_within_an_hour, world.the_error_is_not_negative)
 STEPS = (
     world.come,
     world.leave,

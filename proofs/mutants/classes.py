@@ -21,7 +21,7 @@ from proofs.mutants.trial import tried_with
 from proofs.theories import THEORIES, theory_of
 from proofs.workbench import Workbench
 
-FILES = (Path(__file__).with_name("classes.toml"), Path(__file__).with_name("classes_on_board.toml"))
+FILES = tuple(sorted(Path(__file__).parent.glob("classes*.toml")))
 """Of the interlocking, and of the theories beside it."""
 
 IMPLIED, SERVICE, SECOND_LINE = "implied", "service", "second_line"

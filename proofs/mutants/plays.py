@@ -32,7 +32,7 @@ class Call:
     after: Any
 
 
-HOMES = ("proofs.onboard", "proofs.crossing", "proofs.alarm")
+HOMES = ("proofs.onboard", "proofs.crossing", "proofs.alarm", "proofs.tram")
 """Where theories beside the interlocking live, each with its witnesses."""
 
 

@@ -12,6 +12,7 @@ import kernel
 import models.alarm
 import models.crossing
 import models.onboard
+import models.tram
 import models.world
 from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
@@ -30,13 +31,15 @@ NOT_STEPS = frozenset(
         "kernel.persistence",
         "kernel.tags",
         "kernel.telegram",
+        "kernel.tram.frames",
+        "kernel.tram.map_matching",
         "models.world.formations",
         "models.world.premises",
         "models.world.start",
     }
 )
 """Modules that no transition is made of: what a state is kept in, tables, codes, premises, the start."""
-BESIDE = (models.onboard, models.crossing, models.alarm)
+BESIDE = (models.onboard, models.crossing, models.alarm, models.tram)
 """Worlds of theories beside the interlocking."""
 SINGLE = ("models.link",)
 """Worlds that are one file."""

@@ -8,13 +8,18 @@ from kernel.alarm.tone import (
     Freshness,
     Handset,
     Known,
+    NoUse,
+    Reason,
     Register,
     Tone,
     agree,
     from_stretch_um,
+    from_way_through_um,
     has_display,
     has_fix,
+    is_in_zone_b,
     is_matched,
+    is_put_forward,
     nearest_by_display_um,
     tone,
 )
@@ -93,3 +98,26 @@ def with_no_train_on_the_line_all_must_be_well(age_ms: int, own_ms: int, well: b
     heard = tone(REGISTER, Handset(WorkerFix(0, own_ms), age_ms, well, battery, {}))
     normal = well and battery and 0 <= age_ms <= 8_000 and 0 <= own_ms <= 5_000
     assert heard == (Tone.NORMAL if normal else Tone.FAULT)
+
+
+def running_down_zone_b_is_the_last_of_a_section(place_mm: int, zone_mm: int) -> None:
+    """And running up the first; a train that stands is in none (A4)."""
+    assert 0 <= zone_mm <= 1_000_000
+    assert 0 <= place_mm <= 3_000_000
+    section = NoUse(Reason.WITHOUT_GPS, 0, 3_000_000, zone_mm)
+    down, up = (TrainFix(place_mm, 0, way, True) for way in (Direction.DOWN, Direction.UP))
+    assert is_in_zone_b(section, down) == (place_mm > 3_000_000 - zone_mm)
+    assert is_in_zone_b(section, up) == (place_mm < zone_mm)
+    assert is_put_forward(section, down) != is_in_zone_b(section, down)
+    assert not is_in_zone_b(section, TrainFix(place_mm, 0, Direction.DOWN, False))
+
+
+def on_its_way_through_a_train_counts_from_its_fix_to_the_outer_end(place_mm: int, beyond_mm: int) -> None:
+    """Less a train's length, and the worker's error (A4)."""
+    assert 0 <= place_mm <= 3_000_000
+    assert 0 <= beyond_mm <= 5_000_000
+    section = NoUse(Reason.WITHOUT_GPS, 0, 3_000_000, 0)
+    down = TrainFix(place_mm, 0, Direction.DOWN, True)
+    ahead_um = from_way_through_um(BOUNDS, section, down, WorkerFix(3_000_000 + beyond_mm, 0))
+    behind_um = from_way_through_um(BOUNDS, section, down, WorkerFix(place_mm - 20_000 - beyond_mm, 0))
+    assert ahead_um == behind_um == 1_000 * (beyond_mm - 75_000)

@@ -15,8 +15,9 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PAGE = (ROOT / "docs" / "contracts.md").read_text("utf-8")
 ASSUMED = {
     theory: entries
-    for part in ("onboard", "crossing", "alarm")
-    for theory, entries in tomllib.loads((ROOT / "models" / part / "assumptions.toml").read_text("utf-8")).items()
+    for path in sorted(ROOT.glob("models/*/assumptions.toml"))
+    for theory, entries in tomllib.loads(path.read_text("utf-8")).items()
+    if path.parent.name != "world"
 }
 NAME = re.compile(r"`(\w+)\.(\w+)`")
 
@@ -33,6 +34,7 @@ JOINTS = [
     for heading in (
         "The head: no train leaves what is secured for it",
         "The tail: nothing is released that a train is still in",
+        "The crossing, the trams and the worker",
     )
     for row in rows(heading)
 ]

@@ -84,31 +84,58 @@ def what_the_worker_hears_goes_into_history() -> None:
     day.come(FIRST, WORKER_MM - 1_400_000)
     day.tell(FIRST, DOWN)
     assert day.tone() == ALARM
-    assert day.system.heard == Heard(ALARM, True, True, True, False, False)
+    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False)
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 2_900_000)
     day.tell(FIRST)
     assert day.tone() == CAUTION
-    assert day.system.heard == Heard(CAUTION, True, False, False, False, False)
+    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, False, False, True, False)
+    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False)
     day = Day(worker_mm=40 * KM)
     day.hear()
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, False, True)
+    assert day.system.heard == Heard(FAULT, False, False, False, False, False, True)
     day.come(FIRST, 40 * KM)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, False, True)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, False)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, False, False)
     day = Day()
     day.hear()
     day.step("look_at_the_battery", battery_well=False)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, True, False)
+    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False)
+
+
+def a_tunnel_goes_into_history_by_its_outer_end() -> None:
+    """From zone A on, and while the train is lost, whatever stretch the display shows then (A4)."""
+    for way, entry_mm, worker_mm in ((DOWN, 20 * KM, 24 * KM), (UP, 23 * KM, 19 * KM)):
+        for far in (False, True):
+            day = Day(worker_mm=worker_mm + (6 * KM if far else 0))
+            day.hear()
+            day.come(FIRST, entry_mm, way)
+            day.tell(FIRST, way)
+            assert day.tone() == (NORMAL if far else ALARM)
+            assert day.system.heard == Heard(day.tone(), False, False, False, False, not far, False)
+        day = Day(worker_mm=worker_mm)
+        day.hear()
+        day.come(FIRST, entry_mm, way)
+        day.tell(FIRST, way)
+        for _ in range(4):
+            day.run(10_000, (FIRST, way))
+        at_um = day.system.bodies[FIRST].antenna_um
+        at_mm = at_um // UM_A_MM
+        day.step("take_display", train=FIRST, display=Display(at_mm, at_mm, 0), at_um=at_um)
+        day.hear()
+        assert day.tone() == ALARM
+        assert day.system.heard.beyond_a_tunnel
+        day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+        assert day.tone() == FAULT
+        assert not day.system.heard.beyond_a_tunnel
 
 
 def a_train_reaches_from_end_to_end() -> None:
@@ -266,10 +293,27 @@ def what_nature_does_not_do_does_not_happen() -> None:
         assert day.step("pass_time", elapsed_ms=1_000, worker_to_um=before.worker_um) == before
     day.step("intend", train=FIRST, to_um=at_um, heading=DOWN)
     day.run(8_000)
-    day.tell(FIRST, off_mm=-7 * KM)
+
+
+def a_wrong_fix_puts_no_train_where_trains_shunt() -> None:
+    """Far off and in the yard it is contradicted by the display, which stays there as long as the fix (A2, A5)."""
+    day = Day(worker_mm=50 * KM)
+    day.hear()
+    day.come(FIRST, 34 * KM)
+    day.tell(FIRST, off_mm=6 * KM)
+    assert day.tone() == FAULT
     before = day.system
     assert day.step("pass_time", elapsed_ms=12_001, worker_to_um=before.worker_um) == before
     assert day.step("pass_time", elapsed_ms=12_000, worker_to_um=before.worker_um) != before
+    fix = day.system.handset.trains[FIRST].fix
+    before = day.system
+    assert day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0) == before
+    day.tell(FIRST, off_mm=4 * KM)
+    day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0)
+    assert day.system.handset.trains[FIRST].display == NO_DISPLAY
+    assert day.tone() == FAULT
+    before = day.system
+    assert day.step("take_fix", train=FIRST, fix=fix, at_um=before.worker_um, is_right=False) == before
 
 
 def a_train_runs_as_it_heads() -> None:
@@ -322,12 +366,14 @@ def a_train_turns_when_it_can() -> None:
 WITNESSES = (
     a_train_comes_passes_and_goes_with_another_behind_it,
     what_the_worker_hears_goes_into_history,
+    a_tunnel_goes_into_history_by_its_outer_end,
     a_train_reaches_from_end_to_end,
     a_wrong_fix_is_found,
     a_list_that_is_not_heard_is_the_fault_tone,
     what_is_not_on_the_list_stays_unknown,
     what_is_no_report_may_say_anything,
     what_nature_does_not_do_does_not_happen,
+    a_wrong_fix_puts_no_train_where_trains_shunt,
     a_train_runs_as_it_heads,
     no_train_longer_than_written_comes,
     a_train_turns_when_it_can,

@@ -169,28 +169,82 @@ def a_stabled_train_counts_by_the_display() -> None:
         assert machine.tone(replace(REGISTER, stabled=roster), lone) == FAULT
 
 
-def a_train_in_a_tunnel_is_put_at_its_end() -> None:
-    """Lost in the section without GPS: at the end nearest the worker, at once; then by the display (004, 4.1; A4)."""
-    stretch = Display(19 * KM, 24 * KM, 0)
+def a_lost_train_counts_from_its_last_fix_to_the_outer_end() -> None:
+    """At the end nearest the worker, at once; then by the display (004, 4.1; A4)."""
+    stretch, ends_mm = Display(19 * KM, 24 * KM, 0), 60_000 + 15_000
+    for way, at_mm, outer_mm, side in ((DOWN, 21 * KM, 23 * KM, 1), (UP, 22 * KM, 20 * KM, -1)):
+        lost = TrainFix(at_mm, 10_001, way, True)
+        for limit_mm, inside, outside in ((1_500_000, ALARM, CAUTION), (3_000_000, CAUTION, NORMAL)):
+            beyond_mm = outer_mm + side * (limit_mm + ends_mm)
+            assert stabled(stretch, lost, worker_mm=beyond_mm) == inside
+            assert stabled(stretch, lost, worker_mm=beyond_mm + side) == outside
+            behind_mm = at_mm - side * (limit_mm + ends_mm + 20_000)
+            agreed = Display(at_mm, at_mm, 10_000)
+            assert stabled(agreed, lost, worker_mm=behind_mm) == (inside if limit_mm > 1_500_000 else ALARM)
+        far = Display(40 * KM, 41 * KM, 0)
+        for told in (lost, replace(lost, is_running=False), replace(lost, direction=UNKNOWN)):
+            assert stabled(far, told, worker_mm=outer_mm + side * (1_500_000 + ends_mm)) == ALARM
+            turned = told if told == lost else None
+            entry_mm = (20 * KM if side == 1 else 23 * KM) - side * (3_000_000 + ends_mm)
+            assert stabled(far, told, worker_mm=entry_mm) == (NORMAL if turned else CAUTION)
+            assert stabled(far, told, worker_mm=entry_mm - side) == NORMAL
+        near_mm = at_mm - side * (3_000_000 + ends_mm + 20_000)
+        assert stabled(far, lost, worker_mm=near_mm) == CAUTION
+        assert stabled(far, lost, worker_mm=near_mm - side) == NORMAL
     lost = TrainFix(20 * KM, 10_001, DOWN, True)
-    off_mm = 60_000 + 15_000
-    for limit_mm, inside in ((1_500_000, ALARM), (3_000_000, CAUTION)):
-        for worker_mm in (23 * KM + limit_mm + off_mm, 20 * KM - limit_mm - off_mm):
-            assert stabled(stretch, lost, worker_mm=worker_mm) == inside
-    assert stabled(stretch, lost, worker_mm=23 * KM + 1_500_000 + off_mm + 1) == CAUTION
-    assert stabled(stretch, lost, worker_mm=23 * KM + 3_000_000 + off_mm + 1) == NORMAL
-    assert stabled(stretch, lost, worker_mm=20 * KM - 3_000_000 - off_mm - 1) == CAUTION
+    assert stabled(stretch, lost, worker_mm=20 * KM - 3_000_000 - OFF_MM - 27 * 10_001) == CAUTION
     assert stabled(stretch, lost, worker_mm=20 * KM - 3_000_000 - OFF_MM - 27 * 10_001 - 1) == NORMAL
     old = replace(lost, age_ms=GREATEST_AGE_MS)
-    assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + off_mm + 10_000) == CAUTION
-    assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + off_mm + 10_001) == NORMAL
-    assert stabled(stretch, replace(lost, age_ms=GREATEST_AGE_MS + 1)) == FAULT
-    assert stabled(stretch, replace(lost, age_ms=0)) == NORMAL
+    assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + ends_mm + 10_000) == CAUTION
+    assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + ends_mm + 10_001) == NORMAL
     assert stabled(Display(30 * KM, 31 * KM, 0), lost) == NORMAL
     assert stabled(Display(30 * KM, 31 * KM, 0), lost, worker_mm=32 * KM) == ALARM
-    for place_mm, expected in ((20 * KM - 1, FAULT), (23 * KM, NORMAL), (23 * KM + 1, FAULT), (40 * KM, FAULT)):
-        assert stabled(stretch, replace(lost, place_mm=place_mm), worker_mm=50 * KM) == expected
+
+
+def a_lost_train_is_registered_until_it_is_seen_in_zone_b() -> None:
+    """Within the section, not by the way out; else the fault tone (004, 4.1; A4)."""
+    stretch = Display(19 * KM, 24 * KM, 0)
+    lost = TrainFix(20 * KM, 10_001, DOWN, True)
+    for way, place_mm, expected in (
+        (DOWN, 20 * KM - 1, FAULT),
+        (DOWN, 20 * KM, NORMAL),
+        (DOWN, 23 * KM - 400_000, NORMAL),
+        (DOWN, 23 * KM - 399_999, FAULT),
+        (UP, 23 * KM, NORMAL),
+        (UP, 20 * KM + 400_000, NORMAL),
+        (UP, 20 * KM + 399_999, FAULT),
+        (UP, 23 * KM + 1, FAULT),
+        (UNKNOWN, 23 * KM, NORMAL),
+        (UNKNOWN, 20 * KM, NORMAL),
+        (UNKNOWN, 40 * KM, FAULT),
+    ):
+        told = replace(lost, place_mm=place_mm, direction=way)
+        assert stabled(stretch, told, worker_mm=50 * KM) == expected
+    for way, place_mm in ((DOWN, 23 * KM), (UP, 20 * KM)):
+        stood = replace(lost, place_mm=place_mm, direction=way, is_running=False)
+        assert stabled(stretch, stood, worker_mm=50 * KM) == NORMAL
+    assert stabled(stretch, replace(lost, age_ms=GREATEST_AGE_MS + 1)) == FAULT
+    assert stabled(stretch, replace(lost, age_ms=0)) == NORMAL
     assert stabled(NO_DISPLAY, lost, worker_mm=50 * KM) == FAULT
+
+
+def from_zone_a_on_a_train_counts_at_the_outer_end() -> None:
+    """Though GPS still sees it; seen in zone B it counts where it is; who it left behind hears no alarm (A4)."""
+    ends_mm = 60_000 + 15_000
+    for way, entry_mm, outer_mm, side in ((DOWN, 20 * KM, 23 * KM, 1), (UP, 23 * KM, 20 * KM, -1)):
+        beyond_mm = outer_mm + side * (3_000_000 + ends_mm)
+        assert tone(known(entry_mm - side, way), worker_mm=beyond_mm) == NORMAL
+        assert tone(known(entry_mm, way), worker_mm=beyond_mm) == CAUTION
+        assert tone(known(entry_mm, way), worker_mm=beyond_mm + side) == NORMAL
+        assert tone(known(entry_mm, way), worker_mm=beyond_mm - side * 1_500_000) == ALARM
+        assert tone(known(entry_mm, way), worker_mm=entry_mm - side * (OFF_MM + 100_000)) == NORMAL
+        last_mm = outer_mm - side * 400_000
+        for limit_mm, inside, outside in ((1_500_000, ALARM, CAUTION), (3_000_000, CAUTION, NORMAL)):
+            worker_mm = outer_mm + side * (limit_mm + ends_mm)
+            assert tone(known(last_mm, way), worker_mm=worker_mm) == inside
+            assert tone(known(last_mm + side, way), worker_mm=worker_mm) == outside
+    yard = Known(known(40 * KM, DOWN).fix, Display(40 * KM, 41 * KM, 0))
+    assert tone(yard, worker_mm=44 * KM) == NORMAL
 
 
 def no_use_means_no_normal_tone() -> None:
@@ -216,7 +270,7 @@ def every_number_fits_into_64_bits() -> None:
         with_ints(Checked, fresh),
         display_error_mm=edge,
         tolerance_mm=edge,
-        sections={name: NoUse(reason, -edge, edge) for name, reason in zip((TUNNEL, YARD), Reason, strict=False)},
+        sections={name: NoUse(reason, -edge, edge, edge) for name, reason in zip((TUNNEL, YARD), Reason, strict=False)},
         stabled=frozenset(),
     )
     numbers = [Checked(number) for number in (-HUGE, -GREATEST_PLACE_MM, 0, GREATEST_AGE_MS, GREATEST_PLACE_MM, HUGE)]
@@ -236,7 +290,9 @@ WITNESSES = (
     sources_must_agree,
     a_shunting_train_counts_both_ways,
     a_stabled_train_counts_by_the_display,
-    a_train_in_a_tunnel_is_put_at_its_end,
+    a_lost_train_counts_from_its_last_fix_to_the_outer_end,
+    a_lost_train_is_registered_until_it_is_seen_in_zone_b,
+    from_zone_a_on_a_train_counts_at_the_outer_end,
     no_use_means_no_normal_tone,
     every_number_fits_into_64_bits,
 )

@@ -51,9 +51,9 @@ REGISTER = Register(
     display_error_mm=10_000,
     tolerance_mm=50_000,
     sections={
-        TUNNEL: NoUse(Reason.WITHOUT_GPS, 20 * KM, 23 * KM),
-        YARD: NoUse(Reason.SHUNTING, 40 * KM, 41 * KM),
-        SIDING: NoUse(Reason.STABLING, 60 * KM, 61 * KM),
+        TUNNEL: NoUse(Reason.WITHOUT_GPS, 20 * KM, 23 * KM, zone_mm=400_000),
+        YARD: NoUse(Reason.SHUNTING, 40 * KM, 41 * KM, zone_mm=0),
+        SIDING: NoUse(Reason.STABLING, 60 * KM, 61 * KM, zone_mm=0),
     },
     stabled=frozenset({(Train("9D"), SIDING)}),
 )
@@ -62,7 +62,7 @@ WORKER_MM = 10 * KM
 OFF_MM = 60_000 + 20_000 + 15_000
 """Taken off with new fixes: length and both errors."""
 HUGE = 2**62
-SILENT = Heard(FAULT, False, False, False, False, False)
+SILENT = Heard(FAULT, False, False, False, False, False, False)
 FIRST, OTHER, STABLED = Train("1D"), Train("2U"), Train("9D")
 
 

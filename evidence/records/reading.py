@@ -1,0 +1,126 @@
+"""Reads the records that commands left in a folder; what is missing is told as missing."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Set
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+Cell = tuple[str, str]
+"""An obligation by its row and column."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One test, or one contract: its name, and whether it passed, failed or was skipped."""
+
+    name: str
+    came_to: str
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One record.
+
+    ``data``: what stands in it, of a JSON record; ``answers``: of one that lists tests or contracts.
+    ``problem``: why it cannot be used, or nothing.  ``commit``: of the source that it was made from, where it says so.
+    """
+
+    name: str
+    data: Mapping[str, Any] = field(default_factory=dict)
+    answers: tuple[Answer, ...] = ()
+    problem: str = ""
+    sha256: str = ""
+
+    @cached_property
+    def cells(self) -> Mapping[Cell, Mapping[str, Set[str]]]:
+        """What each solver said of each obligation, by row and column; of a record of proofs."""
+        found: dict[Cell, dict[str, set[str]]] = {}
+        for each in self.data["obligations"]:
+            by_solver = found.setdefault((each["transition"], each["invariant"]), {})
+            by_solver.setdefault(each["solver"], set()).add(each["verdict"])
+        return found
+
+    @property
+    def commit(self) -> str | None:
+        """The commit that it says it is of."""
+        return commit_of(self.data)
+
+    @property
+    def versions(self) -> Mapping[str, str]:
+        """The versions that it says it was made with."""
+        told = self.data.get("versions")
+        return {str(name): str(value) for name, value in told.items()} if isinstance(told, Mapping) else {}
+
+
+def commit_of(data: Mapping[str, Any]) -> str | None:
+    """The commit that a record says it is of; a campaign says it of each of its starts, of which the last counts."""
+    starts = data.get("starts")
+    last = starts[-1] if isinstance(starts, list) and starts else data
+    told = last.get("commit") if isinstance(last, Mapping) else None
+    return told if isinstance(told, str) else None
+
+
+Records = Mapping[str, Kept]
+"""Records by the names of their files."""
+
+
+def read(folder: Path, names: frozenset[str]) -> Records:
+    """Read these records of a folder."""
+    return {name: _kept(folder / name) for name in sorted(names)}
+
+
+def _kept(path: Path) -> Kept:
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        return Kept(path.name, problem="there is no such record")
+    except OSError as error:
+        return Kept(path.name, problem=f"it cannot be read: {error.strerror}")
+    digest = hashlib.sha256(content).hexdigest()
+    try:
+        if path.suffix == ".json":
+            data = json.loads(content)
+            if not isinstance(data, dict):
+                return Kept(path.name, problem="it is no record: no object at its top", sha256=digest)
+            return Kept(path.name, data=data, sha256=digest)
+        answers = _tests(content) if path.suffix == ".xml" else _contracts(content.decode())
+    except (ValueError, etree.XMLSyntaxError) as error:
+        line = str(error).splitlines()[0] if str(error) else type(error).__name__
+        return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest)
+    return Kept(path.name, answers=tuple(answers), sha256=digest)
+
+
+def _tests(content: bytes) -> list[Answer]:
+    """Every test of a JUnit file."""
+    return [
+        Answer(f"{case.get('classname', '')}::{case.get('name', '')}", _came_to(case))
+        for case in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("testcase")
+    ]
+
+
+def _came_to(case: etree._Element) -> str:
+    if case.find("failure") is not None or case.find("error") is not None:
+        return "failed"
+    return "skipped" if case.find("skipped") is not None else "passed"
+
+
+def _contracts(text: str) -> list[Answer]:
+    """Every condition that CrossHair tells of: one line each."""
+    found = []
+    for line in text.splitlines():
+        place, _, told = line.partition(": ")
+        kind, _, says = told.partition(": ")
+        if kind == "info" and says.startswith("Confirmed"):
+            found.append(Answer(place, "passed"))
+        elif kind == "error":
+            found.append(Answer(place, "failed"))
+        elif kind in ("info", "warning"):
+            found.append(Answer(place, "skipped"))
+    return found

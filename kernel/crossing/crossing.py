@@ -1,0 +1,197 @@
+"""A crossing's own machine: when its warning begins and ends, and its arms fall and rise (X2 to X5, T14).
+
+Any number of trains on any number of tracks.  A train is known to the crossing by one of two ways:
+
+- it is in contact, and once before each cycle the ground unit reckons by its rangings when it may arrive at
+  the earliest (``arrival``).  Of all that only an answer of three values comes in here, :class:`Due`;
+- or the terminal of its track's start point tells of it (conventional control, X3, and start tags, T14).
+
+So the joint between the two machines is a contract: a train that is not due cannot arrive within
+``warning_cycles`` + 1 after the decision, and one that is far not within ``reopening_cycles`` more.  It is what
+``arrival`` proves, for any warning time; so reckoning and combining are proved apart, each in its own terms.
+
+Whoever has asked for the warning asks for it until its rear is proved past (X4, ours).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+from typing import NewType
+
+from kernel.crossing import arrival
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.maps import Map
+
+LEAST_DOWN_MS = 15_000
+"""From barriers down to the arrival, never less (003, 2.1, note 2; X5)."""
+
+Train = NewType("Train", str)
+"""A train in contact, or one that a terminal has told of: it gives each a name that nobody has had (X1, X3)."""
+CrossingTrack = NewType("CrossingTrack", str)
+"""A track over the crossing; there is a start point on it for each direction that trains come from (X3)."""
+
+
+class Due(Enum):
+    """When a train in contact may arrive, seen from one decision (X2, X4)."""
+
+    FAR = 0
+    """Were the arms let up now, they would be up and down again before it arrives."""
+    NEAR = 1
+    """They would not; but it need not be warned of yet."""
+    NOW = 2
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What is written for a crossing, in cycles of ``cycle_ms`` (X5).
+
+    ``warning_cycles``: its warning time, from the warning to the arrival.
+    ``bell_cycles``: lamps and bells alone, before the arms fall.  ``lowering_cycles``: until they are down then.
+    ``least_down_cycles``: from then to the arrival, at least.
+    ``lifting_cycles``: until the arms are up.
+    ``reopening_cycles``: for less time than this the road is not opened.
+    ``silence_cycles``: so long a start point's terminal may be silent.
+    ``start_cycles``: from its start point no train arrives within so many cycles, at the line's greatest speed.
+    """
+
+    cycle_ms: int
+    warning_cycles: int
+    bell_cycles: int
+    lowering_cycles: int
+    least_down_cycles: int
+    lifting_cycles: int
+    reopening_cycles: int
+    silence_cycles: int
+    start_cycles: int
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """What a crossing knows and does.
+
+    ``asks``: each train that it knows of, and whether that has asked for the warning.
+    ``silent_cycles``: for how long each start point's terminal has told nothing.
+    ``warns``: lamps and bells.  ``warned_cycles``: how long this warning has lasted.
+    """
+
+    asks: Map[Train, bool]
+    silent_cycles: Map[CrossingTrack, int]
+    warns: bool
+    warned_cycles: int
+
+
+def are_lawful(settings: Settings) -> bool:
+    """Tell whether a crossing may be set so; if not, it is not put into service (X5).
+
+    Fifteen seconds from barriers down to the arrival; and the start points far enough for the warning time, for
+    what a terminal may be silent, for the cycle until the decision and for that of the arrival.
+    """
+    return (
+        settings.cycle_ms > 0
+        and settings.bell_cycles >= 0
+        and settings.lowering_cycles > 0
+        and settings.cycle_ms * settings.least_down_cycles >= LEAST_DOWN_MS
+        and settings.bell_cycles + settings.lowering_cycles + settings.least_down_cycles <= settings.warning_cycles
+        and settings.lifting_cycles >= 0
+        and settings.lifting_cycles + settings.lowering_cycles <= settings.reopening_cycles
+        and settings.silence_cycles >= 0
+        and settings.warning_cycles + settings.silence_cycles + 2 <= settings.start_cycles
+    )
+
+
+def due(bounds: ArrivalBounds, followed: Followed, reopening_cycles: int) -> Due:
+    """Give when a train in contact is due, from what is known of it (X2, X4).
+
+    Far is what need not be warned of by a warning time that is longer by ``reopening_cycles``.
+    """
+    if arrival.must_warn(bounds, followed):
+        return Due.NOW
+    longer = replace(bounds, warning_cycles=bounds.warning_cycles + reopening_cycles)
+    if arrival.must_warn(longer, followed):
+        return Due.NEAR
+    return Due.FAR
+
+
+# ---- what the crossing is told
+
+
+def note_contact(crossing: Crossing, train: Train) -> Crossing:
+    """Take a train in that is in contact (003, 2.3).
+
+    One that a start point has told of stays with conventional control until it is past (X3).
+    """
+    if train in crossing.asks:
+        return crossing
+    return replace(crossing, asks=crossing.asks | {train: False})
+
+
+def note_struck(crossing: Crossing, train: Train) -> Crossing:
+    """A terminal tells of a train that has struck its start point (X3, T14).
+
+    One in contact is left to its rangings; for anybody else the crossing warns.
+    """
+    if train in crossing.asks:
+        return crossing
+    return replace(crossing, asks=crossing.asks | {train: True})
+
+
+def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
+    """A terminal is heard; every strike that it had not told of comes first (X3, T14)."""
+    return replace(crossing, silent_cycles=crossing.silent_cycles | {track: 0})
+
+
+def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
+    """A train's rear is proved out of the approach, and the train is whole (X4, T14).
+
+    By its tail's read of the end tag or of the start tag from behind, or by all its axles at the end detector.
+    """
+    return note_released(crossing, gone) if is_whole else crossing
+
+
+def note_released(crossing: Crossing, gone: Train) -> Crossing:
+    """A person on site has seen that a train is not in the approach, nor a part of it (X4, ours)."""
+    return replace(crossing, asks={train: asks for train, asks in crossing.asks.items() if train != gone})
+
+
+# ---- what the crossing does
+
+
+def must_warn(settings: Settings, crossing: Crossing) -> bool:
+    """Tell whether a train asks for the warning, or a terminal is silent: silence means warn (X2, X3, T14)."""
+    return any(asks for _train, asks in crossing.asks.items()) or any(
+        silent > settings.silence_cycles for _track, silent in crossing.silent_cycles.items()
+    )
+
+
+def told(dues: Map[Train, Due], train: Train) -> Due:
+    """Give the answer for a train; none is as good as now (X2)."""
+    if train not in dues:
+        return Due.NOW
+    return dues[train]
+
+
+def decide(settings: Settings, crossing: Crossing, dues: Map[Train, Due]) -> Crossing:
+    """Decide for the cycle that begins, with an answer for each train in contact (X2).
+
+    A warning begins at once where it must.  It ends where it need not be and no train is near (X4).
+    """
+    now = replace(crossing, asks={train: asks or told(dues, train) == Due.NOW for train, asks in crossing.asks.items()})
+    if must_warn(settings, now):
+        return replace(now, warns=True)
+    held = crossing.warns and any(told(dues, train) != Due.FAR for train, _asks in now.asks.items())
+    return replace(now, warns=held, warned_cycles=crossing.warned_cycles if held else 0)
+
+
+def arms_are_to_be_down(settings: Settings, crossing: Crossing) -> bool:
+    """Tell whether the arms are lowered or held down; first lamps and bells alone, so that the road clears (X5)."""
+    return crossing.warns and crossing.warned_cycles >= settings.bell_cycles
+
+
+def aged(crossing: Crossing) -> Crossing:
+    """Let a cycle pass (X2, X3)."""
+    return replace(
+        crossing,
+        silent_cycles={track: silent + 1 for track, silent in crossing.silent_cycles.items()},
+        warned_cycles=crossing.warned_cycles + 1 if crossing.warns else 0,
+    )

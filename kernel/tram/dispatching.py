@@ -1,0 +1,249 @@
+"""When a tram at a stop is held, and when it may run faster to the next one (G4, G5).
+
+Data and commands pass only at stops (paper 002, 2.2), so that nothing is ahead follows from arrivals and
+departures alone.  Trams do not run backwards: where one was reported it is now, or farther on.  So a
+report that is late, or lost, makes a tram count as present for longer, and never for less long.
+
+The way is a row of stops, numbered as they follow; the section after a stop bears its number.  A tram of
+another destination leaves the way at some stop, and matters no farther than there (4.2).  Times are those
+of GPS, in ms.  Reckoned in 64 bits for stops and turns to 2**61 and times to 2**62.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from kernel.onboard.arithmetic import larger
+
+
+@dataclass(frozen=True)
+class DispatchLimits:
+    """What is written for a line, in ms, none below 0 (G3, G4, G5).
+
+    ``ahead_hold_ms``: a tram is held if the one ahead left this stop less long ago; 0: never for that.
+    ``behind_hold_ms``: it is held if the one behind it is farther behind; at its greatest: never for that.
+    ``longest_hold_ms``: no longer than that at one stop by itself (ours).
+    ``recovery_ms``: it may recover if the one ahead left this stop as long ago, or longer.
+    ``fresh_ms``: so old a report still counts for a command (G3, ours: 11 s).
+    ``order_ms``: so old a command still counts for a tram at a stop (G3, ours).
+    """
+
+    ahead_hold_ms: int
+    behind_hold_ms: int
+    longest_hold_ms: int
+    recovery_ms: int
+    fresh_ms: int
+    order_ms: int
+
+
+@dataclass(frozen=True)
+class Known:
+    """What the centre knows of a tram on the way (G2, G4, G5).
+
+    ``turn``: its place in the order of trams, the first ahead; no report changes that (002, 3.1.2).
+    ``leaves_at``: the last stop of this way that it comes to, by its destination.
+    ``since_ms``: since when the centre has known of this run; what was told before is of another one.
+    ``stop``, ``left``: it has reached that stop, and left it.  ``stands``: it stood there.
+    ``arrived_ms``: when that was told first.  ``told_ms``: when it was told last.
+    ``recovery_to``: the stop to which it was last ordered to recover; one that it has reached if to none.
+    """
+
+    turn: int
+    leaves_at: int
+    since_ms: int
+    stop: int
+    left: bool
+    stands: bool
+    arrived_ms: int
+    told_ms: int
+    recovery_to: int
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a tram tells at a stop, as at ``made_ms`` (table 1; G3)."""
+
+    stop: int
+    left: bool
+    stands: bool
+    leaves_at: int
+    made_ms: int
+
+
+@dataclass(frozen=True)
+class View:
+    """What a decision for a tram rests on beside itself (G4, G5).
+
+    ``is_clear``: every tram ahead that shares the way is known to have left the next stop.
+    ``is_present``: one of them is known to be before it.
+    ``ahead_is_far``: none was told to have left this stop too lately; ``ahead_is_near``: one was, for the hold.
+    ``behind_is_far``: there are trams behind, and none of them near.
+    """
+
+    is_clear: bool
+    is_present: bool
+    ahead_is_far: bool
+    ahead_is_near: bool
+    behind_is_far: bool
+
+
+class Hand(Enum):
+    """What the dispatcher orders by hand (002, 3.2)."""
+
+    NOTHING = 0
+    HOLD = 1
+    RECOVER = 2
+    LIFT = 3
+    """解除: neither, whatever the rules say."""
+
+
+@dataclass(frozen=True)
+class Order:
+    """A command to a tram at a stop, as at ``made_ms``: neither field set lifts what was (G4, G5)."""
+
+    stop: int
+    holds: bool
+    recovers: bool
+    made_ms: int
+
+
+# ---- what is known of a tram
+
+
+def mark(stop: int, left: bool) -> int:
+    """Number the places of the way: even at a stop, odd in the section after it; greater is farther on (G2)."""
+    return 2 * stop + (1 if left else 0)
+
+
+def coming(now_ms: int, turn: int, stop: int, leaves_at: int) -> Known:
+    """Give what is known of a tram that is to come onto the way at a stop (G5; ours)."""
+    return Known(
+        turn=turn,
+        leaves_at=leaves_at,
+        since_ms=now_ms,
+        stop=stop,
+        left=False,
+        stands=False,
+        arrived_ms=now_ms,
+        told_ms=now_ms,
+        recovery_to=stop,
+    )
+
+
+def counts(now_ms: int, known: Known, report: Report) -> bool:
+    """Tell whether a report is taken (G3, G6).
+
+    It must be of this run, no older than the last one, and not of the future; and trams do not run
+    backwards.  What is refused leaves the tram to become unknown.
+    """
+    return (
+        report.made_ms > known.since_ms
+        and known.told_ms <= report.made_ms <= now_ms
+        and mark(report.stop, report.left) >= mark(known.stop, known.left)
+    )
+
+
+def reported(known: Known, report: Report) -> Known:
+    """Give what is known after a report that counts (G2, G5).
+
+    Of two destinations the farther one counts: the tram may still be on the way then.
+    """
+    stays = known.stands and known.stop == report.stop
+    return replace(
+        known,
+        leaves_at=larger(known.leaves_at, report.leaves_at),
+        stop=report.stop,
+        left=report.left,
+        stands=report.stands,
+        arrived_ms=known.arrived_ms if stays else report.made_ms,
+        told_ms=report.made_ms,
+    )
+
+
+def stop_left(report: Report) -> int:
+    """Give the stop that a tram has left last, by its report (G4)."""
+    return report.stop if report.left else report.stop - 1
+
+
+def tells_a_departure(known: Known, report: Report) -> bool:
+    """Tell whether it was not known yet that it has left that stop: its departure may have been lost (G4)."""
+    return mark(stop_left(report), True) > mark(known.stop, known.left)
+
+
+# ---- one tram beside another
+
+
+def is_ahead(own: Known, other: Known) -> bool:
+    """Tell whether another tram is ahead; where the order does not say it is, too (G2)."""
+    return other.turn <= own.turn
+
+
+def shares_the_way(own: Known, other: Known) -> bool:
+    """Tell whether another tram runs on beyond the stop where this one stands (002, 4.2; G5)."""
+    return other.leaves_at > own.stop
+
+
+def has_passed(own: Known, other: Known) -> bool:
+    """Tell whether another tram is known to have left the next stop (G5; ours: one that stands there is present)."""
+    return mark(other.stop, other.left) > mark(own.stop + 1, False)
+
+
+def may_be_in_the_way(own: Known, other: Known) -> bool:
+    """Tell whether another tram may be before the next stop, or at it: not knowing counts as present (G5)."""
+    return is_ahead(own, other) and shares_the_way(own, other) and not has_passed(own, other)
+
+
+def is_seen_in_the_way(limits: DispatchLimits, now_ms: int, own: Known, other: Known) -> bool:
+    """Tell whether a tram ahead is known to stand at the same stop, or to have left it for the next (002, 4.2; G4).
+
+    Of one that was told to have left as long ago as recovery needs it is not known any more where it is: it
+    forbids recovery, and is no reason to hold.
+    """
+    if not (is_ahead(own, other) and shares_the_way(own, other)) or other.stop != own.stop:
+        return False
+    return now_ms - other.told_ms < limits.recovery_ms if other.left else is_fresh(limits, now_ms, other)
+
+
+def may_recover_over(own: Known, stop: int, leaves_at: int) -> bool:
+    """Tell whether a tram may still run, by its last order, over the stop at which another is to come (G5)."""
+    is_under_way = mark(own.stop, own.left) < mark(own.recovery_to, False)
+    return is_under_way and stop <= own.recovery_to and leaves_at >= own.recovery_to
+
+
+def is_known_since(known: Known, left_ms: int) -> bool:
+    """Tell whether a departure is of this run (G4)."""
+    return left_ms > known.since_ms
+
+
+# ---- the decision
+
+
+def is_fresh(limits: DispatchLimits, now_ms: int, known: Known) -> bool:
+    """Tell whether a tram's last report still counts for a command, and said that it stood (G3)."""
+    return known.stands and now_ms - known.told_ms <= limits.fresh_ms
+
+
+def is_held_by_itself(limits: DispatchLimits, now_ms: int, own: Known, view: View) -> bool:
+    """Tell whether the rules hold a tram: too near the one ahead, too far from the one behind (002, 3.2.1; G4)."""
+    return now_ms - own.arrived_ms < limits.longest_hold_ms and (
+        view.is_present or view.ahead_is_near or view.behind_is_far
+    )
+
+
+def decided(limits: DispatchLimits, now_ms: int, own: Known, view: View, hand: Hand) -> Order:
+    """Give the order for a tram (G4, G5): hold beats recovery; what is not known gives no command.
+
+    Nor is there one where a tram leaves the way: what is ahead of it there nobody here knows.
+    """
+    nothing = Order(stop=own.stop, holds=False, recovers=False, made_ms=now_ms)
+    if not is_fresh(limits, now_ms, own) or hand == Hand.LIFT or own.stop >= own.leaves_at:
+        return nothing
+    if hand == Hand.HOLD or is_held_by_itself(limits, now_ms, own, view):
+        return replace(nothing, holds=True)
+    return replace(nothing, recovers=view.is_clear and (view.ahead_is_far or hand == Hand.RECOVER))
+
+
+def ordered(known: Known, order: Order) -> Known:
+    """Note to which stop a tram may run faster now (G5)."""
+    return replace(known, recovery_to=order.stop + 1 if order.recovers else known.recovery_to)

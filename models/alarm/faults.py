@@ -1,0 +1,64 @@
+"""Faults of a day as data: how often, how long, how large, and where that is from (A1, A2, A8).
+
+Those within what is assumed are drawn every day by their chance.  Those beyond it are drawn only when named: they break
+an assumption of the proofs, and the campaign has to see it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault: at most once a day, of one train or of the handset, at any time.
+
+    ``chance``: of a day.  ``least_s`` to ``most_s``: how long.  ``least`` to ``most``: how large, in ``unit``.
+    ``breaks``: the assumption that it breaks, none where the alarm has to live with it.
+    """
+
+    name: str
+    says: str
+    chance: float
+    least_s: int
+    most_s: int
+    unit: str
+    least: int
+    most: int
+    source: str
+    breaks: str = ""
+
+
+FAULTS = (
+    Fault("gps_out", "a train's GPS gave no fix", 0.5, 20, 900, "-", 0, 0, "practice: antenna, leaves, deep cuttings"),
+    Fault("gps_jump", "a train's fixes were kilometres off", 0.3, 5, 120, "m", 9_000, 15_000,
+          "practice: a receiver that takes a reflection for the sky, or shows an old place"),
+    Fault("train_silent", "the unit on a train had no network", 0.5, 20, 300, "-", 0, 0, "practice: valleys"),
+    Fault("handset_silent", "the handset had no network", 0.7, 10, 600, "-", 0, 0, "practice: valleys"),
+    Fault("slow", "the network was slow", 0.7, 60, 1_800, "s", 2, 9, "practice: evenings, handover from 3G to LTE"),
+    Fault("repeats", "messages came twice and out of order", 0.5, 60, 1_800, "-", 0, 0, "practice: retries"),
+    Fault("display_out", "the traffic display was silent", 0.2, 20, 600, "-", 0, 0, "practice: its interface restarts"),
+    Fault("servers_ill", "the monitoring server said so", 0.1, 60, 900, "-", 0, 0, "practice: one restart in ten days"),
+    Fault("own_gps_out", "the worker's GPS gave no fix", 0.6, 10, 300, "-", 0, 0, "practice: beside a wall"),
+    Fault("battery", "the battery did not last", 0.1, 600, 3_600, "-", 0, 0, "practice: a cold day"),
+    Fault("stands", "a train stood between stations", 0.4, 60, 900, "-", 0, 0, "practice: a signal, a deer"),
+    Fault("turns", "a train stood, and ran back where it came from", 0.1, 90, 600, "-", 0, 0, "practice: line blocked"),
+    # ---- beyond what is assumed
+    Fault("gps_drift", "a train's fixes were off by less than the display tells", 0.0, 600, 3_600, "m", 150, 900,
+          "practice: reflections in a cutting", "a_wrong_fix_is_contradicted"),
+    Fault("clock", "ages were told too young", 0.0, 600, 3_600, "s", 20, 60, "ours: a unit that lost GPS time",
+          "the_train_keeps_the_lines_speed"),
+    Fault("unlisted", "a train was not on the server's list", 0.0, 1_800, 7_200, "-", 0, 0, "ours: a trolley",
+          "the_list_is_whole"),
+    Fault("own_drift", "the worker's fix was off", 0.0, 600, 3_600, "m", 200, 1_500, "practice: a cold start",
+          "a_worker_fix_is_within_its_error"),
+    Fault("backwards", "a train told the wrong direction", 0.0, 600, 3_600, "-", 0, 0, "ours: a cable swapped",
+          "no_train_turns_sooner"),
+)  # fmt: skip
+"""In the order of the simulation's windows."""
+
+OF_A_TRAIN = ("gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards")
+"""Those that begin while the train is under way."""
+KIND = {fault.name: number for number, fault in enumerate(FAULTS)}
+WITHIN = tuple(fault for fault in FAULTS if not fault.breaks)
+BEYOND = tuple(fault for fault in FAULTS if fault.breaks)

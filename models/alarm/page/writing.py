@@ -1,0 +1,51 @@
+"""Writes the handset's page: everything in one file, nothing loaded from anywhere (A7)."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from models.alarm.line import TUNNELS_MM, ZONE_MM
+from models.alarm.page.scene import Shown, line_data, moment, shown
+
+TEMPLATE = "page.html.jinja"
+LINE = "Yamabe line"
+"""Made up."""
+WORKER_M = (TUNNELS_MM[0][1] + ZONE_MM) / 1_000 + 1_000.0
+"""Where every tone is heard within the hour: 1 km beyond a tunnel."""
+FIRST_S, LENGTH_S = 0, 3_600
+
+
+def page_of(scene: Shown, title: str = LINE) -> str:
+    """Give the page of some minutes as HTML."""
+    environment = Environment(
+        loader=PackageLoader("models.alarm.page", "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    moments = [moment(scene, row) for row in range(len(scene.kept.own))]
+    data = json.dumps({"line": line_data(), "moments": moments}, separators=(",", ":"), ensure_ascii=False)
+    return environment.get_template(TEMPLATE).render(
+        title=title, last=len(moments) - 1, data=Markup(data.replace("<", "\\u003c"))
+    )
+
+
+def write(
+    path: Path,
+    seed: int,
+    day: int = 0,
+    worker_m: float | None = WORKER_M,
+    first_s: int = FIRST_S,
+    length_s: int = LENGTH_S,
+) -> None:
+    """Write the page of ``length_s`` seconds of a day, from ``first_s`` on, for a worker at a place.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+    path.write_text(page_of(shown(seed, day, worker_m, first_s, length_s)), "utf-8")

@@ -1,0 +1,323 @@
+"""One worker's day, second by second: what the handset is told, what it sounds, and the truth held against it.
+
+The handset is the kernel's own, compiled: every message goes through its functions, every second gives its tone.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+
+from kernel.alarm.distance import GREATEST_AGE_MS, NO_WORKER_FIX, Direction
+from kernel.alarm.tone import Handset, Tone
+from models.alarm.columns import NUMBER
+from models.alarm.compiled import MADE
+from models.alarm.draws import SECONDS
+from models.alarm.faults import KIND
+from models.alarm.gps import (
+    BACKWARDS,
+    TRAIN_M,
+    TRAIN_MOST_M,
+    VALID_M_S,
+    WORKER_M,
+    WORKER_MOST_M,
+    in_tunnel,
+    sees,
+    stretch_mm,
+    told_mm,
+    wanders,
+)
+from models.alarm.line import BOUNDS, REGISTER, SHUNTER, TRAINS
+from models.alarm.moving import COMES_AFTER_S, NAMED_AFTER_S, at_the_beginning, move, noise, switch_on
+from models.alarm.network import FIX, LATEST_S, LISTED, SHOWN, SOON_S, is_late, is_of, is_on, send
+from models.alarm.truth import hold
+from models.compiled import packed
+
+ALARM_TONE, REGISTERED = MADE.tone.tone, packed(REGISTER)
+NOTHING = packed(Handset(NO_WORKER_FIX, GREATEST_AGE_MS + 1, True, True, {}))
+"""A handset that was just switched on."""
+DOWN, UP, UNKNOWN = (packed(direction) for direction in (Direction.DOWN, Direction.UP, Direction.UNKNOWN))
+FAULTY = packed(Tone.FAULT)
+RING = 16
+"""So many seconds of what was told are kept; no message arrives later."""
+older, note_list, note_named, note_gone = (
+    MADE.tone.older,
+    MADE.tone.note_list,
+    MADE.tone.note_named,
+    MADE.tone.note_gone,
+)
+note_fix, note_display = MADE.tone.note_fix, MADE.tone.note_display
+note_worker, note_battery = MADE.tone.note_worker, MADE.tone.note_battery
+TrainFix, WorkerFix, Display = MADE.tone.TrainFix, MADE.tone.WorkerFix, MADE.tone.Display
+CLOCK, UNLISTED, OWN_DRIFT, OWN_OUT = (KIND[name] for name in ("clock", "unlisted", "own_drift", "own_gps_out"))
+TRAIN_SILENT, HANDSET_SILENT, DISPLAY_OUT = (KIND[name] for name in ("train_silent", "handset_silent", "display_out"))
+ILL, BATTERY = KIND["servers_ill"], KIND["battery"]
+MESSAGES, JUMPED, TURNED, LIST_BROKEN = (NUMBER[name] for name in ("messages", "jumped", "turned", "list_broken"))
+AGE_BROKEN, DISPLAY_BROKEN = NUMBER["age_broken"], NUMBER["display_broken"]
+SPEED_MM_S, ERROR_MM, TURNING_MS = BOUNDS.train_mm_s, BOUNDS.train_error_mm, BOUNDS.turning_ms
+SHOWN_OFF_MM = REGISTER.display_error_mm
+
+
+class Trace(NamedTuple):
+    """What is written down of a day, if it is asked for; arrays without rows where it is not.
+
+    ``seconds``: tone, the worker's place in mm, the least distance in mm to a train that has not departed, its number.
+    ``places``: every train's place in m, NaN while it is not on the line.
+    ``own``: from ``first_s`` on, the handset's own place in mm and that fix's age, the list's age, servers and battery.
+    ``told``: from ``first_s`` on, for each train on the list 1, then its last fix, place, age, direction, runs; and the
+    display, from, to, age.
+    """
+
+    seconds: Any
+    places: Any
+    first_s: int
+    own: Any
+    told: Any
+
+
+def trace(places: bool = False, first_s: int = 0, told_s: int = 0) -> Trace:
+    """Make room for a trace; ``told_s``: for so many seconds what the handset was told."""
+    return Trace(
+        np.zeros((SECONDS, 4), np.int64),
+        np.full((SECONDS if places else 0, TRAINS), np.nan),
+        first_s,
+        np.zeros((told_s, 5), np.int64),
+        np.zeros((told_s, TRAINS, 8), np.int64),
+    )
+
+
+@numba.njit
+def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
+    """Write down a second, as far as it is asked for."""
+    if kept.places.shape[0] > 0:
+        for train in range(TRAINS):
+            if trains.came_s[train] <= second < trains.left_s[train]:
+                kept.places[second, train] = trains.place_m[train]
+    row = second - kept.first_s
+    if not 0 <= row < kept.own.shape[0]:
+        return
+    worker = handset.worker
+    kept.own[row, 0], kept.own[row, 1], kept.own[row, 2] = worker.place_mm, worker.age_ms, handset.server_age_ms
+    kept.own[row, 3], kept.own[row, 4] = handset.servers_well, handset.battery_well
+    for train, known in handset.trains:
+        fix, shown, told = known.fix, known.display, kept.told[row, train]
+        told[0], told[1], told[2], told[3], told[4] = 1, fix.place_mm, fix.age_ms, fix.direction, fix.is_running
+        told[5], told[6], told[7] = shown.from_mm, shown.to_mm, shown.age_ms
+
+
+class Sent(NamedTuple):
+    """What was so at each of the last seconds, a row for each train.
+
+    ``fix_s``, ``shown_s``, ``list_s``: in which second arrives what was sent then, first and again; -1 for never.
+    """
+
+    place_m: Any
+    told_mm: Any
+    has_fix: Any
+    direction: Any
+    runs: Any
+    error_m: Any
+    fix_s: Any
+    shown_s: Any
+    list_s: Any
+
+
+@numba.njit
+def nothing_sent() -> Sent:
+    """Give what was told before the day began."""
+    return Sent(
+        np.zeros((TRAINS, RING)),
+        np.zeros((TRAINS, RING), np.int64),
+        np.zeros((TRAINS, RING), np.bool_),
+        np.zeros((TRAINS, RING), np.int64),
+        np.zeros((TRAINS, RING), np.bool_),
+        np.zeros(TRAINS),
+        np.full((TRAINS, RING, 2), -1),
+        np.full((TRAINS, RING, 2), -1),
+        np.full((RING, 2), -1),
+    )
+
+
+@numba.njit(forceinline=True)
+def is_named(day: Any, trains: Any, train: int, second: int) -> bool:
+    """Tell whether the server's list has a train (A2)."""
+    on_s = trains.came_s[train] - COMES_AFTER_S + NAMED_AFTER_S
+    return on_s <= second < trains.left_s[train] + 10 and not is_of(day, UNLISTED, train, second)
+
+
+@numba.njit(forceinline=True)
+def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
+    """Every unit takes a fix; it is sent every 2 s, the display every 3 s, the list every 2 s (A1)."""
+    now = second % RING
+    if second % 2 == 0:
+        send(day, second, LISTED, sent.list_s)
+    for index in range(trains.switched_on[TRAINS]):
+        train = trains.switched_on[index]
+        place, speed, heading = trains.place_m[train], trains.speed_m_s[train], trains.heading[train]
+        sent.error_m[train] = wanders(sent.error_m[train], day.key, second, train, TRAIN_M, TRAIN_MOST_M)
+        sent.place_m[train, now] = place
+        sent.told_mm[train, now] = told_mm(day, train, place, sent.error_m[train], second)
+        sent.has_fix[train, now] = sees(day, train, place, second)
+        heading = -heading if is_of(day, BACKWARDS, train, second) else heading
+        if (second + train) % 2 == 0:
+            send(day, second, FIX + train, sent.fix_s[train])
+        if (second + train) % 3 == 0:
+            send(day, second, SHOWN + train, sent.shown_s[train])
+        sent.runs[train, now] = speed >= VALID_M_S
+        sent.direction[train, now] = (DOWN if heading > 0 else UP) if speed >= VALID_M_S else UNKNOWN
+
+
+@numba.njit(forceinline=True)
+def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
+    """Give a fix as it arrives; a wrong clock makes it younger (A1)."""
+    at = sent_s % RING
+    age_ms = 1_000 * (second - sent_s)
+    if is_of(day, CLOCK, train, sent_s):
+        age_ms = max(0, age_ms - 1_000 * abs(day.size[CLOCK]))
+    return TrainFix(sent.told_mm[train, at], age_ms, sent.direction[train, at], sent.runs[train, at])
+
+
+@numba.njit(forceinline=True)
+def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
+    """Give a record of the display as it arrives: it follows a train within 2 s (A1)."""
+    behind_s = noise(day.key, sent_s, 4_000 + train) % 3
+    behind_s = min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S)
+    place = sent.place_m[train, (sent_s - behind_s) % RING]
+    from_mm, to_mm = stretch_mm(place)
+    return Display(from_mm, to_mm, 1_000 * (second - sent_s))
+
+
+@numba.njit(forceinline=True)
+def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any) -> Any:
+    """A fix reaches the handset (A1)."""
+    if not sent.has_fix[train, sent_s % RING] or is_of(day, TRAIN_SILENT, train, sent_s):
+        return handset
+    fix = fix_of(day, sent, train, sent_s, second)
+    out[MESSAGES] += 1
+    ran_mm = 1_000 * abs(trains.place_m[train] - sent.place_m[train, sent_s % RING])
+    if ran_mm > SPEED_MM_S * fix.age_ms / 1_000 + 1:
+        out[AGE_BROKEN] += 1
+    for number, known in handset.trains:
+        before = known.fix
+        if number == train and before.age_ms <= 60_000:
+            way_mm, apart_ms = abs(before.place_mm - fix.place_mm), abs(before.age_ms - fix.age_ms)
+            if way_mm > SPEED_MM_S * apart_ms // 1_000 + 2 * ERROR_MM:
+                out[JUMPED] += 1
+            both = before.is_running and fix.is_running and before.direction != fix.direction
+            if both and apart_ms <= TURNING_MS:
+                out[TURNED] += 1
+    return note_fix(handset, train, fix)
+
+
+@numba.njit(forceinline=True)
+def take_display(
+    day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
+) -> Any:
+    """A record of the display reaches the handset; trains that shunt are not on it (A1, A5)."""
+    if train == SHUNTER or is_on(day, DISPLAY_OUT, sent_s):
+        return handset
+    display = shown_of(day, trains, sent, train, sent_s, second)
+    out[MESSAGES] += 1
+    at_mm = 1_000 * sent.place_m[train, sent_s % RING]
+    if not display.from_mm - SHOWN_OFF_MM <= at_mm <= display.to_mm + SHOWN_OFF_MM:
+        out[DISPLAY_BROKEN] += 1
+    return note_display(handset, train, display)
+
+
+@numba.njit(forceinline=True)
+def has(handset: Any, train: int) -> bool:
+    """Tell whether the handset's list has a train."""
+    for number, _known in handset.trains:  # noqa: SIM110
+        if number == train:
+            return True
+    return False
+
+
+@numba.njit(forceinline=True)
+def take_list(day: Any, trains: Any, handset: Any, sent: Sent, sent_s: int, second: int, out: Any) -> Any:
+    """A list of the server reaches the handset; what it names for the first time comes with its reports (A1, A2)."""
+    named = 0
+    for index in range(trains.switched_on[TRAINS]):
+        train = trains.switched_on[index]
+        there = has(handset, train)
+        if is_named(day, trains, train, sent_s):
+            named += 1
+            if not there:
+                handset = note_named(handset, train)
+                handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
+                handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
+        elif trains.came_s[train] <= second < trains.left_s[train]:
+            out[LIST_BROKEN] += 1
+    if len(handset.trains) > named:
+        for train, _known in handset.trains:
+            if not is_named(day, trains, train, sent_s):
+                handset = note_gone(handset, train)
+    out[MESSAGES] += 1
+    return note_list(handset, 1_000 * (second - sent_s), not is_on(day, ILL, sent_s))
+
+
+@numba.njit(forceinline=True)
+def hear(day: Any, trains: Any, handset: Any, sent: Sent, last_list_s: int, second: int, out: Any) -> Any:
+    """Take everything that arrives in this second, the oldest first; a list older than the last is let go (A1)."""
+    late = is_late(day, second) or is_late(day, max(0, second - LATEST_S))
+    for back in range(min(LATEST_S if late else SOON_S, second), 0, -1):
+        sent_s = second - back
+        at = sent_s % RING
+        if sent_s > last_list_s and (sent.list_s[at, 0] == second or sent.list_s[at, 1] == second):
+            handset = take_list(day, trains, handset, sent, sent_s, second, out)
+            last_list_s = sent_s
+        for index in range(trains.switched_on[TRAINS]):
+            train = trains.switched_on[index]
+            if sent.fix_s[train, at, 0] == second or sent.fix_s[train, at, 1] == second:
+                handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
+            if sent.shown_s[train, at, 0] == second or sent.shown_s[train, at, 1] == second:
+                handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
+    return handset, last_list_s
+
+
+@numba.njit(forceinline=True)
+def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int) -> Any:
+    """The handset takes its own fix, where it can, and looks at its battery (A1, A8)."""
+    handset = note_battery(handset, not is_on(day, BATTERY, second))
+    if in_tunnel(worker_m) or is_on(day, OWN_OUT, second):
+        return handset
+    off_m = error_m + (day.size[OWN_DRIFT] if is_on(day, OWN_DRIFT, second) else 0)
+    return note_worker(handset, WorkerFix(int(np.floor(1_000 * (worker_m + off_m) + 0.5)), 0))
+
+
+@numba.njit(forceinline=True)
+def walked(day: Any, second: int) -> float:
+    """Give where the worker is: he walks to and fro."""
+    if day.walk_m == 0.0:
+        return float(day.worker_m)
+    way = (day.walk_m_s * second) % (4.0 * day.walk_m)
+    return float(day.worker_m - day.walk_m + (way if way <= 2.0 * day.walk_m else 4.0 * day.walk_m - way))
+
+
+@numba.njit
+def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out: Any, kept: Trace) -> None:
+    """Let a day pass.
+
+    ``written``: the line's register, by which the truth is held; ``register``: the handset's, the same unless a fault
+    is planted there.  ``sounds``: the function that gives the tone.  ``out``: the row of the day.
+    ``kept``: what is written down.
+    """
+    trains = at_the_beginning(day)
+    sent = nothing_sent()
+    last_list_s, error_m, before, sides = -1, 0.0, FAULTY, np.zeros(TRAINS)
+    for second in range(SECONDS):
+        switch_on(trains, second)
+        move(day, trains, second)
+        worker_m = walked(day, second)
+        observe(day, trains, sent, second)
+        handset = older(handset, 1_000)
+        if not is_on(day, HANDSET_SILENT, second):
+            handset, last_list_s = hear(day, trains, handset, sent, last_list_s, second, out)
+        error_m = wanders(error_m, day.key, second, TRAINS, WORKER_M, WORKER_MOST_M)
+        handset = own_fix(day, handset, worker_m, error_m, second)
+        heard = sounds(register, handset)
+        hold(written, day, trains, sides, handset, heard, before, worker_m, second, out, kept.seconds)
+        before = heard
+        write_down(trains, handset, second, kept)

@@ -1,0 +1,53 @@
+"""What is counted of each day at a crossing, by name (X2 to X6)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from models.crossing.faults import FAULTS
+
+CLAIMS: Mapping[str, str] = {
+    "late_warning": "an arrival warned of for less than the warning time (X2, X5)",
+    "short_closure": "an arrival with the arms down for less than 15 s (X5)",
+    "lifted_between": "an arrival too soon after an opening at which its train was known (X4)",
+    "opened_before_rear": "a warning ended while a train that was warned of was not past (X4)",
+    "unwarned_silence": "a start point's terminal was silent for too long without a warning (T14)",
+}
+ASSUMPTIONS: Mapping[str, str] = {
+    "ranging_broken": "`the_ranging_bounds_the_train`: a train was nearer or faster than its ranging said",
+    "age_broken": "`a_ranging_is_no_older_than_it_says`",
+    "gain_broken": "`the_train_gains_no_more`, `the_train_keeps_to_the_line_speed`",
+    "strike_broken": "`the_terminal_tells_every_strike_first`: one was missed, or put down to another train",
+    "rear_broken": "`a_whole_train_told_gone_is_gone`",
+    "arms_broken": "`the_arms_come_down_in_time`",
+    "start_broken": "`who_arrives_has_passed_the_start_point`, and it lies far enough",
+}
+MONITORS: Mapping[str, str] = {
+    "lost": "trains of which the ranging was lost before they were past (X3)",
+    "silences": "warnings for a start point's silent terminal (T14)",
+    "conventional": "trains under conventional control (X3)",
+    "released": "trains that a person released (X4)",
+}
+PRICES: Mapping[str, str] = {
+    "closed_s": "seconds for which the crossing warned",
+    "old_closed_s": "seconds for which the old crossing would have",
+    "beyond_s": "seconds of warning before arrivals beyond the warning time, all trains",
+    "old_beyond_s": "the same of the old crossing",
+    "needless": "warnings in which no train arrived",
+    "held": "openings of less than the least time that were not made: arms stayed down for a near train",
+    "old_short_openings": "openings of less than the least time that the old crossing would have made",
+}
+COUNTS: Mapping[str, str] = {
+    "trains": "trains that came",
+    "arrivals": "heads at the crossing",
+    "in_contact": "of them in contact, and never lost",
+    "warnings": "warnings that began",
+    "likely_late": "arrivals that the paper's reckoning, without bounds, would have warned of late",
+    "rangings": "rangings that counted",
+    "seconds": "seconds of traffic",
+}
+DRAWN: Mapping[str, str] = {f"fault_{fault.name}": fault.says for fault in FAULTS}
+
+COLUMNS = (*CLAIMS, *ASSUMPTIONS, *MONITORS, *DRAWN, *PRICES, *COUNTS)
+"""In the order of ``models.days.system.System.columns``."""
+NUMBER = {name: number for number, name in enumerate(COLUMNS)}

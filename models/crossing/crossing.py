@@ -1,0 +1,284 @@
+"""A crossing with any number of trains on any number of tracks, its start points, and its arms (X2 to X5, T14).
+
+Trains are no bodies here but what is secured of them: within how many cycles a train cannot arrive.  A start
+point gives that by its place, and ``arrival`` by its guarantee, of which the answers here are the two halves.
+All else a train may do as it likes: stop short, turn back, part, follow another as closely as signals let it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.crossing import crossing as machine
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
+from kernel.maps import Map
+from kernel.onboard.arithmetic import larger
+
+
+@dataclass(frozen=True)
+class Road:
+    """What does not change: the settings of the crossing, and its tracks (X5)."""
+
+    settings: Settings
+    tracks: frozenset[CrossingTrack]
+
+
+@dataclass(frozen=True)
+class Body:
+    """A train on its way to the crossing, or a part of one, until its rear is past or it has turned back.
+
+    ``track``: which it is on.  ``inside``: it has passed the start point.
+    ``left_cycles``: within so many cycles it cannot arrive.
+    ``has_asked``: history: the crossing has warned for it.
+    ``was_known``: history: the crossing knew of it when it last let the arms up.
+    """
+
+    track: CrossingTrack
+    inside: bool
+    left_cycles: int
+    has_asked: bool
+    was_known: bool
+
+
+@dataclass(frozen=True)
+class Arrived:
+    """A history: the arrival that was last, and what was so then.
+
+    ``is_any``: there was one.  ``warned_cycles``, ``down_cycles``: for how long the warning had lasted, and the
+    arms been down.  ``was_known``: as of the body.  ``opened_cycles``: since the arms were last let up.
+    """
+
+    is_any: bool
+    warned_cycles: int
+    down_cycles: int
+    was_known: bool
+    opened_cycles: int
+
+
+@dataclass(frozen=True)
+class Level:
+    """One moment.
+
+    ``in_service``: its settings have been checked.
+    ``bodies``: all trains that are on their way.  ``crossing``: the machine.
+    ``decided``: it has decided for the cycle that begins.
+    ``lowered_cycles``: for how long its arms have been lowered or held down.
+    ``are_down``, ``down_cycles``: they are down, and for how many whole cycles.
+    ``opened_cycles``: since a warning last ended.
+    ``unheard_cycles``: history: for how long each start point's terminal has not been heard.
+    ``last``: the last arrival.
+    """
+
+    in_service: bool
+    bodies: Map[Train, Body]
+    crossing: Crossing
+    decided: bool
+    lowered_cycles: int
+    are_down: bool
+    down_cycles: int
+    opened_cycles: int
+    unheard_cycles: Map[CrossingTrack, int]
+    last: Arrived
+
+
+# ---- assumptions
+
+
+def nobody_comes_before_the_check(system: Level) -> bool:
+    """Trains run over a crossing that is in service (X5)."""
+    return system.in_service
+
+
+def a_train_comes_as_new(system: Level, train: Train) -> bool:
+    """Nobody comes under a name by which the crossing still knows somebody; who turned back makes contact anew (X1)."""
+    return train not in system.bodies and train not in system.crossing.asks
+
+
+def a_train_comes_on_a_track(site: Road, track: CrossingTrack) -> bool:
+    """Each track over the crossing has its start points (X3)."""
+    return track in site.tracks
+
+
+def a_start_point_is_passed_once(system: Level, train: Train) -> bool:
+    """Who passes a start point is on its way, and has not been inside; out again it counts as inside (X3)."""
+    return train in system.bodies and not system.bodies[train].inside
+
+
+def who_arrives_has_passed_the_start_point(system: Level, train: Train) -> bool:
+    """Start points lie on every way to the crossing (X3)."""
+    return train in system.bodies and system.bodies[train].inside
+
+
+def nobody_arrives_before_he_can(system: Level, train: Train) -> bool:
+    """What is secured by start point and rangings is true (X2)."""
+    return system.bodies[train].left_cycles <= 0
+
+
+def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -> bool:
+    """Who has passed a start point without contact is told of when its terminal is next heard, at the latest (X3).
+
+    A strike is put down to a train in contact only if that has made it.
+    """
+    return all(
+        train in system.crossing.asks for train, body in system.bodies.items() if body.track == track and body.inside
+    )
+
+
+def a_decision_begins_each_cycle(system: Level) -> bool:
+    """The crossing decides once before each cycle, never later (X2)."""
+    return not system.decided
+
+
+def the_arms_come_down_in_time(site: Road, lowered_cycles: int, are_down: bool) -> bool:
+    """Arms that have been lowered for their time are down, and stay so (X5)."""
+    return are_down or lowered_cycles < site.settings.lowering_cycles
+
+
+def a_whole_train_told_gone_is_gone(system: Level, gone: Train, is_whole: bool) -> bool:
+    """Evidence of a rear is of that train's rear, and of a train that is whole no part is left behind (X4)."""
+    return not is_whole or gone not in system.bodies
+
+
+def a_person_releases_what_is_gone(system: Level, gone: Train) -> bool:
+    """Who releases has looked, and no part of the train is in the approach (X4)."""
+    return gone not in system.bodies
+
+
+# ---- transitions
+
+
+def put_into_service(site: Road, system: Level) -> Level:
+    """The settings of a crossing are checked, and refused if they are not lawful (X5)."""
+    if not machine.are_lawful(site.settings):
+        return system
+    return replace(system, in_service=True)
+
+
+# ---- trains
+
+
+def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cycles: int) -> Level:
+    """A train comes, or is made up; it is before the start point (X3)."""
+    if not nobody_comes_before_the_check(system) or not a_train_comes_on_a_track(site, track):
+        return system
+    if not a_train_comes_as_new(system, train):
+        return system
+    body = Body(track, inside=False, left_cycles=left_cycles, has_asked=False, was_known=False)
+    return replace(system, bodies=system.bodies | {train: body})
+
+
+def pass_start_point(site: Road, system: Level, train: Train) -> Level:
+    """A train passes its start point, which lies so far away that it cannot arrive sooner (X3)."""
+    if not a_start_point_is_passed_once(system, train):
+        return system
+    body = system.bodies[train]
+    left_cycles = larger(body.left_cycles, site.settings.start_cycles)
+    return replace(system, bodies=system.bodies | {train: replace(body, inside=True, left_cycles=left_cycles)})
+
+
+def arrive(site: Road, system: Level, train: Train) -> Level:
+    """A train's head is met at the crossing (X2)."""
+    if not who_arrives_has_passed_the_start_point(system, train) or not nobody_arrives_before_he_can(system, train):
+        return system
+    body = system.bodies[train]
+    last = Arrived(True, system.crossing.warned_cycles, system.down_cycles, body.was_known, system.opened_cycles)
+    return replace(system, last=last)
+
+
+def leave(site: Road, system: Level, gone: Train) -> Level:
+    """A train's rear is past the crossing, or it has turned back; all of it (X4)."""
+    return replace(system, bodies={train: body for train, body in system.bodies.items() if train != gone})
+
+
+# ---- what the crossing is told
+
+
+def make_contact(site: Road, system: Level, train: Train) -> Level:
+    """Radio contact with a train begins (003, 2.3)."""
+    return replace(system, crossing=machine.note_contact(system.crossing, train))
+
+
+def hear_strike(site: Road, system: Level, train: Train) -> Level:
+    """A terminal tells of a train at its start point; of one that is there, or of none (X3, T14)."""
+    return replace(system, crossing=machine.note_struck(system.crossing, train))
+
+
+def hear_terminal(site: Road, system: Level, track: CrossingTrack) -> Level:
+    """A terminal is heard, and has no more to tell (X3, T14)."""
+    if not the_terminal_tells_every_strike_first(system, track):
+        return system
+    return replace(
+        system,
+        crossing=machine.note_heard(system.crossing, track),
+        unheard_cycles=system.unheard_cycles | {track: 0},
+    )
+
+
+def tell_gone(site: Road, system: Level, gone: Train, is_whole: bool) -> Level:
+    """A train's rear is proved out of the approach, at either end of it (X4, T14)."""
+    if not a_whole_train_told_gone_is_gone(system, gone, is_whole):
+        return system
+    return replace(system, crossing=machine.note_gone(system.crossing, gone, is_whole))
+
+
+def release(site: Road, system: Level, gone: Train) -> Level:
+    """A person on site releases a train that does not come any more (X4)."""
+    if not a_person_releases_what_is_gone(system, gone):
+        return system
+    return replace(system, crossing=machine.note_released(system.crossing, gone))
+
+
+# ---- cycles
+
+
+def secured_cycles(warning_cycles: int, reopening_cycles: int, due: Due) -> int:
+    """Give within how many cycles a train that is not due cannot arrive: what ``due`` proves (X2, X4)."""
+    if due == Due.NEAR:
+        return warning_cycles + 2
+    return warning_cycles + reopening_cycles + 2
+
+
+def decide(site: Road, system: Level, dues: Map[Train, Due]) -> Level:
+    """The crossing decides; what the answers guarantee is so from now on (X2)."""
+    if not system.in_service or not a_decision_begins_each_cycle(system):
+        return system
+    crossing = machine.decide(site.settings, system.crossing, dues)
+    opens = system.crossing.warns and not crossing.warns
+    warning_cycles, reopening_cycles = site.settings.warning_cycles, site.settings.reopening_cycles
+    return replace(
+        system,
+        bodies={
+            train: replace(
+                body,
+                left_cycles=larger(body.left_cycles, secured_cycles(warning_cycles, reopening_cycles, dues[train]))
+                if train in crossing.asks and not crossing.asks[train]
+                else body.left_cycles,
+                has_asked=body.has_asked or (train in crossing.asks and crossing.asks[train]),
+                was_known=train in crossing.asks if opens else body.was_known,
+            )
+            for train, body in system.bodies.items()
+        },
+        crossing=crossing,
+        decided=True,
+        opened_cycles=0 if opens else system.opened_cycles,
+    )
+
+
+def run_a_cycle(site: Road, system: Level, are_down: bool) -> Level:
+    """A cycle passes, for trains, arms and terminals (X2, X5)."""
+    if a_decision_begins_each_cycle(system):
+        return system
+    lowered_cycles = system.lowered_cycles + 1 if machine.arms_are_to_be_down(site.settings, system.crossing) else 0
+    if not the_arms_come_down_in_time(site, lowered_cycles, are_down):
+        return system
+    return replace(
+        system,
+        bodies={train: replace(body, left_cycles=body.left_cycles - 1) for train, body in system.bodies.items()},
+        crossing=machine.aged(system.crossing),
+        decided=False,
+        lowered_cycles=lowered_cycles,
+        are_down=are_down,
+        down_cycles=system.down_cycles + 1 if system.are_down and are_down else 0,
+        opened_cycles=system.opened_cycles + 1,
+        unheard_cycles={track: cycles + 1 for track, cycles in system.unheard_cycles.items()},
+    )

@@ -1,0 +1,50 @@
+"""Whole days at the two crossings of the field trials, with faults (X1 to X5, T14)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
+from models.crossing.faults import FAULTS
+from models.crossing.sites import HOURS, TRIALS, lawful
+from models.crossing.traffic import NEVER, drawn
+from models.crossing.watch import SET, decide, watched
+from models.days.system import Numbers, System
+
+FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
+
+
+def one_day(seed: int, day: int, beyond: tuple[str, ...] = (), decides: Any = decide, settings: Any = SET) -> Numbers:
+    """Simulate one day and give its row; even days at the first crossing, odd ones at the second.
+
+    ``beyond``: faults that break an assumption, by name.  ``decides``, ``settings``: the machine's own; tests
+    plant faults there, and the truth is held against what is right.
+    """
+    assert lawful()
+    out = np.zeros(len(COLUMNS), np.int64)
+    trial = TRIALS[day % len(TRIALS)]
+    began = drawn(seed, day, trial, beyond)
+    watched(trial, began, out, decides, settings)
+    out[FIRST_FAULT : FIRST_FAULT + len(FAULTS)] = began.faults["begin_s"] != NEVER
+    return out
+
+
+def simulate(seed: int, days: range) -> Numbers:
+    """Simulate days: a row for each, a column for each of ``SYSTEM.columns``."""
+    return np.array([one_day(seed, day) for day in days], np.int64).reshape(len(days), len(COLUMNS))
+
+
+SYSTEM = System(
+    name="crossing",
+    claims=CLAIMS,
+    assumptions=ASSUMPTIONS,
+    monitors=MONITORS,
+    faults=DRAWN,
+    prices=PRICES,
+    counts=COUNTS,
+    hours=float(len(HOURS)),
+    simulate=simulate,
+)
+"""Constant warning time by radio ranging (003)."""

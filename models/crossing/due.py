@@ -1,0 +1,125 @@
+"""A train in contact, and what the answers to when it is due secure of it (X2, X4).
+
+The joint between reckoning and combining: what ``crossing`` takes of an answer is what is true of the train.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.crossing import crossing as machine
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.crossing import Due, Settings
+from kernel.onboard.arithmetic import larger
+from models.crossing.crossing import secured_cycles
+
+
+@dataclass(frozen=True)
+class Way:
+    """What does not change: the bounds that trains are held to, and what is written for the crossing (X2, X4)."""
+
+    bounds: ArrivalBounds
+    settings: Settings
+
+
+@dataclass(frozen=True)
+class Answered:
+    """One moment of a train.
+
+    ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
+    ``worst``: history: what was known at the answer that is held; since then the worst that it allows.
+    ``left_cycles``: within so many cycles it cannot arrive, by that answer.
+    ``sooner_cycles``: history: how much of that was left when its head was last met at the crossing.
+    """
+
+    way_um: int
+    pace_um: int
+    worst: Followed
+    left_cycles: int
+    sooner_cycles: int
+
+
+# ---- premises
+
+
+def bounds_are_above_zero(site: Way) -> bool:
+    """Trains move and gain speed, and the road is opened for a while (X2, X4)."""
+    return (
+        site.bounds.line_um > 0
+        and site.bounds.gain_um > 0
+        and site.bounds.warning_cycles >= 0
+        and site.settings.reopening_cycles >= 0
+    )
+
+
+# ---- assumptions
+
+
+def what_is_followed_bounds_the_train(site: Way, system: Answered, followed: Followed) -> bool:
+    """While a ranging counts, the train is no nearer and no faster than it is held to be (X2)."""
+    return (
+        followed.age_cycles > site.bounds.silence_cycles
+        or (followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - followed.short_um)
+    ) and 0 <= followed.short_um <= site.bounds.line_um
+
+
+def the_way_follows_the_speed(system: Answered, to_um: int, pace_um: int) -> bool:
+    """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
+    return system.way_um - to_um <= larger(system.pace_um, pace_um)
+
+
+def the_train_gains_no_more(site: Way, system: Answered, pace_um: int) -> bool:
+    """In one cycle the train gains no more than motors and descent give it (X2)."""
+    return pace_um - system.pace_um <= site.bounds.gain_um
+
+
+def the_train_keeps_to_the_line_speed(site: Way, pace_um: int) -> bool:
+    """No train is faster than the greatest speed of the line, and what a driver may exceed it by (X2)."""
+    return pace_um <= site.bounds.line_um
+
+
+def who_is_at_the_crossing_has_come_all_the_way(system: Answered) -> bool:
+    """Nobody meets the train at the crossing while its head is before it (X2)."""
+    return system.way_um <= 0
+
+
+# ---- transitions
+
+
+def answer(site: Way, system: Answered, followed: Followed) -> Answered:
+    """The ground unit answers by what it knows of the train, and what that secures is held against it (X2, X4).
+
+    Any answer may be the one that is held: those that are not did not happen here.
+    """
+    if not what_is_followed_bounds_the_train(site, system, followed):
+        return system
+    due = machine.due(site.bounds, followed, site.settings.reopening_cycles)
+    warning_cycles, reopening_cycles = site.bounds.warning_cycles, site.settings.reopening_cycles
+    if due == Due.NEAR:
+        near_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.NEAR)
+        return replace(system, worst=followed, left_cycles=near_cycles)
+    if due == Due.FAR:
+        far_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.FAR)
+        return replace(system, worst=followed, left_cycles=far_cycles)
+    return system
+
+
+def run_a_cycle(site: Way, system: Answered, to_um: int, pace_um: int) -> Answered:
+    """The train runs for a cycle as it likes (X2)."""
+    if not the_way_follows_the_speed(system, to_um, pace_um):
+        return system
+    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_the_line_speed(site, pace_um):
+        return system
+    run = replace(system, way_um=to_um, pace_um=pace_um, left_cycles=system.left_cycles - 1)
+    if system.worst.short_um <= site.bounds.gain_um:
+        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - site.bounds.line_um, short_um=0))
+    short_um = system.worst.short_um - site.bounds.gain_um
+    way_um = system.worst.way_um - site.bounds.line_um + short_um
+    return replace(run, worst=replace(system.worst, way_um=way_um, short_um=short_um))
+
+
+def arrive(site: Way, system: Answered) -> Answered:
+    """The train is met at the crossing (X2)."""
+    if not who_is_at_the_crossing_has_come_all_the_way(system):
+        return system
+    return replace(system, sooner_cycles=system.left_cycles)

@@ -1,0 +1,62 @@
+"""Faults of a day at a crossing as data: how often, how long, how large, and where that is from (X1, X3, T14).
+
+Those within what is assumed are drawn each day by their chance.  Those beyond it are drawn only when named: they break
+an assumption of the proofs, and the campaign has to see it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault: for some time of a day, or of one train.
+
+    ``chance``: of a day.  ``least_s`` to ``most_s``: how long.  ``least`` to ``most``: how large, in ``unit``.
+    ``breaks``: the assumption that it breaks, none where the crossing has to live with it.
+    """
+
+    name: str
+    says: str
+    chance: float
+    least_s: int
+    most_s: int
+    unit: str
+    least: float
+    most: float
+    source: str
+    breaks: str = ""
+
+
+FAULTS = (
+    Fault("radio_out", "no ranging of any train", 0.3, 3, 300, "-", 0, 0, "practice: interference in 2.4 GHz"),
+    Fault("lossy", "most rangings were lost", 0.5, 60, 1_800, "1", 0.3, 0.8, "practice: a van with a transmitter"),
+    Fault("multipath", "multipath at its bound, of one sign", 0.6, 300, 3_600, "1", -1, 1, "practice: wet facades"),
+    Fault("late", "rangings came late", 0.5, 60, 1_800, "cycles", 1, 2, "ours: a loaded ground unit"),
+    Fault("repeated", "rangings came twice", 0.5, 60, 1_800, "cycles", 1, 2, "ours: retries"),
+    Fault("terminal", "a start point's terminal was silent", 0.2, 1, 120, "-", 0, 0, "practice: a cable, a restart"),
+    Fault("end_tags", "tails missed the end tag", 0.4, 600, 7_200, "-", 0, 0, "practice: dirt, a tag that came off"),
+    Fault("end_detector", "the end detector told of no train", 0.1, 600, 3_600, "-", 0, 0, "practice: one in ten days"),
+    Fault("late_contact", "contact was made late", 0.6, 600, 7_200, "m", 100, 900, "practice: shadowing"),
+    Fault("no_radio", "trains without radio", 1.0, 68_400, 68_400, "1", 0.02, 0.20, "practice: other lines' trains"),
+    Fault("stops_short", "a train stood before the crossing", 0.5, 30, 600, "m", 20, 900, "practice: a signal, a door"),
+    Fault("turns_back", "a train turned back before the road", 0.1, 30, 200, "m", 300, 1_000, "practice: possession"),
+    Fault("sprints", "a train came slowly and then gained all it could", 0.5, 0, 0, "m", 300, 1_100, "worst case"),
+    # ---- beyond what is assumed
+    Fault("reflection", "rangings were off by more than their bound", 0.0, 3_600, 14_400, "m", 150, 400,
+          "practice: the direct way is hidden", "the_ranging_bounds_the_train"),
+    Fault("stale", "old rangings were told as new", 0.0, 3_600, 14_400, "cycles", 6, 12, "ours: a wrong order number",
+          "a_ranging_is_no_older_than_it_says"),
+    Fault("unstruck", "a start point missed trains", 0.0, 7_200, 28_800, "-", 0, 0, "ours: a broken detector",
+          "the_terminal_tells_every_strike_first"),
+    Fault("parts", "parts of trains stayed behind, and none was missed", 0.0, 3_600, 14_400, "s", 30, 90,
+          "ours: a coupler and the through line", "a_whole_train_told_gone_is_gone"),
+    Fault("slow_arms", "arms came down late", 0.0, 7_200, 28_800, "s", 8, 20, "practice: frost",
+          "the_arms_come_down_in_time"),
+    Fault("strong", "a train gained more than any should", 0.0, 0, 0, "m", 300, 1_100, "ours: a locomotive alone",
+          "the_train_gains_no_more"),
+)  # fmt: skip
+"""In the order of the simulation's windows."""
+
+KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

@@ -1,0 +1,476 @@
+"""A day at a crossing, second by second: trains, rangings, terminals, the compiled machine, and the truth beside it.
+
+In each cycle trains' start points are struck and terminals heard, rangings come, the crossing decides; then trains run,
+arms move, and what was claimed of arrivals, openings and silence is held against the truth.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+
+from models.compiled import packed
+from models.crossing.columns import NUMBER
+from models.crossing.faults import KIND
+from models.crossing.made import MADE, NO_DUES, OPEN, UNKNOWN
+from models.crossing.motion import COMES_UM, GOES_M, TURNS_BACK, allowed, arrives_by_likely_reckoning, move, signal_m
+from models.crossing.radio import KEPT, RADIO_OUT, is_on, ranging
+from models.crossing.sites import SETTINGS, Trial
+from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
+
+SET = packed(SETTINGS)
+counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
+follow, decide = MADE.arrival.follow, MADE.crossing.decide
+note_contact, note_struck, note_heard = MADE.crossing.note_contact, MADE.crossing.note_struck, MADE.crossing.note_heard
+note_gone, note_released = MADE.crossing.note_gone, MADE.crossing.note_released
+due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
+Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
+
+LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENCE = (
+    NUMBER[name]
+    for name in ("late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence")
+)
+GAIN_BROKEN, STRIKE_BROKEN, REAR_BROKEN, ARMS_BROKEN, START_BROKEN = (
+    NUMBER[name] for name in ("gain_broken", "strike_broken", "rear_broken", "arms_broken", "start_broken")
+)
+LOST, SILENCES, CONVENTIONAL, RELEASED = (NUMBER[name] for name in ("lost", "silences", "conventional", "released"))
+CLOSED, OLD_CLOSED, BEYOND, OLD_BEYOND, NEEDLESS, HELD, OLD_SHORT = (
+    NUMBER[name]
+    for name in ("closed_s", "old_closed_s", "beyond_s", "old_beyond_s", "needless", "held", "old_short_openings")
+)
+LIKELY_LATE = NUMBER["likely_late"]
+TRAINS, ARRIVALS, IN_CONTACT, WARNINGS, RANGINGS, SECONDS_COUNT = (
+    NUMBER[name] for name in ("trains", "arrivals", "in_contact", "warnings", "rangings", "seconds")
+)
+TERMINAL, END_TAGS, END_DETECTOR = KIND["terminal"], KIND["end_tags"], KIND["end_detector"]
+UNSTRUCK, PARTS, SLOW_ARMS = KIND["unstruck"], KIND["parts"], KIND["slow_arms"]
+LEAST_DOWN_S = 15
+OTHER_NAME = 1_000_000
+"""A strike that no ranging explains gets a name of its own: the train's number and this."""
+END_TAG_UM = 15_000_000
+END_DETECTOR_UM = 25_000_000
+"""The rear is past the road here (ours: a road of two lanes)."""
+CLEAR_UM = 600_000_000
+"""A train comes onto the line when the one before is so far."""
+DRAIN_S = 1_200
+"""After the last hour the trains under way run out."""
+WAITING, UNDER_WAY, AWAY = 0, 1, 2
+
+
+LINE = np.dtype(
+    [
+        *((name, np.float64, (2,)) for name in ("limit_m_s",)),
+        *((name, np.int64, (2,)) for name in ("length_um", "stops", "line_um", "start_um", "old_um")),
+        *((name, np.int64) for name in ("gain_um", "silence_cycles")),
+        *((name, np.float64) for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s")),
+        *((name, np.float64) for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2")),
+    ]
+)
+"""A trial's numbers as compiled code takes them; pairs are of express and local."""
+RUN = np.dtype(
+    [
+        *((name, np.int64) for name in ("state", "way_um", "before_um", "last_um", "pace_um", "stage")),
+        *((name, np.int64) for name in ("dwelt_s", "stood_s", "contact", "warns", "lost", "gone", "was_known", "name")),
+        *((name, np.int64) for name in ("near_um", "short_um", "age_cycles")),
+        *((name, np.int64) for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s")),
+        *((name, np.int64, (KEPT,)) for name in ("told_way_mm", "told_speed_mm_s", "told_s")),
+        ("bias", np.float64),
+    ]
+)
+"""What becomes of a train; times are -1 until then.
+
+``near_um``, ``short_um``, ``age_cycles``, ``warns``: what is followed of it.  ``asked_s``: when the warning was first
+asked for.  ``old_s``: when the old crossing's start point was struck; ``struck_s``: ours.
+``name``: by which the strike is told, -1 if nothing is to be told.
+``likely_s``: when the paper's reckoning would have warned.
+``arrived_s``, ``out_s``: head at the crossing; rear past it, or turned back.
+"""
+
+
+class Moment(NamedTuple):
+    """The crossing's state beside the machine: arms, openings, and the old crossing."""
+
+    crossing: Any
+    lowered: int
+    down: int
+    opened: int
+    arrivals: int
+    held: bool
+    old_on: bool
+    old_off_s: int
+
+
+def line_of(trial: Trial) -> Any:
+    """Give a trial's numbers."""
+    line = np.zeros(1, LINE)[0]
+    kinds = (trial.express, trial.local)
+    line["limit_m_s"] = [kind.limit_m_s for kind in kinds]
+    line["length_um"] = [kind.cars * 20_000_000 for kind in kinds]
+    line["stops"] = [kind.stops for kind in kinds]
+    line["line_um"] = [trial.bounds(kind).line_um for kind in kinds]
+    line["start_um"] = [trial.start_um(kind) for kind in kinds]
+    line["old_um"] = [trial.conventional_um(kind) for kind in kinds]
+    line["gain_um"] = trial.bounds(kinds[0]).gain_um
+    line["silence_cycles"] = trial.bounds(kinds[0]).silence_cycles
+    for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s"):
+        line[name] = getattr(trial, name)
+    for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2"):
+        line[name] = getattr(trial, name)
+    return line
+
+
+@numba.njit
+def bounds_of(line: Any, kind: Any) -> Any:
+    """Give what the kernel holds a kind of train to."""
+    return ArrivalBounds(line.line_um[kind], line.gain_um, SET.cycle_ms, SET.warning_cycles, line.silence_cycles)
+
+
+def run_of(day: Day) -> Records:
+    """Give a day's trains before anything happens."""
+    run = np.zeros(len(day.trains), RUN)
+    for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s", "name", "told_s"):
+        run[name] = NEVER
+    for name in ("way_um", "before_um", "last_um"):
+        run[name] = COMES_UM
+    return run
+
+
+def watched(trial: Trial, day: Day, out: Any, decides: Any = decide, settings: Any = SET) -> Records:
+    """Watch a day; counts go into ``out``.  ``decides``, ``settings``: the machine's own, where tests plant faults."""
+    run = run_of(day)
+    live(day, run, line_of(trial), decides, settings, packed(OPEN), NO_DUES, out)
+    return run
+
+
+# ---- trains under way
+
+
+@numba.njit
+def enter(day: Any, run: Any, line: Any, window: Any, ends: Any, track: int, now: int) -> None:
+    """Let the next train onto its track, if it is time and the one before is far enough."""
+    train = window[track, 1]
+    if train >= ends[track] or day.trains[train].at_s > now:
+        return
+    speed_m_s = line.limit_m_s[day.trains[train].local] * day.trains[train].share
+    if train > window[track, 0]:
+        ahead = train - 1
+        rear_um = run[ahead].way_um + line.length_um[day.trains[ahead].local]
+        if run[ahead].state == UNDER_WAY:
+            if rear_um > COMES_UM - CLEAR_UM or day.trains[ahead].trick == TURNS_BACK:
+                return
+            speed_m_s = min(speed_m_s, allowed(COMES_UM / 1e6, signal_m(line.block_m, rear_um)))
+    run[train].state = UNDER_WAY
+    run[train].pace_um = round(1e6 * speed_m_s)
+    window[track, 1] += 1
+
+
+@numba.njit
+def run_trains(day: Any, run: Any, line: Any, window: Any, track: int, out: Any) -> None:
+    """Let all trains of a track run for a second; each sees the one ahead."""
+    ahead, goes_um = NEVER, round(-1e6 * (line.station_m + GOES_M))
+    for train in range(window[track, 0], window[track, 1]):
+        if run[train].state != UNDER_WAY:
+            continue
+        way_um, pace_um = run[train].way_um, run[train].pace_um
+        move(day, run, line, train, ahead)
+        run[train].before_um, run[train].last_um = run[train].last_um, way_um
+        gained_um, now_um = run[train].pace_um - pace_um, run[train].pace_um
+        if (
+            gained_um > line.gain_um
+            or now_um > line.line_um[day.trains[train].local]
+            or way_um - run[train].way_um > max(pace_um, now_um)
+        ):
+            out[GAIN_BROKEN] += 1
+        if run[train].gone == 1 and (run[train].way_um < goes_um or run[train].way_um > COMES_UM):
+            run[train].state = AWAY
+        ahead = train
+    while window[track, 0] < window[track, 1] and run[window[track, 0]].state == AWAY:
+        window[track, 0] += 1
+
+
+# ---- what the crossing is told
+
+
+@numba.njit
+def strikes(day: Any, run: Any, line: Any, window: Any, track: int, now: int, out: Any) -> None:
+    """Let trains strike start points, and put each strike down to a train in contact, or to none (X3)."""
+    for train in range(window[track, 0], window[track, 1]):
+        kind, way_um = day.trains[train].local, run[train].way_um
+        if run[train].old_s < 0 and way_um <= line.old_um[kind]:
+            run[train].old_s = now
+        if run[train].struck_s >= 0 or way_um > line.start_um[kind]:
+            continue
+        run[train].struck_s = now
+        if day.on[UNSTRUCK] and track == day.faults[UNSTRUCK].track_of:
+            out[STRIKE_BROKEN] += 1
+            continue
+        by = NEVER
+        for other in range(window[track, 0], window[track, 1]):
+            able = run[other].contact == 1 and (run[other].struck_s < 0 or other == train)
+            if able and day.trains[other].local == kind and may_be_at(run, line, other, kind):
+                by = other
+        if by == NEVER:
+            run[train].name = OTHER_NAME + train if run[train].contact == 1 else train
+        elif by != train:
+            out[STRIKE_BROKEN] += 1
+
+
+@numba.njit
+def may_be_at(run: Any, line: Any, train: int, kind: int) -> Any:
+    """Tell whether a train in contact may be at its start point, by its rangings (X3)."""
+    near_um, age = run[train].near_um, run[train].age_cycles
+    reach_um = round(2e6 * line.way_error_m) + (age + 2) * line.line_um[kind]
+    return near_um <= line.start_um[kind] <= near_um + reach_um
+
+
+@numba.njit
+def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -> Any:
+    """Hear a start point's terminal: first what it has to tell, and then that it is there (X3, T14)."""
+    if day.on[TERMINAL] and day.faults[TERMINAL].track_of == track:
+        return crossing
+    for train in range(window[track, 0], window[track, 1]):
+        if run[train].name >= 0:
+            crossing = note_struck(crossing, run[train].name)
+            run[train].name = NEVER
+    return note_heard(crossing, track)
+
+
+@numba.njit
+def follow_train(
+    day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
+) -> Any:
+    """Take a train's ranging, reckon, and answer when it is due (X1, X2)."""
+    told = ranging(day, run, line, train, now, out)
+    bounds = bounds_of(line, day.trains[train].local)
+    valid = counts(bounds, told)
+    out[RANGINGS] += valid
+    if run[train].contact == 0:
+        if not valid or told.way_mm <= 0:
+            return crossing
+        run[train].contact = 1
+        crossing = note_contact(crossing, train)
+        known = taken(bounds, UNKNOWN, told)
+    else:
+        held = run[train]
+        known = follow(bounds, Followed(held.near_um, held.short_um, held.age_cycles, held.warns == 1), told)
+    if known.age_cycles > bounds.silence_cycles and run[train].lost == 0:
+        run[train].lost = 1
+        out[LOST] += run[train].arrived_s < 0
+    if run[train].likely_s < 0 and likely(run, line, train, day.trains[train].local, told):
+        run[train].likely_s = now
+    dues.append((train, due_of(bounds, known, settings.reopening_cycles)))
+    later = aged_train(bounds, known)
+    run[train].near_um, run[train].short_um = later.way_um, later.short_um
+    run[train].age_cycles, run[train].warns = later.age_cycles, int(known.warns)
+    return crossing
+
+
+@numba.njit
+def likely(run: Any, line: Any, train: int, kind: int, told: Any) -> Any:
+    """Tell whether the paper's reckoning warns now: its ranging has no bounds taken off; or it is lost (003, 2.3)."""
+    if not told.valid:
+        return run[train].lost == 1
+    way_m = told.way_mm / 1e3 + line.way_error_m
+    speed_m_s = told.speed_mm_s / 1e3 - line.speed_error_m_s
+    return arrives_by_likely_reckoning(line, kind, way_m, speed_m_s, SET.warning_cycles)
+
+
+@numba.njit
+def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
+    """Tell whether a train's rear is past the road, or it has turned back beyond its start point (X4)."""
+    kind = day.trains[train].local
+    if run[train].way_um + line.length_um[kind] <= -END_TAG_UM:
+        return True
+    return run[train].pace_um < 0 and run[train].way_um > line.start_um[kind] + 20_000_000
+
+
+@numba.njit
+def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
+    """Tell that a train's rear is out of the approach: by end tag, end detector, start tag, or a person (X4, T14)."""
+    if run[train].gone == 1 or not is_out(day, run, line, train):
+        return crossing
+    if run[train].out_s < 0:
+        run[train].out_s = now
+        return crossing
+    rear_um, told_s = run[train].way_um + line.length_um[day.trains[train].local], run[train].out_s
+    by_tag = run[train].contact == 1 and not is_on(day, END_TAGS, told_s) and not day.on[RADIO_OUT]
+    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, told_s)
+    is_known = run[train].contact == 1 or run[train].struck_s >= 0
+    if is_known and not by_tag and not by_detector and now < told_s + day.trains[train].person_s:
+        return crossing
+    run[train].gone, run[train].contact = 1, 0
+    out[REAR_BROKEN] += stays_s(day, run, train) > 0
+    if by_tag or by_detector:
+        return note_gone(note_gone(crossing, train, True), OTHER_NAME + train, True)
+    out[RELEASED] += is_known
+    return note_released(note_released(crossing, train), OTHER_NAME + train)
+
+
+@numba.njit
+def stays_s(day: Any, run: Any, train: int) -> Any:
+    """Give how long a part of a train stays behind."""
+    return int(day.faults[PARTS].size) if run[train].out_s >= 0 and is_on(day, PARTS, run[train].out_s) else 0
+
+
+@numba.njit
+def tell(
+    day: Any, run: Any, line: Any, window: Any, track: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
+) -> Any:
+    """Tell the crossing all of a track (X1 to X4)."""
+    strikes(day, run, line, window, track, now, out)
+    crossing = hear(day, run, window, track, now, crossing)
+    for train in range(window[track, 0], window[track, 1]):
+        if run[train].state != UNDER_WAY:
+            continue
+        crossing = prove_rear(day, run, line, train, now, crossing, out)
+        in_reach = run[train].contact == 1 or run[train].way_um <= day.trains[train].contact_um
+        if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
+            crossing = follow_train(day, run, line, train, now, crossing, dues, settings, out)
+    return crossing
+
+
+# ---- what is claimed, against the truth
+
+
+@numba.njit
+def note_asking(run: Any, crossing: Any, now: int) -> None:
+    """Keep when each train first asked for the warning."""
+    for name, asks in crossing.asks:
+        train = name - OTHER_NAME if name >= OTHER_NAME else name
+        if asks and run[train].asked_s < 0:
+            run[train].asked_s = now
+
+
+@numba.njit
+def note_opening(run: Any, crossing: Any, window: Any) -> None:
+    """Keep of which trains the crossing knew when it opened (X4)."""
+    for track in range(TRACKS):
+        for train in range(window[track, 0], window[track, 1]):
+            run[train].was_known = 0
+    for name, _ in crossing.asks:
+        run[name - OTHER_NAME if name >= OTHER_NAME else name].was_known = 1
+
+
+@numba.njit
+def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
+    """Hold arrivals and openings against what is claimed; give how many arrived (X2 to X5)."""
+    arrivals = 0
+    for train in range(window[track, 0], window[track, 1]):
+        if run[train].state != UNDER_WAY:
+            continue
+        there = run[train].out_s < 0 or now < run[train].out_s + stays_s(day, run, train)
+        if run[train].asked_s >= 0 and there and not moment.crossing.warns:
+            out[OPENED_BEFORE_REAR] += 1
+        if run[train].way_um > 0 or run[train].arrived_s >= 0:
+            continue
+        run[train].arrived_s = now
+        arrivals += 1
+        out[IN_CONTACT] += run[train].contact == 1 and run[train].lost == 0
+        out[CONVENTIONAL] += run[train].contact == 0
+        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < SET.start_cycles
+        out[LATE_WARNING] += moment.crossing.warned_cycles <= SET.warning_cycles
+        out[SHORT_CLOSURE] += moment.down < LEAST_DOWN_S
+        least_cycles = SET.warning_cycles + SET.reopening_cycles
+        out[LIFTED_BETWEEN] += run[train].was_known == 1 and moment.opened <= least_cycles
+        if run[train].likely_s >= 0 and day.trains[train].radio == 1:
+            out[LIKELY_LATE] += now - run[train].likely_s < SET.warning_cycles
+        if run[train].asked_s >= 0:
+            out[BEYOND] += now - run[train].asked_s - SET.warning_cycles
+        out[OLD_BEYOND] += now - run[train].old_s - SET.warning_cycles
+    return arrivals
+
+
+@numba.njit
+def old_crossing(run: Any, window: Any, moment: Any, out: Any) -> Any:
+    """Let the old crossing warn from its start points to the rears (003, 2.3)."""
+    is_on_now = False
+    for track in range(TRACKS):
+        for train in range(window[track, 0], window[track, 1]):
+            is_on_now = is_on_now or (run[train].old_s >= 0 and run[train].gone == 0)
+    out[OLD_CLOSED] += is_on_now
+    if is_on_now and not moment.old_on and 0 <= moment.old_off_s < SET.reopening_cycles:
+        out[OLD_SHORT] += 1
+    off_s = 0 if is_on_now else (moment.old_off_s + 1 if moment.old_off_s >= 0 else NEVER)
+    return is_on_now, off_s
+
+
+@numba.njit
+def judge_decision(run: Any, before: Any, moment: Any, window: Any, unheard: Any, now: int, out: Any) -> Any:
+    """Hold a decision against what is claimed, and count warnings and what kept them (X3, X4)."""
+    crossing, silent = moment.crossing, False
+    for track in range(TRACKS):
+        silent = silent or unheard[track] > SET.silence_cycles
+    out[UNWARNED_SILENCE] += silent and not crossing.warns
+    must = silent
+    for _, asks in crossing.asks:
+        must = must or asks
+    out[SILENCES] += crossing.warns and not before.warns and silent
+    out[WARNINGS] += crossing.warns and not before.warns
+    note_asking(run, crossing, now)
+    if before.warns and not crossing.warns:
+        out[NEEDLESS] += moment.arrivals == 0
+        note_opening(run, crossing, window)
+        return Moment(crossing, moment.lowered, moment.down, 0, 0, False, moment.old_on, moment.old_off_s)
+    held = crossing.warns and not must
+    out[HELD] += held and not moment.held
+    return Moment(
+        crossing, moment.lowered, moment.down, moment.opened, moment.arrivals, held, moment.old_on, moment.old_off_s
+    )
+
+
+@numba.njit
+def end_cycle(day: Any, moment: Any, now: int, out: Any) -> Any:
+    """Let a cycle pass for arms and terminals (X5)."""
+    slow = int(day.faults[SLOW_ARMS].size) if day.on[SLOW_ARMS] else 0
+    lowered = moment.lowered + 1 if are_to_be_down(SET, moment.crossing) else 0
+    are_down = lowered >= day.arms_cycles + slow
+    out[ARMS_BROKEN] += lowered >= SET.lowering_cycles and not are_down
+    out[CLOSED] += moment.crossing.warns
+    down = moment.down + 1 if are_down else 0
+    return Moment(
+        aged(moment.crossing), lowered, down, moment.opened + 1, moment.arrivals, moment.held, moment.old_on,
+        moment.old_off_s,
+    )  # fmt: skip
+
+
+@numba.njit
+def live(day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: Any, dues: Any, out: Any) -> None:
+    """Let a day pass."""
+    window, ends = np.zeros((TRACKS, 2), np.int64), np.zeros(TRACKS, np.int64)
+    unheard = np.zeros(TRACKS, np.int64)
+    for train in range(len(day.trains)):
+        ends[day.trains[train].track :] += 1
+    for track in range(TRACKS):
+        window[track, :] = ends[track - 1] if track else 0
+        crossing = note_heard(crossing, track)
+    out[TRAINS] += len(day.trains)
+    out[SECONDS_COUNT] += SECONDS
+    moment = Moment(crossing, 0, 0, 10**6, 0, False, False, NEVER)
+    for now in range(SECONDS + DRAIN_S):
+        crossing, before = moment.crossing, moment.crossing
+        dues.clear()
+        for fault in range(len(day.faults)):
+            day.on[fault] = is_on(day, fault, now)
+        for track in range(TRACKS):
+            enter(day, run, line, window, ends, track, now)
+            crossing = tell(day, run, line, window, track, now, crossing, dues, settings, out)
+            is_silent = day.on[TERMINAL] and day.faults[TERMINAL].track_of == track
+            unheard[track] = unheard[track] + 1 if is_silent else 0
+        crossing = decides(settings, crossing, dues)
+        told = Moment(
+            crossing, moment.lowered, moment.down, moment.opened, moment.arrivals, moment.held, moment.old_on,
+            moment.old_off_s,
+        )  # fmt: skip
+        moment = end_cycle(day, judge_decision(run, before, told, window, unheard, now, out), now, out)
+        arrivals = 0
+        for track in range(TRACKS):
+            run_trains(day, run, line, window, track, out)
+            arrivals += judge_trains(day, run, window, track, now, moment, out)
+        old_on, off_s = old_crossing(run, window, moment, out)
+        out[ARRIVALS] += arrivals
+        moment = Moment(
+            moment.crossing, moment.lowered, moment.down, moment.opened, moment.arrivals + arrivals, moment.held,
+            old_on, off_s,
+        )  # fmt: skip

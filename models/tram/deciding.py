@@ -1,0 +1,212 @@
+"""What the centre knows and decides in a simulated day, and what becomes of its orders (G3 to G6).
+
+The kernel's own functions, compiled; what is looked up in maps there is looked up in arrays here, and
+``tests/tram`` holds the one to the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from models.compiled import packed
+from models.tram import tally
+from models.tram.given import LIMITS, NEVER_PRESENT, NEVER_STALE, NOT_ADDRESSED, Given
+from models.tram.machines import MADE, compiled
+from models.tram.radio import CYCLE_S, SLOTS
+from models.tram.state import (
+    BOX,
+    FREE,
+    G_BEHIND,
+    G_MARK,
+    G_TOLD,
+    K_IS,
+    K_SINCE,
+    K_TURN,
+    LATE_MS,
+    NEVER_MS,
+    O_DUE,
+    O_HOLDS,
+    O_MADE,
+    O_RECOVERS,
+    O_STOP,
+    O_STRAY,
+    O_TRAM,
+    ON,
+    R_DUE,
+    R_LEAVES,
+    R_LEFT,
+    R_MADE,
+    R_STANDS,
+    R_STOP,
+    Traffic,
+)
+from models.tram.telling import (
+    LATEST_S,
+    display_of,
+    is_in_reach,
+    is_lost,
+    keep_display,
+    keep_known,
+    known_of,
+    send,
+    slower_ms,
+)
+from models.tram.watching import judge
+
+HOLD, LIFT = 1, 3
+"""Members of ``Hand`` in compiled code."""
+Report, Order, View = MADE.dispatching.Report, MADE.dispatching.Order, MADE.dispatching.View
+mark, counts, reported = MADE.dispatching.mark, MADE.dispatching.counts, MADE.dispatching.reported
+stop_left, tells_a_departure = MADE.dispatching.stop_left, MADE.dispatching.tells_a_departure
+may_be_in_the_way, is_seen_in_the_way = MADE.dispatching.may_be_in_the_way, MADE.dispatching.is_seen_in_the_way
+may_recover_over, is_known_since = MADE.dispatching.may_recover_over, MADE.dispatching.is_known_since
+decided, ordered, is_ahead = MADE.dispatching.decided, MADE.dispatching.ordered, MADE.dispatching.is_ahead
+taken = MADE.display.taken
+REQUEST_MS = SLOTS.request_ms
+NEVER_STALE_LIMITS = packed(replace(LIMITS, fresh_ms=10**9))
+
+
+@compiled
+def may_take_up(traffic: Traffic, tram: int, turn: int, stop: int, leaves_at: int) -> bool:
+    """As :func:`kernel.tram.centre.may_come`."""
+    for other in range(len(traffic.trams)):
+        body = traffic.trams[other]
+        is_behind = other != tram and body[K_IS] == 1 and body[K_TURN] >= turn
+        if is_behind and may_recover_over(known_of(body), stop, leaves_at):
+            return False
+    return True
+
+
+@compiled
+def hear_report(traffic: Traffic, tram: int, report: Any, now_ms: int) -> None:
+    """As :func:`kernel.tram.centre.note_report`."""
+    body = traffic.trams[tram]
+    known = known_of(body)
+    if body[K_IS] == 0 or not counts(now_ms, known, report):
+        traffic.row[tally.REPORTS_REFUSED] += 1
+        return
+    if tells_a_departure(known, report):
+        traffic.left_ms[tram, stop_left(report)] = report.made_ms
+    keep_known(body, reported(known, report))
+
+
+@compiled
+def view_of(limits: Any, traffic: Traffic, tram: int, own: Any, now_ms: int) -> Any:
+    """As :func:`kernel.tram.centre.view`."""
+    clear, present, near, recent = True, False, False, False
+    behind, behind_near = False, False
+    for other in range(len(traffic.trams)):
+        if traffic.trams[other, K_IS] == 0:
+            continue
+        known = known_of(traffic.trams[other])
+        if other != tram:
+            clear = clear and not may_be_in_the_way(own, known)
+            present = present or is_seen_in_the_way(limits, now_ms, own, known)
+        left_ms = traffic.left_ms[other, own.stop]
+        if left_ms != NEVER_MS and is_known_since(known, left_ms):
+            near = near or now_ms - left_ms < limits.ahead_hold_ms
+            recent = recent or now_ms - left_ms < limits.recovery_ms
+        if not is_ahead(own, known):
+            behind = True
+            passed_ms = traffic.left_ms[tram, known.stop + 1]
+            is_far = (
+                passed_ms != NEVER_MS and is_known_since(own, passed_ms) and now_ms - passed_ms > limits.behind_hold_ms
+            )
+            behind_near = behind_near or not is_far
+    return View(clear, present, not recent, near, behind and not behind_near)
+
+
+@compiled
+def decide(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.Generator) -> None:
+    """Let the centre make an order for a tram that has told, and send it with the station's next request."""
+    body = traffic.trams[tram]
+    if body[K_IS] == 0:
+        return
+    own = known_of(body)
+    view = view_of(day.limits, traffic, tram, own, now_ms)
+    if day.plant == NEVER_PRESENT:
+        view = View(True, False, view.ahead_is_far, view.ahead_is_near, view.behind_is_far)
+    hand = HOLD + int(LIFT * rng.random()) if rng.random() < day.by_hand else 0
+    limits = NEVER_STALE_LIMITS if day.plant == NEVER_STALE else day.limits
+    order = decided(limits, now_ms, own, view, hand)
+    keep_known(body, ordered(own, order))
+    body[G_BEHIND] = view.behind_is_far or hand == HOLD
+    judge(day, traffic, tram, own, order, now_ms)
+    asks_s = now_ms // 1_000 + 2
+    asks_s += (own.stop - asks_s) % CYCLE_S
+    due_ms = 1_000 * asks_s + REQUEST_MS + slower_ms(day, now_ms // 1_000)
+    holds, recovers = 1 if order.holds else 0, 1 if order.recovers else 0
+    send(traffic.orders[tram], traffic.due_ms[1], tram, due_ms, (tram, order.stop, holds, recovers, order.made_ms, 0))
+    if rng.random() < day.repeats:
+        to = int(len(traffic.trams) * rng.random()) if rng.random() < 0.5 else tram
+        stray_ms = due_ms + int(1_000 * LATEST_S * rng.random())
+        send(traffic.orders[to], traffic.due_ms[1], to, stray_ms, (tram, order.stop, holds, recovers, order.made_ms, 1))
+
+
+# ---- what arrives
+
+
+@compiled
+def first_due_ms(box: Any) -> int:
+    """When the first of the messages that are on their way is due."""
+    first = LATE_MS
+    for place in range(BOX):
+        if box[place, 0] != FREE:
+            first = min(first, box[place, 0])
+    return int(first)
+
+
+@compiled
+def deliver_reports(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.Generator) -> None:
+    """Let the reports of a tram that are due come to the centre, which answers each with an order."""
+    body, box = traffic.trams[tram], traffic.reports[tram]
+    for place in range(BOX):
+        message = box[place]
+        if message[R_DUE] == FREE or message[R_DUE] > now_ms:
+            continue
+        report = Report(
+            message[R_STOP], message[R_LEFT] == 1, message[R_STANDS] == 1, message[R_LEAVES], message[R_MADE]
+        )
+        message[R_DUE] = FREE
+        hear_report(traffic, tram, report, now_ms)
+        if body[K_IS] == 1 and report.made_ms > body[K_SINCE]:
+            body[G_MARK] = max(body[G_MARK], mark(report.stop, report.left))
+            if report.stands:
+                body[G_TOLD] = max(body[G_TOLD], report.made_ms)
+        decide(day, traffic, tram, now_ms, rng)
+    traffic.due_ms[0, tram] = first_due_ms(box)
+
+
+@compiled
+def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int, rng: np.random.Generator) -> None:
+    """Let a tram hear an order, for it or for another one; as :func:`kernel.tram.centre.received`."""
+    if traffic.trams[tram, ON] == 0 or is_lost(day, tram, message[O_STOP], now_s, rng):
+        return
+    before = display_of(traffic.trams[tram])
+    order = Order(message[O_STOP], message[O_HOLDS] == 1, message[O_RECOVERS] == 1, message[O_MADE])
+    if message[O_TRAM] == tram or day.plant == NOT_ADDRESSED:
+        after = taken(day.limits, before, order)
+        traffic.row[tally.WRONG_TRAM] += message[O_TRAM] != tram and after.made_ms != before.made_ms
+        keep_display(traffic.trams[tram], after)
+
+
+@compiled
+def deliver_orders(day: Given, traffic: Traffic, tram: int, now_s: int, rng: np.random.Generator) -> None:
+    """Let the orders that are due be sent: all trams in reach of that stop hear them, a stray one anyhow."""
+    box = traffic.orders[tram]
+    for place in range(BOX):
+        message = box[place]
+        if message[O_DUE] == FREE or message[O_DUE] > 1_000 * now_s:
+            continue
+        message[O_DUE] = FREE
+        if message[O_STRAY] == 1:
+            hear_order(day, traffic, tram, message, now_s, rng)
+            continue
+        for place_in_line in range(traffic.size[0]):
+            other = traffic.line[place_in_line]
+            if is_in_reach(day, traffic, other, message[O_STOP]):
+                hear_order(day, traffic, other, message, now_s, rng)
+    traffic.due_ms[1, tram] = first_due_ms(box)

@@ -1,0 +1,104 @@
+"""The faults of a day of trams as data, each with its range and its chance; and what is always so (G3, G6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.tram.line import CLOSE_S, OPEN_S, STOPS, TRAMS
+
+NEVER_S = 10**7
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that goes wrong on some days: what, how long or how much (from, to, unit), and why so."""
+
+    says: str
+    least: float
+    most: float
+    unit: str
+    chance: float
+    why: str
+
+
+FAULTS = {
+    "canyon": Fault("GPS is lost all day along one stretch", 50, 600, "m", 0.5, "ours: high buildings on both sides"),
+    "gps_outage": Fault("no tram has GPS for some time", 30, 900, "s", 0.2, "ours: corrections or satellites lost"),
+    "station_deaf": Fault(
+        "one station loses this share of its frames all day", 0.3, 1.0, "1", 0.5, "002, 4.2 (3): no line of sight"
+    ),
+    "tram_deaf": Fault("one tram's radio is dead for some hours", 1, 17, "h", 0.3, "ours: an aerial lost"),
+    "centre_slow": Fault(
+        "the link to the centre takes this much longer for an hour", 3, 60, "s", 0.3, "002, 5.2: up to 7 s, and worse"
+    ),
+    "repeats": Fault("this share of reports and orders comes once more, later", 0.01, 0.2, "1", 0.3, "ours: relays"),
+    "speed_lost": Fault("one tram has no speed for some time", 60, 7_200, "s", 0.2, "ours: found by its own diagnosis"),
+    "breakdown": Fault("one tram stands still for some time", 120, 1_200, "s", 0.4, "practice"),
+    "heedless": Fault("one tram's driver heeds no hold", 1, 1, "1", 0.3, "ours: it is an aid"),
+    "from_depot": Fault("trams come from the depot midway, so many", 1, 4, "1", 0.3, "practice: a defect is replaced"),
+    "wrong_destination": Fault("one tram shows another destination", 0, 23, "stop", 0.2, "ours"),
+    "by_hand": Fault("the dispatcher orders by hand this share of times", 0.01, 0.3, "1", 0.5, "002, 3.2"),
+}
+"""By name, in the order in which they are drawn."""
+
+FRAMES_LOST = (0.0, 0.1)
+"""From, to: the share of frames lost at any station, of each day.  Practice: low-power radio with line of sight."""
+
+
+def draw(chance: np.random.Generator, present: frozenset[str] | None = None) -> dict[str, float]:
+    """Draw a day's faults; 0 is none.  ``present``: those that the day has instead, whatever the chance."""
+    drawn = {}
+    for name, fault in FAULTS.items():
+        has = bool(chance.random() < fault.chance)
+        value = float(chance.uniform(fault.least, fault.most))
+        drawn[name] = value if (has if present is None else name in present) else 0.0
+    return drawn
+
+
+@dataclass(frozen=True)
+class Where:
+    """Where and when a day's faults are: stops, trams, and seconds of the day."""
+
+    canyon_mm: int
+    outage_s: int
+    station: int
+    deaf_tram: int
+    deaf_s: int
+    slow_s: int
+    speed_tram: int
+    speed_s: int
+    broken_tram: int
+    broken_s: int
+    heedless_tram: int
+    depot_s: int
+    destination_tram: int
+    frames_lost: float
+
+
+def place(chance: np.random.Generator, line_mm: int) -> Where:
+    """Draw where and when."""
+
+    def second() -> int:
+        return int(chance.integers(OPEN_S, CLOSE_S))
+
+    def tram() -> int:
+        return int(chance.integers(0, TRAMS // 2))
+
+    return Where(
+        canyon_mm=int(chance.integers(0, line_mm)),
+        outage_s=second(),
+        station=int(chance.integers(1, STOPS - 1)),
+        deaf_tram=tram(),
+        deaf_s=second(),
+        slow_s=second(),
+        speed_tram=tram(),
+        speed_s=second(),
+        broken_tram=tram(),
+        broken_s=second(),
+        heedless_tram=tram(),
+        depot_s=second(),
+        destination_tram=tram(),
+        frames_lost=float(chance.uniform(*FRAMES_LOST)),
+    )

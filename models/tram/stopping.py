@@ -1,0 +1,103 @@
+"""A tram that runs, stands and creeps, and fixes of it that are wrong by so much, or not there (G2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.onboard.arithmetic import magnitude
+from kernel.tram import stopping as machine
+from kernel.tram.dispatching import mark
+from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping
+
+
+@dataclass(frozen=True)
+class Street:
+    """What does not change.
+
+    ``error_mm``: so much a place by map matching errs at most.  ``speed_error_mm_s``: so much a speed.
+    """
+
+    limits: StopLimits
+    error_mm: int
+    speed_error_mm_s: int
+
+
+@dataclass(frozen=True)
+class Ride:
+    """One moment.
+
+    ``at_mm``: where the tram is.  ``here_mm``, ``next_mm``: the stop that its unit reached last, the next one.
+    Histories: ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
+    ``stood_at_mm``: where it was when it began to stand.  ``wandered``: a fix made it run that still stood there.
+    ``fell_back``: one put it farther back.
+    """
+
+    at_mm: int
+    here_mm: int
+    next_mm: int
+    stopping: Stopping
+    fixed_at_mm: int
+    speed_mm_s: int
+    stood_at_mm: int
+    wandered: bool
+    fell_back: bool
+
+
+def the_place_is_held_for_twice_the_error(site: Street) -> bool:
+    """A place is held as long as GPS may have made all of the difference, to one side and to the other (G2)."""
+    limits = site.limits
+    return limits.near_mm >= 0 and site.error_mm >= 0 and limits.held_mm >= limits.near_mm + 2 * site.error_mm
+
+
+def trams_do_not_run_backwards(way_mm: int) -> bool:
+    """No tram runs against its way (G2)."""
+    return way_mm >= 0
+
+
+def a_place_is_within_its_error(site: Street, system: Ride, fix: Fix) -> bool:
+    """Map matching errs by no more than is written (G1, G7)."""
+    return not fix.is_placed or magnitude(fix.place_mm - system.at_mm) <= site.error_mm
+
+
+def a_speed_is_within_its_error(site: Street, fix: Fix, speed_mm_s: int) -> bool:
+    """So does the speed that the unit takes from the wheels (2.3.1)."""
+    return not fix.has_speed or magnitude(fix.speed_mm_s - speed_mm_s) <= site.speed_error_mm_s
+
+
+def the_table_has_the_stops(system: Ride, here_mm: int, next_mm: int) -> bool:
+    """The unit's table says where the stops are (G1)."""
+    return here_mm == system.here_mm and next_mm == system.next_mm
+
+
+def run_on(site: Street, system: Ride, way_mm: int) -> Ride:
+    """The tram moves, or does not."""
+    if not trams_do_not_run_backwards(way_mm):
+        return system
+    return replace(system, at_mm=system.at_mm + way_mm)
+
+
+def take_fix(
+    site: Street, system: Ride, fix: Fix, speed_mm_s: int, here_mm: int, next_mm: int, further_mm: int
+) -> Ride:
+    """The unit takes a fix; ``further_mm``: the stop after the next one, wherever (G2)."""
+    if not a_place_is_within_its_error(site, system, fix) or not a_speed_is_within_its_error(site, fix, speed_mm_s):
+        return system
+    if not the_table_has_the_stops(system, here_mm, next_mm):
+        return system
+    before = system.stopping
+    now = machine.note_fix(site.limits, before, here_mm, next_mm, fix)
+    has_come = now.stop > before.stop
+    is_still = before.stands and system.at_mm == system.stood_at_mm
+    is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < SLOW_MM_S
+    begins = now.stands and (has_come or not before.stands)
+    return replace(
+        system,
+        here_mm=system.next_mm if has_come else system.here_mm,
+        next_mm=further_mm if has_come else system.next_mm,
+        stopping=now,
+        fixed_at_mm=system.at_mm,
+        speed_mm_s=speed_mm_s,
+        stood_at_mm=system.at_mm if begins else system.stood_at_mm,
+        wandered=system.wandered or (is_still and is_told and not (now.stands and not has_come)),
+        fell_back=system.fell_back or mark(now.stop, now.left) < mark(before.stop, before.left),
+    )

@@ -1,0 +1,215 @@
+"""What is claimed of a crossing: warned and closed long enough before every arrival, of any train (X2 to X5)."""
+
+from __future__ import annotations
+
+from kernel.crossing import crossing as machine
+from kernel.onboard.arithmetic import larger
+from models.crossing import crossing as world
+from models.crossing.crossing import Level, Road
+from proofs.theory import Theory, by_name
+
+# ---- the start
+
+
+def nothing_has_happened(site: Road, system: Level) -> bool:
+    """Nobody is on the way, every terminal has just been heard, and the road is open (X5)."""
+    return (
+        all(False for _train in system.bodies)
+        and all(
+            track in system.unheard_cycles
+            and track in system.crossing.silent_cycles
+            and system.unheard_cycles[track] == 0
+            and system.crossing.silent_cycles[track] == 0
+            for track in site.tracks
+        )
+        and not system.crossing.warns
+        and system.crossing.warned_cycles == 0
+        and not system.decided
+        and system.lowered_cycles == 0
+        and system.down_cycles == 0
+        and not system.last.is_any
+    )
+
+
+def it_is_not_in_service(site: Road, system: Level) -> bool:
+    """At the start the settings are not checked, and nothing has happened (X5)."""
+    return not system.in_service and nothing_has_happened(site, system)
+
+
+# ---- safety
+
+
+def warned_long_enough_before_every_arrival(site: Road, system: Level) -> bool:
+    """When a head is at the crossing the warning had lasted the warning time as that cycle began (X2, X5)."""
+    return not system.last.is_any or system.last.warned_cycles > site.settings.warning_cycles
+
+
+def barriers_are_down_long_enough_before_every_arrival(site: Road, system: Level) -> bool:
+    """And the arms had been down for 15 s, or for longer if so written (X5)."""
+    return not system.last.is_any or system.last.down_cycles > site.settings.least_down_cycles
+
+
+def barriers_stay_down_between_close_trains(site: Road, system: Level) -> bool:
+    """No train known when the crossing opened arrives sooner than the least opening and a warning (X4, X5)."""
+    return (
+        not system.last.is_any
+        or not system.last.was_known
+        or system.last.opened_cycles > site.settings.warning_cycles + site.settings.reopening_cycles
+    )
+
+
+def silence_warns(site: Road, system: Level) -> bool:
+    """Once a start point's terminal has been silent for too long, the next decision warns (X3, T14)."""
+    late_cycles = 0 if system.decided else 1
+    return (
+        not system.in_service
+        or system.crossing.warns
+        or all(
+            system.unheard_cycles[track] <= site.settings.silence_cycles + late_cycles
+            for track in site.tracks
+            if track in system.unheard_cycles
+        )
+    )
+
+
+def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
+    """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4)."""
+    return system.crossing.warns or all(not body.has_asked for _train, body in system.bodies.items())
+
+
+def arms_fall_after_the_bell(site: Road, system: Level) -> bool:
+    """Lamps and bells come first, for their time; without a warning no arm is lowered (X5)."""
+    has_opened = system.decided and not system.crossing.warns
+    return (
+        not system.in_service
+        or has_opened
+        or system.lowered_cycles == larger(0, system.crossing.warned_cycles - site.settings.bell_cycles)
+    )
+
+
+# ---- what it rests on
+
+
+def before_service_nothing_happens(site: Road, system: Level) -> bool:
+    """Neither a train nor a decision (X5)."""
+    return system.in_service or nothing_has_happened(site, system)
+
+
+def in_service_the_settings_are_lawful(site: Road, system: Level) -> bool:
+    """They were checked, and do not change (X5)."""
+    return not system.in_service or machine.are_lawful(site.settings)
+
+
+def every_terminal_is_listened_to(site: Road, system: Level) -> bool:
+    """The crossing knows how long each start point's terminal has been silent (X3)."""
+    return all(
+        track in system.unheard_cycles
+        and track in system.crossing.silent_cycles
+        and system.unheard_cycles[track] == system.crossing.silent_cycles[track]
+        and system.unheard_cycles[track] >= 0
+        for track in site.tracks
+    )
+
+
+def every_train_is_on_a_track(site: Road, system: Level) -> bool:
+    """Start points lie on each (X3)."""
+    return all(body.track in site.tracks for _train, body in system.bodies.items())
+
+
+def an_untold_train_is_far(site: Road, system: Level) -> bool:
+    """Who has passed a start point untold did so since its terminal was heard last (X3)."""
+    return all(
+        body.left_cycles + system.unheard_cycles[body.track] >= site.settings.start_cycles
+        for train, body in system.bodies.items()
+        if body.inside and train not in system.crossing.asks and body.track in system.unheard_cycles
+    )
+
+
+def what_is_not_warned_of_is_left(site: Road, system: Level) -> bool:
+    """For each train inside, the warning and what is left last the warning time and the cycle of arrival (X2)."""
+    begun_cycles = 1 if system.decided and not system.crossing.warns else 0
+    return all(
+        system.crossing.warned_cycles + body.left_cycles >= site.settings.warning_cycles + 1 + begun_cycles
+        for _train, body in system.bodies.items()
+        if body.inside
+    )
+
+
+def who_was_warned_of_still_asks(site: Road, system: Level) -> bool:
+    """A train asks until its rear is proved past (X4)."""
+    return all(
+        train in system.crossing.asks and system.crossing.asks[train]
+        for train, body in system.bodies.items()
+        if body.has_asked
+    )
+
+
+def who_was_known_when_it_opened_was_far(site: Road, system: Level) -> bool:
+    """What has passed since the opening, and what is left, make the least opening and a warning (X4)."""
+    return all(
+        system.opened_cycles + body.left_cycles >= site.settings.warning_cycles + site.settings.reopening_cycles + 2
+        for _train, body in system.bodies.items()
+        if body.was_known
+    )
+
+
+def a_warning_has_lasted_since_it_began(site: Road, system: Level) -> bool:
+    """No negative time, and none without a warning (X2)."""
+    return system.crossing.warned_cycles >= 0 and (system.crossing.warns or system.crossing.warned_cycles == 0)
+
+
+def lowered_arms_are_down(site: Road, system: Level) -> bool:
+    """After their time they are down, and have been since (X5)."""
+    late_cycles = system.lowered_cycles - site.settings.lowering_cycles
+    return not system.in_service or (
+        system.down_cycles >= 0 and (late_cycles < 0 or (system.are_down and system.down_cycles >= late_cycles))
+    )
+
+
+INITIAL = (it_is_not_in_service,)
+SAFETY = (
+    warned_long_enough_before_every_arrival,
+    barriers_are_down_long_enough_before_every_arrival,
+    barriers_stay_down_between_close_trains,
+    silence_warns,
+    warning_ends_only_with_the_rear_past,
+    arms_fall_after_the_bell,
+)
+INVARIANTS = (
+    *SAFETY,
+    before_service_nothing_happens,
+    in_service_the_settings_are_lawful,
+    every_terminal_is_listened_to,
+    every_train_is_on_a_track,
+    an_untold_train_is_far,
+    what_is_not_warned_of_is_left,
+    who_was_warned_of_still_asks,
+    who_was_known_when_it_opened_was_far,
+    a_warning_has_lasted_since_it_began,
+    lowered_arms_are_down,
+)
+STEPS = (
+    world.put_into_service,
+    world.decide,
+    world.run_a_cycle,
+    world.arrive,
+    world.come,
+    world.pass_start_point,
+    world.leave,
+    world.make_contact,
+    world.hear_strike,
+    world.hear_terminal,
+    world.tell_gone,
+    world.release,
+)
+
+THEORY = Theory(
+    "crossing",
+    Road,
+    Level,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    quantified=True,
+)

@@ -1,0 +1,69 @@
+"""What is claimed of the answers to when a train is due: until then it cannot arrive, whatever it does (X2, X4)."""
+
+from __future__ import annotations
+
+from kernel.crossing import arrival
+from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle
+from proofs.theory import Theory, by_name
+
+
+def nothing_is_secured(site: Way, system: Answered) -> bool:
+    """At the start there is no answer, and the train is anywhere within the line's speed (X2)."""
+    return (
+        system.left_cycles == 0
+        and system.sooner_cycles == 0
+        and system.worst.way_um <= system.way_um
+        and system.pace_um <= site.bounds.line_um
+        and system.worst.short_um == 0
+    )
+
+
+# ---- safety
+
+
+def nobody_arrives_before_he_can(site: Way, system: Answered) -> bool:
+    """Within the cycles that an answer secures the train is not at the crossing (X2, X4)."""
+    return system.sooner_cycles <= 0
+
+
+# ---- what it rests on
+
+
+def no_pace_is_beyond_the_lines(site: Way, system: Answered) -> bool:
+    """What is reckoned with is no faster than the line allows, and does not move away (X2)."""
+    return 0 <= system.worst.short_um <= site.bounds.line_um
+
+
+def the_worst_bounds_the_train(site: Way, system: Answered) -> bool:
+    """The train is no nearer and no faster than the worst since the answer (X2)."""
+    return system.worst.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.worst.short_um
+
+
+def even_the_worst_cannot_arrive_too_early(site: Way, system: Answered) -> bool:
+    """For what is left, even the worst does not arrive (X2)."""
+    return system.left_cycles <= 0 or arrival.cannot_arrive(
+        site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles
+    )
+
+
+INITIAL = (nothing_is_secured,)
+SAFETY = (nobody_arrives_before_he_can,)
+INVARIANTS = (
+    *SAFETY,
+    no_pace_is_beyond_the_lines,
+    the_worst_bounds_the_train,
+    even_the_worst_cannot_arrive_too_early,
+)
+PREMISES = (bounds_are_above_zero,)
+STEPS = (answer, run_a_cycle, arrive)
+
+THEORY = Theory(
+    "due",
+    Way,
+    Answered,
+    by_name(STEPS),
+    by_name(INITIAL),
+    by_name(INVARIANTS),
+    by_name(SAFETY),
+    by_name(PREMISES),
+)

@@ -1,0 +1,438 @@
+"""Trains on two tracks, with radio and without, close together, turning back and parting (X2 to X5)."""
+
+from __future__ import annotations
+
+from kernel.crossing import crossing as machine
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
+from models.crossing import crossing as world
+from models.crossing.crossing import Arrived, Body, Level, Road
+from proofs.crossing.crossing import THEORY
+from proofs.onboard.witnesses.play import Play
+from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
+
+FAR, NEAR, NOW = Due.FAR, Due.NEAR, Due.NOW
+UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
+ONE, TWO, THREE = Train("1"), Train("2"), Train("3")
+SETTINGS = Settings(
+    cycle_ms=1_000,
+    warning_cycles=40,
+    bell_cycles=5,
+    lowering_cycles=10,
+    least_down_cycles=20,
+    lifting_cycles=6,
+    reopening_cycles=20,
+    silence_cycles=2,
+    start_cycles=44,
+)
+"""A cycle of a second; 15 s to barriers down and then 25 s: the standard, and 5 s more."""
+SITE = Road(SETTINGS, frozenset({UP, DOWN}))
+
+
+def new() -> Level:
+    """A crossing that has just been built."""
+    unheard = {UP: 0, DOWN: 0}
+    return Level(
+        in_service=False,
+        bodies={},
+        crossing=Crossing(asks={}, silent_cycles=unheard, warns=False, warned_cycles=0),
+        decided=False,
+        lowered_cycles=0,
+        are_down=False,
+        down_cycles=0,
+        opened_cycles=0,
+        unheard_cycles=unheard,
+        last=Arrived(False, 0, 0, False, 0),
+    )
+
+
+class Day(Play[Road, Level]):
+    """A crossing in service."""
+
+    def __init__(self, settings: Settings = SETTINGS) -> None:
+        """Begin."""
+        super().__init__(THEORY, Road(settings, SITE.tracks), new())
+        self.step("put_into_service")
+        assert self.system.in_service == machine.are_lawful(settings)
+
+    def come(self, train: Train, track: CrossingTrack = UP, *, contact: bool = True) -> None:
+        """A train comes, in contact if not told otherwise."""
+        self.step("come", train=train, track=track, left_cycles=0)
+        assert self.system.bodies[train] == Body(track, False, 0, False, False)
+        if contact:
+            self.step("make_contact", train=train)
+            assert self.system.crossing.asks[train] is False
+
+    def strike(self, train: Train) -> None:
+        """A train passes its start point."""
+        body = self.system.bodies[train]
+        self.step("pass_start_point", train=train)
+        left_cycles = max(body.left_cycles, self.site.settings.start_cycles)
+        assert self.system.bodies[train] == Body(body.track, True, left_cycles, body.has_asked, body.was_known)
+
+    def cycle(
+        self, *dues: tuple[Train, Due], heard: tuple[CrossingTrack, ...] = (UP, DOWN), down: bool | None = None
+    ) -> None:
+        """Terminals are heard, the crossing decides, and a cycle passes; arms come down in time, and rise at once."""
+        for track in heard:
+            self.step("hear_terminal", track=track)
+            assert self.system.crossing.silent_cycles[track] == self.system.unheard_cycles[track] == 0
+        assert self.step("decide", dues=dict(dues)).decided
+        if down is None:
+            lowers = machine.arms_are_to_be_down(self.site.settings, self.system.crossing)
+            down = lowers and self.system.lowered_cycles + 1 >= self.site.settings.lowering_cycles
+        run = self.step("run_a_cycle", are_down=down)
+        assert (run.decided, run.are_down) == (False, down)
+
+    def warns(self) -> bool:
+        """Whether it does."""
+        return self.system.crossing.warns
+
+    def arrive(self, train: Train) -> Arrived:
+        """A head is met at the crossing."""
+        crossing, body = self.system.crossing, self.system.bodies[train]
+        self.step("arrive", train=train)
+        assert self.system.last == Arrived(
+            True, crossing.warned_cycles, self.system.down_cycles, body.was_known, self.system.opened_cycles
+        )
+        return self.system.last
+
+    def pass_by(self, train: Train) -> None:
+        """Its rear is past, and proved so."""
+        self.step("leave", gone=train)
+        assert train not in self.system.bodies
+        self.step("tell_gone", gone=train, is_whole=True)
+        assert train not in self.system.crossing.asks
+
+    def until_it_can_arrive(self, train: Train, *dues: tuple[Train, Due]) -> int:
+        """Let cycles pass until a train can be there; give how many."""
+        cycles = 0
+        while self.system.bodies[train].left_cycles > 0:
+            self.cycle(*dues)
+            cycles += 1
+        return cycles
+
+
+# ---- trains in contact, and without
+
+
+def a_train_in_contact_is_warned_of_when_it_is_due() -> None:
+    """Not at its start point, and not while it is near: when its answer is now (X2, X4, X5)."""
+    day = Day()
+    day.come(ONE)
+    day.strike(ONE)
+    for due in (FAR, NEAR, NEAR):
+        day.cycle((ONE, due))
+        assert not day.warns()
+        assert not day.system.bodies[ONE].has_asked
+    assert day.system.bodies[ONE].left_cycles == 59
+    for _ in range(18):
+        day.cycle((ONE, NEAR))
+    assert day.system.bodies[ONE].left_cycles == 41
+    day.cycle((ONE, NOW))
+    assert day.warns()
+    assert day.system.bodies[ONE].has_asked
+    assert day.until_it_can_arrive(ONE, (ONE, NOW)) == 40
+    arrived = day.arrive(ONE)
+    assert (arrived.warned_cycles, arrived.down_cycles) == (41, 26)
+    day.cycle()
+    assert day.warns()
+    day.pass_by(ONE)
+    assert day.warns()
+    day.cycle()
+    assert (day.warns(), day.system.lowered_cycles, day.system.opened_cycles) == (False, 0, 1)
+    assert (day.system.are_down, day.system.down_cycles) == (False, 0)
+
+
+def a_train_without_radio_is_warned_of_from_its_start_point() -> None:
+    """At the line's speed it arrives the warning time later, and what a terminal may be silent (X3)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.cycle()
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    assert day.system.crossing.asks[ONE] is True
+    day.step("make_contact", train=ONE)
+    assert day.system.crossing.asks[ONE] is True
+    day.cycle((ONE, FAR))
+    assert day.warns()
+    day.until_it_can_arrive(ONE, (ONE, FAR))
+    assert day.arrive(ONE).warned_cycles == 44
+
+
+def a_start_point_leaves_trains_in_contact_alone() -> None:
+    """Even if its terminal tells of them (003, 2.3; X3)."""
+    day = Day()
+    day.come(ONE)
+    day.cycle((ONE, FAR))
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    day.cycle((ONE, FAR))
+    assert not day.warns()
+    day.step("hear_strike", train=TWO)
+    day.cycle((ONE, FAR), (TWO, FAR))
+    assert day.warns()
+
+
+def no_answer_is_as_good_as_now() -> None:
+    """A train in contact whose reckoning did not come (X2, X3)."""
+    day = Day()
+    day.come(ONE)
+    day.cycle((ONE, FAR))
+    assert not day.warns()
+    day.cycle()
+    assert day.warns()
+    assert machine.told({}, ONE) == NOW
+
+
+def who_asked_goes_on_asking() -> None:
+    """A train that stops short after it was warned of may start again (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.cycle((ONE, NOW))
+    for _ in range(30):
+        day.cycle((ONE, FAR))
+        assert day.warns()
+    assert day.system.crossing.asks[ONE]
+
+
+# ---- the end of a warning
+
+
+def arms_stay_down_for_a_train_that_is_near() -> None:
+    """And are let up when all are far; who was near then arrives no sooner than opening and warning (X4, X5)."""
+    day = Day()
+    day.come(ONE)
+    day.come(TWO, DOWN)
+    day.cycle((ONE, NOW), (TWO, FAR))
+    day.pass_by(ONE)
+    for _ in range(20):
+        day.cycle((TWO, NEAR))
+        assert day.warns()
+    assert day.system.are_down
+    day.come(THREE, DOWN, contact=False)
+    day.cycle((TWO, FAR))
+    assert not day.warns()
+    assert (day.system.bodies[TWO].was_known, day.system.bodies[THREE].was_known) == (True, False)
+    day.strike(TWO)
+    for _ in range(20):
+        day.cycle((TWO, NEAR))
+        assert not day.warns()
+    day.cycle((TWO, NOW))
+    day.until_it_can_arrive(TWO, (TWO, NOW))
+    assert day.arrive(TWO).opened_cycles == 62
+
+
+def a_train_that_comes_after_the_opening_was_not_known() -> None:
+    """Nor is one that has gone: each opening looks anew (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.cycle((ONE, NOW))
+    day.pass_by(ONE)
+    day.come(TWO)
+    day.cycle((TWO, FAR))
+    assert day.system.bodies[TWO].was_known
+    day.cycle((TWO, FAR), heard=())
+    assert (day.system.bodies[TWO].was_known, day.system.opened_cycles) == (True, 2)
+
+
+def a_train_that_turned_back_ends_its_warning_by_the_start_tag() -> None:
+    """Its tail has read it from behind: out of the approach (X4, T14)."""
+    day = Day()
+    day.come(ONE)
+    day.strike(ONE)
+    day.cycle((ONE, NOW))
+    before = day.system
+    assert day.step("tell_gone", gone=ONE, is_whole=True) == before
+    day.pass_by(ONE)
+    day.cycle()
+    assert not day.warns()
+
+
+def a_part_left_behind_keeps_the_warning() -> None:
+    """The rear read the tag, but the train is not whole; a person releases it after what is left was fetched (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.cycle((ONE, NOW))
+    day.step("tell_gone", gone=ONE, is_whole=False)
+    assert ONE in day.system.crossing.asks
+    day.cycle((ONE, FAR))
+    assert day.warns()
+    before = day.system
+    assert day.step("release", gone=ONE) == before
+    day.step("leave", gone=ONE)
+    day.step("release", gone=ONE)
+    assert ONE not in day.system.crossing.asks
+    day.cycle()
+    assert not day.warns()
+
+
+def one_of_two_that_is_gone_leaves_the_other() -> None:
+    """On another track (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.come(TWO, DOWN)
+    day.cycle((ONE, NOW), (TWO, NOW))
+    day.pass_by(ONE)
+    assert TWO in day.system.bodies
+    assert day.system.crossing.asks[TWO]
+    day.cycle((TWO, NOW))
+    assert day.warns()
+
+
+# ---- terminals
+
+
+def silence_of_a_start_point_warns() -> None:
+    """In the third cycle here, and until it is heard again (X3, T14)."""
+    day = Day()
+    for silent in (1, 2):
+        day.cycle(heard=(UP,))
+        assert (day.system.crossing.silent_cycles, day.warns()) == ({UP: 1, DOWN: silent}, False)
+    for _ in range(5):
+        day.cycle(heard=(UP,))
+        assert day.warns() == (day.system.unheard_cycles[DOWN] > 3)
+    assert day.system.crossing.warned_cycles == 4
+    day.cycle()
+    assert not day.warns()
+
+
+def who_came_in_silence_is_told_of_first() -> None:
+    """The terminal is not heard before it has told; the warning time is kept to the cycle (X3)."""
+    day = Day()
+    day.come(ONE, DOWN, contact=False)
+    day.strike(ONE)
+    for _ in range(3):
+        day.cycle(heard=(UP,))
+    assert not day.warns()
+    before = day.system
+    assert day.step("hear_terminal", track=DOWN) == before
+    day.cycle(heard=(UP,))
+    assert day.warns()
+    day.step("hear_strike", train=ONE)
+    day.cycle()
+    while day.system.bodies[ONE].left_cycles > 0:
+        day.cycle()
+    assert day.arrive(ONE).warned_cycles == 41
+
+
+# ---- arms
+
+
+def lamps_and_bells_come_first() -> None:
+    """Five cycles here; then arms fall, and rise when the warning ends (X5)."""
+    day = Day()
+    day.come(ONE)
+    for cycles in range(1, 20):
+        day.cycle((ONE, NOW))
+        assert day.system.crossing.warned_cycles == cycles
+        assert day.system.lowered_cycles == max(0, cycles - 5)
+        assert day.system.are_down == (cycles >= 15)
+        assert day.system.down_cycles == max(0, cycles - 15)
+    day.cycle((ONE, NOW))
+    before = day.system
+    day.step("decide", dues={})
+    decided = day.system
+    assert day.step("run_a_cycle", are_down=False) == decided
+    assert before.bodies == decided.bodies
+
+
+def settings_are_checked() -> None:
+    """Each at its edge (X5)."""
+    assert Day(SETTINGS).system.in_service
+    fastest = Settings(1, 15_001, 0, 1, 15_000, 0, 1, 0, 15_003)
+    assert Day(fastest).system.in_service
+    for name, value in (
+        ("cycle_ms", 0),
+        ("warning_cycles", 15_000),
+        ("bell_cycles", -1),
+        ("bell_cycles", 1),
+        ("lowering_cycles", 0),
+        ("lowering_cycles", 2),
+        ("least_down_cycles", 14_999),
+        ("least_down_cycles", 15_001),
+        ("lifting_cycles", -1),
+        ("lifting_cycles", 1),
+        ("reopening_cycles", 0),
+        ("silence_cycles", -1),
+        ("silence_cycles", 1),
+        ("start_cycles", 15_002),
+    ):
+        day = Day(Settings(**{**vars(fastest), name: value}))
+        assert not day.system.in_service
+        start = day.system
+        assert day.step("come", train=ONE, track=UP, left_cycles=0) == start
+        assert day.step("decide", dues={}) == start
+
+
+def a_train_is_far_by_the_longer_time() -> None:
+    """At 30 m/s: 2 s later for each second that the road would be open (X2, X4)."""
+    bounds = ArrivalBounds(line_um=30_000_000, gain_um=1_000_000, cycle_ms=1_000, warning_cycles=40, silence_cycles=3)
+    for cycles, due in ((42, NOW), (43, NEAR), (62, NEAR), (63, FAR)):
+        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, False), 20) == due
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, True), 20) == NOW
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, False), 20) == NOW
+
+
+def every_number_fits_into_64_bits() -> None:
+    """Cycles of a day, of a millisecond (X5)."""
+    settings = with_ints(Checked, SETTINGS)
+    most = Checked(10**8)
+    crossing = Crossing(asks={ONE: True}, silent_cycles={UP: most}, warns=True, warned_cycles=most)
+    crossing = machine.aged(machine.decide(settings, crossing, {}))
+    assert (crossing.warned_cycles, crossing.silent_cycles[UP]) == (10**8 + 1, 10**8 + 1)
+    assert machine.are_lawful(settings)
+
+
+# ---- nature
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """Each of the assumptions refuses its event (X2 to X5)."""
+    day = Day()
+    before = day.system
+    assert day.step("come", train=ONE, track=CrossingTrack("siding"), left_cycles=0) == before
+    for idle in ("pass_start_point", "arrive"):
+        assert day.step(idle, train=ONE) == before
+    assert day.step("run_a_cycle", are_down=False) == before
+    day.step("hear_strike", train=THREE)
+    known = day.system
+    assert day.step("come", train=THREE, track=UP, left_cycles=0) == known
+    day.come(ONE)
+    there = day.system
+    assert day.step("come", train=ONE, track=DOWN, left_cycles=0) == there
+    assert day.step("arrive", train=ONE) == there
+    day.come(TWO, contact=False)
+    there = day.system
+    assert day.step("come", train=TWO, track=DOWN, left_cycles=1) == there
+    day.strike(ONE)
+    assert TWO in day.system.bodies
+    day.cycle((ONE, NEAR), (THREE, FAR))
+    inside = day.system
+    assert day.step("pass_start_point", train=ONE) == inside
+    assert day.step("arrive", train=ONE) == inside
+    day.step("decide", dues={ONE: FAR})
+    decided = day.system
+    assert day.step("decide", dues={ONE: NOW}) == decided
+    assert [world.secured_cycles(40, 20, due) for due in (NEAR, FAR)] == [42, 62]
+
+
+WITNESSES = (
+    a_train_in_contact_is_warned_of_when_it_is_due,
+    a_train_without_radio_is_warned_of_from_its_start_point,
+    a_start_point_leaves_trains_in_contact_alone,
+    no_answer_is_as_good_as_now,
+    who_asked_goes_on_asking,
+    arms_stay_down_for_a_train_that_is_near,
+    a_train_that_comes_after_the_opening_was_not_known,
+    a_train_that_turned_back_ends_its_warning_by_the_start_tag,
+    a_part_left_behind_keeps_the_warning,
+    one_of_two_that_is_gone_leaves_the_other,
+    silence_of_a_start_point_warns,
+    who_came_in_silence_is_told_of_first,
+    lamps_and_bells_come_first,
+    settings_are_checked,
+    a_train_is_far_by_the_longer_time,
+    every_number_fits_into_64_bits,
+    what_nature_does_not_do_does_not_happen,
+)

@@ -1,0 +1,119 @@
+"""A train in contact that answers are given of, and that does its worst after each (X2, X4)."""
+
+from __future__ import annotations
+
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.crossing import Settings
+from models.crossing.due import Answered, Way
+from proofs.crossing.due import THEORY
+from proofs.onboard.witnesses.play import Play
+
+BOUNDS = ArrivalBounds(line_um=3_000_000, gain_um=10_000, cycle_ms=100, warning_cycles=350, silence_cycles=20)
+"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
+SITE = Way(BOUNDS, Settings(100, 350, 50, 100, 200, 60, 200, 20, 372))
+
+
+class Train(Play[Way, Answered]):
+    """A train somewhere; what is followed is what it does."""
+
+    def __init__(self, way_mm: int, speed_mm_s: int) -> None:
+        """Begin."""
+        way_um = 1_000 * way_mm
+        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, Followed(way_um, 0, 0, False), 0, 0))
+
+    def followed(self) -> Followed:
+        """What is known, exactly."""
+        return Followed(self.system.way_um, BOUNDS.line_um - max(0, self.system.pace_um), 0, False)
+
+    def answer(self) -> int:
+        """Give the answer's cycles."""
+        return self.step("answer", followed=self.followed()).left_cycles
+
+    def run(self, pace_um: int) -> None:
+        """Come to a pace within a cycle, as far as can be."""
+        before = self.system
+        to_um = before.way_um - max(before.pace_um, pace_um)
+        run = self.step("run_a_cycle", to_um=to_um, pace_um=pace_um)
+        assert (run.way_um, run.pace_um, run.left_cycles) == (to_um, pace_um, before.left_cycles - 1)
+
+    def faster(self) -> int:
+        """The pace after gaining all that it can."""
+        return min(self.system.pace_um + BOUNDS.gain_um, BOUNDS.line_um)
+
+    def to_the_crossing(self) -> int:
+        """Run at its worst until it is there; give what is left then."""
+        while self.system.way_um > 0:
+            self.run(self.faster())
+        return self.step("arrive").sooner_cycles
+
+
+def an_answer_secures_what_it_says_to_the_cycle() -> None:
+    """At the line's speed, gaining all the way, and coming to it on the way (X2, X4)."""
+    for speed_mm_s, begins_mm, opens_mm in ((30_000, 1_056_000, 1_656_000), (0, 607_500, 1_207_500)):
+        assert Train(begins_mm, speed_mm_s).answer() == 0
+        for way_mm, cycles in ((begins_mm + 1, 352), (opens_mm, 352), (opens_mm + 1, 552)):
+            train = Train(way_mm, speed_mm_s)
+            assert train.answer() == cycles
+            assert train.system.worst == train.followed()
+            assert train.to_the_crossing() <= 0
+    train = Train(1_656_001, 30_000)
+    train.answer()
+    assert train.to_the_crossing() == -1
+
+
+def each_answer_takes_the_place_of_the_one_before() -> None:
+    """Nearer, while the train slows; and now secures nothing, and takes nothing away (X2)."""
+    train = Train(1_700_000, 30_000)
+    assert train.answer() == 552
+    for _ in range(30):
+        train.run(train.system.pace_um)
+    assert train.answer() == 352
+    for _ in range(250):
+        train.run(max(0, train.system.pace_um - 10_000))
+    held = train.system
+    assert held.left_cycles == 102
+    assert train.answer() == 352
+    assert train.system.worst == train.followed() != held.worst
+    train.run(train.faster())
+    held = train.system
+    assert train.step("answer", followed=Followed(held.way_um, 0, 21, False)) == held
+
+
+def the_worst_gains_until_the_lines_speed() -> None:
+    """As the train itself may (X2)."""
+    train = Train(2_000_000, 29_950)
+    train.answer()
+    for short_um, way_um in ((0, 2_000_000_000 - 3_000_000), (0, 2_000_000_000 - 6_000_000)):
+        train.run(train.faster())
+        assert (train.system.worst.short_um, train.system.worst.way_um) == (short_um, way_um)
+    slow = Train(2_000_000, 29_800)
+    slow.answer()
+    for short_um, way_um in ((10_000, 2_990_000), (0, 5_990_000), (0, 8_990_000)):
+        slow.run(slow.faster())
+        assert (slow.system.worst.short_um, slow.system.worst.way_um) == (short_um, 2_000_000_000 - way_um)
+
+
+def what_nature_does_not_do_does_not_happen() -> None:
+    """Each of the assumptions refuses its event, at its edge and not within (X2)."""
+    train = Train(2_000_000, 20_000)
+    start = train.system
+    assert train.step("arrive") == start
+    for way_um, short_um in ((2_000_000_001, 0), (2_000_000_000, 1_000_001), (0, -1)):
+        assert train.step("answer", followed=Followed(way_um, short_um, 0, False)) == start
+    assert train.step("answer", followed=Followed(2_000_000_001, 3_000_001, 21, False)) == start
+    assert train.step("answer", followed=Followed(0, 0, 0, False)) == start
+    assert train.step("answer", followed=Followed(2_000_000_001, 0, 21, False)) == start
+    for to_um, pace_um in ((1_997_999_999, 2_000_000), (1_997_989_999, 2_010_000), (2_000_000_000, 2_010_001)):
+        assert train.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == start
+    train.run(2_010_000)
+    fast = Train(2_000_000, 30_000)
+    assert fast.step("run_a_cycle", to_um=fast.system.way_um, pace_um=3_000_001) == fast.system
+    assert fast.system.pace_um == 3_000_000
+
+
+WITNESSES = (
+    an_answer_secures_what_it_says_to_the_cycle,
+    each_answer_takes_the_place_of_the_one_before,
+    the_worst_gains_until_the_lines_speed,
+    what_nature_does_not_do_does_not_happen,
+)

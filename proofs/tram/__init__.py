@@ -1,0 +1,1 @@
+"""What is claimed of the tram system (paper 002)."""

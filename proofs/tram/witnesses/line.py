@@ -1,0 +1,148 @@
+"""A line with stops, trams and a dispatcher, each step with its effect asserted (G4 to G6)."""
+
+from __future__ import annotations
+
+from kernel.tram import centre as machine
+from kernel.tram.centre import Centre, Command, Tram
+from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report
+from kernel.tram.display import begun
+from models.tram.dispatching import Body, Given, Traffic, Way
+from proofs.onboard.witnesses.play import Play
+from proofs.tram.dispatching import THEORY
+
+LIMITS = DispatchLimits(
+    ahead_hold_ms=120_000,
+    behind_hold_ms=600_000,
+    longest_hold_ms=60_000,
+    recovery_ms=240_000,
+    fresh_ms=11_000,
+    order_ms=11_000,
+)
+SITE = Way(LIMITS)
+FIRST, SECOND, THIRD = Tram("11"), Tram("13"), Tram("15")
+TERMINUS = 20
+NEITHER, HELD, RECOVERS = (False, False), (True, False), (False, True)
+"""What an order says: whether it holds, and whether it lets recover."""
+
+
+def command_of(tram: Tram, order: Order) -> Command:
+    """An order as it is sent to a tram."""
+    return Command(tram, order.stop, order.holds, order.recovers, order.made_ms)
+
+
+class Day(Play[Way, Traffic]):
+    """A way with twenty stops, at first without trams."""
+
+    def __init__(self, now_ms: int = 1_000_000) -> None:
+        """Begin: nothing is known."""
+        super().__init__(THEORY, SITE, Traffic({}, Centre(now_ms, {}, {}), frozenset(), Given(*4 * (False,))))
+
+    def body(self, tram: Tram) -> Body:
+        """A tram as it is."""
+        return self.system.bodies[tram]
+
+    def known(self, tram: Tram) -> Known:
+        """What the centre knows of it."""
+        return self.system.centre.trams[tram]
+
+    def wait(self, elapsed_ms: int) -> None:
+        """Let time pass."""
+        was_ms = self.system.centre.now_ms
+        self.step("pass_time", elapsed_ms=elapsed_ms)
+        assert self.system.centre.now_ms == was_ms + elapsed_ms
+
+    def come(self, tram: Tram, turn: int, stop: int, leaves_at: int = TERMINUS, *, tells: bool = True) -> None:
+        """A tram is taken up, comes, stands at its first stop, and tells that, all in one ms after the other."""
+        self.step("take_up", tram=tram, turn=turn, stop=stop, leaves_at=leaves_at)
+        known, now_ms = self.known(tram), self.system.centre.now_ms
+        assert (known.turn, known.stop, known.leaves_at, known.since_ms) == (turn, stop, leaves_at, now_ms)
+        assert (known.left, known.stands, known.recovery_to) == (False, False, stop)
+        body = Body(turn, stop, False, leaves_at, is_gone=False, display=begun(0), taken_at=stop)
+        self.step("come", tram=tram, body=body, now_ms=now_ms)
+        assert self.body(tram).display == begun(now_ms)
+        self.wait(1)
+        self.see(tram)
+        if tells:
+            self.tell(tram)
+
+    def see(self, tram: Tram, *, is_located: bool = True, stands: bool = True) -> None:
+        """The unit takes its place, and sees whether the tram stands."""
+        stop = self.body(tram).stop
+        self.step("take_place", tram=tram, is_located=is_located, told_stop=stop, stands=stands)
+        display = self.body(tram).display
+        assert (display.is_located, display.stop, display.stands) == (is_located, stop, is_located and stands)
+
+    def depart(self, tram: Tram, *, tells: bool = True) -> None:
+        """A tram departs; its unit sees that, and tells."""
+        stop = self.body(tram).stop
+        self.step("depart", tram=tram)
+        assert (self.body(tram).stop, self.body(tram).left) == (stop, True)
+        self.see(tram, stands=False)
+        if tells:
+            self.tell(tram)
+
+    def arrive(self, tram: Tram, *, tells: bool = True, stands: bool = True) -> None:
+        """A tram arrives at the next stop; its unit sees that, and tells."""
+        stop = self.body(tram).stop + 1
+        self.step("arrive", tram=tram, noticed=True, told_stop=stop, stands=stands)
+        assert (self.body(tram).stop, self.body(tram).left) == (stop, False)
+        assert self.body(tram).display.stop == stop
+        if tells:
+            self.tell(tram)
+
+    def tell(self, tram: Tram) -> None:
+        """A tram tells how it is now, and the centre notes it."""
+        body, now_ms = self.body(tram), self.system.centre.now_ms
+        told = Report(body.stop, body.left, body.display.stands, body.leaves_at, now_ms)
+        self.step("hear_report", tram=tram, told=told)
+        known = self.known(tram)
+        assert (known.stop, known.left, known.stands) == (body.stop, body.left, body.display.stands)
+        assert known.told_ms == now_ms
+
+    def run(self, tram: Tram, way_ms: int = 90_000, dwell_ms: int = 20_000) -> None:
+        """From one stop to the next, and stand there."""
+        self.depart(tram)
+        self.wait(way_ms)
+        self.arrive(tram)
+        self.wait(dwell_ms)
+        self.tell(tram)
+
+    def order(self, tram: Tram, hand: Hand = Hand.NOTHING) -> Order:
+        """The centre makes an order and sends it; nothing else goes out."""
+        order = machine.order(LIMITS, self.system.centre, tram, hand)
+        right = command_of(tram, order)
+        before = self.system
+        for wrong in (right._replace(stop=order.stop + 1), right._replace(tram=Tram("99"))):
+            assert self.step("give_order", tram=tram, hand=hand, command=wrong) == before
+        self.step("give_order", tram=tram, hand=hand, command=right)
+        assert self.system.sent == before.sent | {right}
+        assert (self.system.given.holds, self.system.given.recovers) == (order.holds, order.recovers)
+        return order
+
+    def says(self, tram: Tram, hand: Hand = Hand.NOTHING) -> tuple[bool, bool]:
+        """Whether an order holds, and whether it lets recover."""
+        order = self.order(tram, hand)
+        return order.holds, order.recovers
+
+    def deliver(self, tram: Tram, order: Order, to: Tram | None = None) -> tuple[bool, bool]:
+        """A command comes to a tram; what its driver is shown then."""
+        self.step("hear_order", tram=tram, command=command_of(to or tram, order))
+        display = self.body(tram).display
+        return display.holds, display.recovers
+
+
+def two_stops_apart(ahead_stops: int = 3, since_ms: int = 240_000) -> Day:
+    """Two trams: the first so many stops ahead, having left the stop of the second so long ago."""
+    day = Day()
+    day.come(FIRST, 1, 1)
+    day.depart(FIRST)
+    left_ms = day.system.centre.now_ms
+    for _ in range(ahead_stops):
+        day.wait(10)
+        day.arrive(FIRST)
+        day.wait(10)
+        day.depart(FIRST)
+    day.come(SECOND, 2, 1, tells=False)
+    day.wait(left_ms + since_ms - day.system.centre.now_ms)
+    day.tell(SECOND)
+    return day

@@ -1,0 +1,148 @@
+"""A tram along a street with GPS that errs: it stands, is held there, passes, creeps, and is lost (G2)."""
+
+from __future__ import annotations
+
+from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping
+from models.tram.stopping import Ride, Street
+from proofs.onboard.witnesses.play import Play
+from proofs.tram.stopping import THEORY
+
+SITE = Street(StopLimits(near_mm=20_000, held_mm=50_000), error_mm=15_000, speed_error_mm_s=100)
+STOPS_MM = tuple(range(0, 4_000_001, 400_000))
+
+
+class Along(Play[Street, Ride]):
+    """A tram on a street with a stop each 400 m; it begins at the first."""
+
+    def __init__(self, at_mm: int = 0) -> None:
+        """Begin."""
+        super().__init__(
+            THEORY, SITE, Ride(at_mm, 0, STOPS_MM[1], Stopping(0, False, False), at_mm, 0, at_mm, False, False)
+        )
+
+    def run(self, to_mm: int) -> None:
+        """Run on to a place."""
+        self.step("run_on", way_mm=to_mm - self.system.at_mm)
+        assert self.system.at_mm == to_mm
+
+    def fix(
+        self, off_mm: int = 0, speed_mm_s: int = 0, *, is_placed: bool = True, has_speed: bool = True, wrong: int = 0
+    ) -> tuple[int, bool, bool]:
+        """Take a fix that is off by so much, its speed by ``wrong``; what the unit tells then: stop, left, stands."""
+        before = self.system
+        fix = Fix(is_placed, before.at_mm + off_mm, has_speed, speed_mm_s + wrong)
+        self.step(
+            "take_fix",
+            fix=fix,
+            speed_mm_s=speed_mm_s,
+            here_mm=before.here_mm,
+            next_mm=before.next_mm,
+            further_mm=before.next_mm + 400_000,
+        )
+        now = self.system
+        assert (now.fixed_at_mm, now.speed_mm_s) == (before.at_mm, speed_mm_s)
+        assert now.here_mm == STOPS_MM[now.stopping.stop]
+        assert now.next_mm == now.here_mm + 400_000
+        return now.stopping.stop, now.stopping.left, now.stopping.stands
+
+
+def a_tram_stands_at_its_stop() -> None:
+    """Below 5 km/h and near it; GPS jitters, and nothing moves (3.1.2; G2)."""
+    along = Along()
+    along.run(395_000)
+    assert along.fix(speed_mm_s=SLOW_MM_S) == (0, True, False)
+    assert along.fix(speed_mm_s=SLOW_MM_S - 1) == (1, False, True)
+    assert along.system.stood_at_mm == 395_000
+    for off_mm in (-15_000, 15_000, 0):
+        assert along.fix(off_mm) == (1, False, True)
+    assert not along.system.wandered
+
+
+def near_is_so_near_and_held_is_farther() -> None:
+    """It begins to stand within 20 m by GPS, and goes on within 50 m (G2)."""
+    along = Along()
+    along.run(379_999)
+    assert along.fix() == (0, False, False)
+    assert along.fix(1) == (1, False, True)
+    assert along.fix(-15_000) == (1, False, True)
+    along.run(450_000)
+    assert along.fix() == (1, False, True)
+    assert along.fix(1) == (1, False, False)
+    assert along.fix() == (1, False, False)
+    assert along.system.stood_at_mm == 380_000 - 1
+
+
+def it_stands_where_it_begins() -> None:
+    """At the stop that was reached last, before it has left it (G2)."""
+    along = Along()
+    assert along.fix() == (0, False, True)
+    assert along.fix(speed_mm_s=3_000) == (0, False, False)
+    assert along.fix() == (0, False, True)
+    along.run(20_001)
+    assert along.fix(-1, speed_mm_s=3_000) == (0, False, False)
+    assert along.fix(speed_mm_s=3_000) == (0, True, False)
+    assert along.fix(-15_000) == (0, True, False)
+    assert along.fix(-15_000, speed_mm_s=3_000) == (0, True, False)
+
+
+def a_stop_is_passed() -> None:
+    """Nobody gets on: it is reached and left at once, once surely behind (G2, G5)."""
+    along = Along()
+    along.run(420_000)
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    assert along.fix(1, speed_mm_s=8_000) == (1, True, False)
+    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    along.run(421_000)
+    assert along.fix() == (1, True, False)
+    along.run(800_000)
+    assert along.fix() == (2, False, True)
+    along.run(1_221_000)
+    assert along.fix(speed_mm_s=8_000) == (3, True, False)
+
+
+def at_a_signal_it_does_not_stand() -> None:
+    """Between stops it is slow, and stands nowhere (G2)."""
+    along = Along()
+    along.run(200_000)
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    assert along.fix() == (0, True, False)
+
+
+def what_is_lost_is_not_made_up() -> None:
+    """Without a place, or without a speed, it does not count as standing, and has reached what it had (G2, G6)."""
+    along = Along()
+    along.run(400_000)
+    assert along.fix() == (1, False, True)
+    assert along.fix(10**6, is_placed=False) == (1, False, False)
+    assert along.fix() == (1, False, True)
+    assert along.fix(has_speed=False, wrong=9_000) == (1, False, False)
+    along.run(800_000)
+    assert along.fix(is_placed=False, speed_mm_s=8_000) == (1, False, False)
+    assert along.fix(has_speed=False) == (1, False, False)
+    assert not along.system.wandered
+
+
+def what_nature_does_not_do() -> None:
+    """Run back, err by more than is written, or move the stops (G1, G2)."""
+    along = Along()
+    before = along.system
+    assert along.step("run_on", way_mm=-1) == before
+    for fix, speed_mm_s, here_mm, next_mm in (
+        (Fix(True, 15_001, True, 0), 0, 0, 400_000),
+        (Fix(True, 0, True, 0), 101, 0, 400_000),
+        (Fix(True, 0, True, 0), 0, 1, 400_000),
+        (Fix(True, 0, True, 0), 0, 0, 400_001),
+    ):
+        event = {"fix": fix, "speed_mm_s": speed_mm_s, "here_mm": here_mm, "next_mm": next_mm, "further_mm": 800_000}
+        assert along.step("take_fix", **event) == before
+
+
+WITNESSES = (
+    a_tram_stands_at_its_stop,
+    near_is_so_near_and_held_is_farther,
+    it_stands_where_it_begins,
+    a_stop_is_passed,
+    at_a_signal_it_does_not_stand,
+    what_is_lost_is_not_made_up,
+    what_nature_does_not_do,
+)

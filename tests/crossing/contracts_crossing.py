@@ -1,0 +1,80 @@
+"""Contracts on the crossing's settings, arms and answers, for CrossHair: leading asserts assume, later ones claim."""
+
+from __future__ import annotations
+
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.crossing import (
+    Crossing,
+    Due,
+    Settings,
+    aged,
+    are_lawful,
+    arms_are_to_be_down,
+    decide,
+    due,
+    must_warn,
+)
+
+SETTINGS = Settings(
+    cycle_ms=1_000,
+    warning_cycles=40,
+    bell_cycles=5,
+    lowering_cycles=10,
+    least_down_cycles=20,
+    lifting_cycles=6,
+    reopening_cycles=20,
+    silence_cycles=2,
+    start_cycles=44,
+)
+BOUNDS = ArrivalBounds(line_um=30_000_000, gain_um=1_000_000, cycle_ms=1_000, warning_cycles=40, silence_cycles=3)
+
+
+def lawful_settings_leave_fifteen_seconds(warning_cycles: int, bell_cycles: int, lowering_cycles: int) -> None:
+    """Of the warning time, when bell and lowering are over (X5)."""
+    assert are_lawful(Settings(1_000, warning_cycles, bell_cycles, lowering_cycles, 15, 6, 40, 2, 99))
+    assert warning_cycles - bell_cycles - lowering_cycles >= 15
+
+
+def a_start_point_that_is_too_near_is_refused(start_cycles: int) -> None:
+    """Warning time, silence, and two cycles (X3)."""
+    assert start_cycles < 44
+    assert not are_lawful(Settings(1_000, 40, 5, 10, 20, 6, 20, 2, start_cycles))
+
+
+def arms_wait_for_the_bell(warned_cycles: int, warns: bool) -> None:
+    """And are up without a warning (X5)."""
+    assert isinstance(warned_cycles, int)
+    crossing = Crossing({}, {}, warns, warned_cycles)
+    assert arms_are_to_be_down(SETTINGS, crossing) == (warns and warned_cycles >= 5)
+
+
+def nobody_on_the_way_is_no_warning(warned_cycles: int, warns: bool) -> None:
+    """While every terminal is heard (X4)."""
+    assert warned_cycles >= 0
+    assert decide(SETTINGS, Crossing({}, {}, warns, warned_cycles), {}) == Crossing({}, {}, False, 0)
+
+
+def a_warning_grows_older(warned_cycles: int, warns: bool) -> None:
+    """By a cycle (X2)."""
+    assert warned_cycles >= 0
+    assert aged(Crossing({}, {}, warns, warned_cycles)).warned_cycles == (warned_cycles + 1 if warns else 0)
+
+
+def nobody_is_must_not_be_warned_of(warned_cycles: int) -> None:
+    """Whatever has been (X4)."""
+    assert warned_cycles >= 0
+    assert not must_warn(SETTINGS, Crossing({}, {}, True, warned_cycles))
+
+
+def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:
+    """To the micrometre (X2, X4)."""
+    assert 0 <= way_um <= 3_000_000_000
+    answer = due(BOUNDS, Followed(way_um, 0, 0, False), 20)
+    assert (answer == Due.NOW) == (way_um <= 42 * 30_000_000)
+    assert (answer == Due.FAR) == (way_um > 62 * 30_000_000)
+
+
+def what_is_lost_is_due(way_um: int, age_cycles: int) -> None:
+    """However far it was (X3)."""
+    assert age_cycles > 3
+    assert due(BOUNDS, Followed(way_um, 30_000_000, age_cycles, False), 20) == Due.NOW

@@ -1,0 +1,159 @@
+"""Days at the crossing: no claim breaks, planted faults and broken assumptions are seen, and a day stays the same."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numba
+import numpy as np
+import pytest
+
+from kernel.crossing import crossing as machine
+from kernel.crossing.crossing import Crossing, Due, Train
+from models.compiled import packed, unpacked
+from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
+from models.crossing.days import SYSTEM, one_day, simulate
+from models.crossing.faults import FAULTS
+from models.crossing.made import MADE, NO_DUES
+from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
+from models.crossing.traffic import SECONDS, drawn
+from models.crossing.watch import SET, decide, watched
+from models.days.system import Numbers
+
+BROKEN_BY = {fault.name: fault.breaks for fault in FAULTS if fault.breaks}
+COLUMN_OF = {
+    "reflection": "ranging_broken",
+    "stale": "age_broken",
+    "unstruck": "strike_broken",
+    "parts": "rear_broken",
+    "slow_arms": "arms_broken",
+    "strong": "gain_broken",
+}
+
+
+def counted(rows: Numbers, names: Mapping[str, str]) -> dict[str, int]:
+    """Sums of some columns that are not 0."""
+    sums = {name: int(rows[:, NUMBER[name]].sum()) for name in names}
+    return {name: value for name, value in sums.items() if value}
+
+
+def days(count: int, **planted: Any) -> Numbers:
+    return np.array([one_day(5, day, **planted) for day in range(count)])
+
+
+def test_no_claim_breaks_and_no_assumption_does() -> None:
+    rows = simulate(5, range(12))
+    assert counted(rows, CLAIMS) == {}
+    assert counted(rows, ASSUMPTIONS) == {}
+    assert (rows[:, NUMBER["arrivals"]] > 400).all()
+    assert rows[:, NUMBER["held"]].sum() > 50
+    assert rows[:, NUMBER["in_contact"]].sum() > 0.7 * rows[:, NUMBER["arrivals"]].sum()
+    assert (rows[:, NUMBER["seconds"]] == SECONDS).all()
+    assert SYSTEM.columns == COLUMNS
+
+
+def test_a_day_is_the_same_in_whatever_batch() -> None:
+    whole = simulate(7, range(4))
+    assert (np.concatenate([simulate(7, range(1)), simulate(7, range(1, 4))]) == whole).all()
+    assert (simulate(8, range(4)) != whole).any()
+
+
+@pytest.mark.parametrize("name", BROKEN_BY)
+def test_a_broken_assumption_is_named(name: str) -> None:
+    """And no other is, but those that follow from it."""
+    rows = days(6, beyond=(name,))
+    broken = counted(rows, ASSUMPTIONS)
+    assert COLUMN_OF[name] in broken
+    assert set(broken) <= {COLUMN_OF[name], "strike_broken", "start_broken"}
+
+
+def test_broken_assumptions_break_claims() -> None:
+    """With wrong rangings it warns or opens wrongly, what stays behind is opened for, slow arms close late."""
+    claims = {name: set(counted(days(10, beyond=(name,)), CLAIMS)) for name in ("reflection", "parts", "slow_arms")}
+    assert claims["reflection"] & {"late_warning", "lifted_between"}
+    assert "opened_before_rear" in claims["parts"]
+    assert "short_closure" in claims["slow_arms"]
+
+
+# ---- planted faults
+
+
+@pytest.mark.parametrize(
+    ("change", "claim"),
+    [({"reopening_cycles": 0}, "lifted_between"), ({"silence_cycles": 10**6}, "unwarned_silence")],
+)
+def test_a_dropped_guard_is_seen(change: dict[str, int], claim: str) -> None:
+    """Nobody is near any more; silence warns no more."""
+    assert claim in counted(days(20, settings=packed(replace(SETTINGS, **change))), CLAIMS)
+
+
+Made = MADE.crossing.Crossing
+
+
+@numba.njit
+def careless(settings: Any, crossing: Any, dues: Any) -> Any:
+    """Who has no answer is taken to be far, and whoever asked is forgotten."""
+    asks, told = crossing.asks.copy(), dues.copy()
+    for place, (name, _) in enumerate(crossing.asks):
+        asks[place] = (name, False)
+        told.append((name, 0))
+    return decide(settings, Made(asks, crossing.silent_cycles, crossing.warns, crossing.warned_cycles), told)
+
+
+def test_a_machine_that_forgets_is_seen() -> None:
+    broken = counted(days(2, decides=careless), CLAIMS)
+    assert "late_warning" in broken
+    assert "short_closure" in broken
+
+
+# ---- what the days are made of
+
+
+@pytest.mark.parametrize("trial", TRIALS)
+def test_runs_are_of_this_world(trial: Any) -> None:
+    """Trains pass in order of time, arrive after they have struck, and are past after they have arrived."""
+    run = watched(trial, drawn(3, 0, trial, quiet=True), np.zeros(len(COLUMNS), np.int64))
+    assert (run["arrived_s"] > run["struck_s"]).all()
+    assert (run["out_s"] > run["arrived_s"]).all()
+    assert (run["asked_s"] < run["arrived_s"]).all()
+    assert (run["old_s"] < run["arrived_s"]).all()
+    warned_s = run["arrived_s"] - run["asked_s"]
+    assert warned_s.min() >= SETTINGS.warning_cycles
+
+
+def test_a_day_of_many_trains() -> None:
+    for trial in (STRAIGHT, CURVED):
+        day = drawn(1, 0, trial)
+        assert len(day.trains) == 2 * sum(trial.trains)
+        assert set(day.trains["track"]) == {0, 1}
+        assert (np.diff(day.trains["at_s"][day.trains["track"] == 0]) >= 0).all()
+    with pytest.raises(KeyError):
+        drawn(1, 0, STRAIGHT, beyond=("flood",))
+
+
+def test_quiet_days_have_no_fault() -> None:
+    day = drawn(1, 0, CURVED, quiet=True)
+    assert (day.faults["begin_s"] == -1).all()
+    assert (day.trains["radio"] == 1).all()
+
+
+# ---- the compiled machine
+
+
+def test_cpython_and_compiled_decide_alike() -> None:
+    """On drawn states and answers (X2 to X4)."""
+    source = np.random.default_rng(1)
+    for _ in range(300):
+        asks = {Train(number): bool(source.integers(2)) for number in range(source.integers(4))}  # type: ignore[arg-type]
+        silent = {number: int(source.integers(5)) for number in range(2)}
+        warns = bool(source.integers(2))
+        crossing = Crossing(asks, silent, warns, int(source.integers(100)) if warns else 0)  # type: ignore[arg-type]
+        dues = {train: Due(int(source.integers(3))) for train in asks if source.random() < 0.8}
+        told = NO_DUES.copy()
+        for train, due in dues.items():
+            told.append((int(train), due.value))
+        made = decide(SET, packed(crossing), told)
+        assert unpacked(made, Crossing) == machine.decide(SETTINGS, crossing, dues)
+        assert unpacked(MADE.crossing.aged(made), Crossing) == machine.aged(machine.decide(SETTINGS, crossing, dues))

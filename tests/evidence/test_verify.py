@@ -1,0 +1,159 @@
+"""What records say is made again, drawn from a seed; a record that says otherwise is named."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from evidence.catalogue import catalogue
+from evidence.manifest import command
+from evidence.manifest.again import Figure, Result, drawn, figures, made_again
+from evidence.records.reading import read
+from models.layouts import as_json, check, load
+from models.rides import report
+from models.rides.campaign import ride_all
+from models.rides.tally import outcome
+from proofs.records import write_json
+from proofs.run import prove_all
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Records that were really made: a few obligations, a layout, a few rides, a mutant."""
+    here = tmp_path_factory.mktemp("out")
+    proved = prove_all(solver="both", jobs=1, only=r"^brake_watch\.run_a_cycle ")
+    write_json(here / "prove.json", proved.record())
+    path = ROOT / "layouts" / "terminus.toml"
+    imported = load(path)
+    entry = {"file": "layouts/terminus.toml", **as_json(imported, check(imported))}
+    write_json(here / "check.json", {"verdict": "holds", "layouts": [entry]})
+    rows = ride_all(3, 2, 1)
+    write_json(here / "ride.json", report.record(3, {"": outcome(rows[""])}))
+    mutant = {"mutant": "kernel.onboard.split.is_intact: and-operand not state.split", "outcome": "counterexample"}
+    write_json(here / "mutate.json", {"mutants": [mutant]})
+    return here
+
+
+def pool(folder: Path) -> list[Figure]:
+    return list(figures(folder, read(folder, frozenset(each.record for each in catalogue().values()))))
+
+
+def of_kind(folder: Path, kind: str) -> Figure:
+    return next(each for each in pool(folder) if each.kind == kind)
+
+
+def test_there_is_something_of_each_kind_and_a_draw_takes_of_each(folder: Path) -> None:
+    found = pool(folder)
+    kinds = {each.kind for each in found}
+    assert kinds == {"obligation", "witness", "layout", "ride", "mutant"}
+    assert {each.kind for each in drawn(found, 1, 12)} == kinds
+    assert [each.what for each in drawn(found, 1, 12)] == [each.what for each in drawn(found, 1, 12)]
+    draws = {tuple(each.what for each in drawn(found, seed, 12)) for seed in range(6)}
+    assert len(draws) > 1, "another seed draws others"
+    assert len(drawn(found, 1, 30)) == 30
+    assert drawn(found, 1, 0) == []
+
+
+@pytest.mark.parametrize("kind", ["obligation", "witness", "layout", "ride", "mutant"])
+def test_what_was_made_comes_to_the_same_again(kind: str, folder: Path) -> None:
+    result = made_again(of_kind(folder, kind))
+    assert result.same, result.says
+
+
+def spoiled(folder: Path, to: Path, name: str, at: tuple[Any, ...], values: Mapping[str, Any]) -> Path:
+    """Copy the records with one of them edited."""
+    for path in folder.glob("*.json"):
+        (to / path.name).write_bytes(path.read_bytes())
+    record = json.loads((to / name).read_text("utf-8"))
+    place = record
+    for step in at:
+        place = place[step]
+    place |= values
+    (to / name).write_text(json.dumps(record), "utf-8")
+    return to
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "at", "values", "says"),
+    [
+        ("obligation", "prove.json", ("obligations", 0), {"verdict": "refuted"}, "recorded as refuted"),
+        ("obligation", "prove.json", ("obligations", 0), {"smt2_sha256": "0" * 64}, "another text"),
+        ("obligation", "prove.json", ("obligations", 0), {"hypotheses": ["none"]}, "other hypotheses"),
+        ("obligation", "prove.json", ("obligations", 0), {"transition": "brake_watch.fly"}, "cannot be made"),
+        ("layout", "check.json", ("layouts", 0, "checked"), {"a_destination_is_covered": 1}, "another checked"),
+        ("layout", "check.json", ("layouts", 0), {"file": "layouts/gone.toml"}, "gone.toml"),
+        ("ride", "ride.json", ("campaigns", 0, "sums"), {"cycles": 1}, "another sums"),
+        ("mutant", "mutate.json", ("mutants", 0), {"outcome": "survived"}, "recorded as survived"),
+        ("mutant", "mutate.json", ("mutants", 0), {"mutant": "kernel.gone: guard"}, "no such mutant"),
+    ],
+)
+def test_a_record_that_says_otherwise_is_not_the_same(
+    kind: str, name: str, at: tuple[Any, ...], values: dict[str, Any], says: str, folder: Path, tmp_path: Path
+) -> None:
+    result = made_again(of_kind(spoiled(folder, tmp_path, name, at, values), kind))
+    assert not result.same
+    assert says in result.says
+
+
+def run(*arguments: str) -> int:
+    app = typer.Typer()
+    app.command()(command.manifest)
+    app.command()(command.verify)
+    return int(app(list(arguments), standalone_mode=False) or 0)
+
+
+def test_the_command_names_what_is_wrong_and_prints_its_seed(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    here = spoiled(folder, tmp_path, "prove.json", ("obligations", 0), {"seconds": 1.0})
+    assert run("manifest", str(here)) == 0
+    monkeypatch.setattr("evidence.manifest.again.figures", lambda folder, records: iter(FIGURES))
+    capsys.readouterr()
+    code = run("verify", str(here), "--sample", "2", "--seed", "7")
+    told = capsys.readouterr().out
+    assert "again: witness: good: as it was" in told
+    assert "DIFFERS: witness: wrong: is not" in told
+    assert "with seed 7" in told
+    assert code == 1
+    (here / "check.json").unlink()
+    (here / "foreign.json").write_text("{}", "utf-8")
+    code = run("verify", str(here), "--sample", "0")
+    told = capsys.readouterr().out
+    assert "missing: check.json" in told
+    assert "foreign: foreign.json" in told
+    assert code == 1
+
+
+FIGURES = (
+    Figure("witness", "good", lambda: Result(True, "as it was")),
+    Figure("witness", "wrong", lambda: Result(False, "is not")),
+)
+
+
+def test_a_fake_solver_is_named_before_anything_is_asked_of_it(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    here = spoiled(folder, tmp_path, "check.json", (), {})
+    assert run("manifest", str(here)) == 0
+    lie = {"canary": "a claim", "solver": "z3", "solver_version": "1", "answer": "unsat", "noticed": False}
+    monkeypatch.setattr("proofs.canaries.seen", lambda asked: [lie])
+    monkeypatch.setattr("evidence.manifest.again.figures", lambda folder, records: iter(FIGURES[:1]))
+    assert run("verify", str(here), "--sample", "1") == 1
+    assert "solver: z3 answers unsat to what does not hold, a claim" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("given", [("verify", "nowhere"), ("verify", "."), ("manifest", "nowhere"), ("manifest", ".")])
+def test_a_folder_of_no_use_is_one_line_and_code_2(
+    given: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(*given) == 2
+    error = capsys.readouterr().err
+    assert len(error.splitlines()) == 1

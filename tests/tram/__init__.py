@@ -1,0 +1,1 @@
+"""The tram system (paper 002)."""

@@ -1,0 +1,43 @@
+"""Contracts on stopping, for CrossHair (`make crosshair`): leading asserts assume, later ones claim."""
+
+from __future__ import annotations
+
+from kernel.tram.dispatching import mark
+from kernel.tram.stopping import Fix, StopLimits, Stopping, note_fix
+
+LIMITS = StopLimits(near_mm=20_000, held_mm=50_000)
+HERE_MM, NEXT_MM = 0, 400_000
+
+
+def after(left: bool, stands: bool, place_mm: int, speed_mm_s: int, placed: bool = True) -> Stopping:
+    """What the unit tells after a fix."""
+    return note_fix(LIMITS, Stopping(5, left, stands), HERE_MM, NEXT_MM, Fix(placed, place_mm, True, speed_mm_s))
+
+
+def nothing_goes_back(left: bool, stands: bool, place_mm: int, speed_mm_s: int, placed: bool) -> None:
+    """Whatever is measured (G2)."""
+    assert isinstance(place_mm, int)
+    assert isinstance(speed_mm_s, int)
+    now = after(left, stands, place_mm, speed_mm_s, placed)
+    assert mark(5, left) <= mark(now.stop, now.left)
+    assert now.stop <= 6
+
+
+def who_stands_is_slow_and_near(left: bool, stands: bool, place_mm: int, speed_mm_s: int) -> None:
+    """Below 5 km/h, and no farther from its stop than places are held (G2)."""
+    assert after(left, stands, place_mm, speed_mm_s).stands
+    assert speed_mm_s < 1_389
+    assert -50_000 <= place_mm - (HERE_MM if after(left, stands, place_mm, speed_mm_s).stop == 5 else NEXT_MM) <= 50_000
+
+
+def a_standing_tram_is_held(place_mm: int, speed_mm_s: int) -> None:
+    """As long as it is slow and within 50 m (G2)."""
+    assert -50_000 <= place_mm <= 50_000
+    assert speed_mm_s < 1_389
+    assert after(False, True, place_mm, speed_mm_s) == Stopping(5, False, True)
+
+
+def without_a_place_none_stands(left: bool, stands: bool, speed_mm_s: int) -> None:
+    """And nothing else changes (G6)."""
+    assert isinstance(speed_mm_s, int)
+    assert after(left, stands, 0, speed_mm_s, placed=False) == Stopping(5, left, False)

@@ -1,0 +1,198 @@
+"""Days of a tram line: reproducible, no claim broken; claims break where a guard or an assumption does (G2 to G6)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kernel.tram import centre as dispatcher
+from kernel.tram import cycle, dispatching, display, stopping
+from kernel.tram.centre import Centre, Tram
+from kernel.tram.dispatching import Known, Report
+from models.compiled import packed, unpacked
+from models.tram import given as plan
+from models.tram import tally
+from models.tram.days import SYSTEM, one_day, simulate
+from models.tram.deciding import hear_report, may_take_up, view_of
+from models.tram.faults import FAULTS
+from models.tram.given import LIMITS
+from models.tram.machines import MADE
+from models.tram.state import K_IS, NEVER_MS, Traffic, begun
+from models.tram.telling import keep_known, known_of
+from tests.onboard.agree import agree_along_runs, agree_on_values, functions, states_of
+
+NONE = frozenset[str]()
+
+
+def column(rows: Any, name: str) -> int:
+    """What a column sums up to."""
+    return int(np.atleast_2d(rows)[:, SYSTEM.columns.index(name)].sum())
+
+
+@cache
+def ten_days() -> Any:
+    """Ten days with drawn faults."""
+    return simulate(7, range(10))
+
+
+def test_a_system_has_its_columns() -> None:
+    assert SYSTEM.columns == tally.COLUMNS
+    assert len(set(SYSTEM.columns)) == len(SYSTEM.columns) == ten_days().shape[1]
+    assert SYSTEM.hours >= 16
+    assert simulate(7, range(0)).shape == (0, len(SYSTEM.columns))
+
+
+def test_no_claim_and_no_assumption_is_broken_and_trams_run() -> None:
+    for name in (*SYSTEM.claims, *SYSTEM.assumptions):
+        assert column(ten_days(), name) == 0, name
+    for name in (*SYSTEM.prices, *SYSTEM.counts):
+        assert column(ten_days(), name) > 0, name
+    assert column(ten_days(), "tram_s") > 10 * 16 * 3_600
+
+
+def test_a_day_is_the_same_in_whatever_batch() -> None:
+    assert (simulate(7, range(3, 6)) == ten_days()[3:6]).all()
+    assert (simulate(7, range(9, 10)) == ten_days()[9:]).all()
+    assert (simulate(8, range(2)) != ten_days()[:2]).any()
+
+
+def test_faults_are_drawn_by_their_chance() -> None:
+    rows = simulate(7, range(10))
+    for name in FAULTS:
+        assert set(rows[:, SYSTEM.columns.index(f"fault_{name}")]) <= {0, 1}
+    assert sum(column(rows, f"fault_{name}") for name in FAULTS) > 10
+
+
+@pytest.mark.parametrize(
+    ("plant", "present", "broken"),
+    [
+        (plan.NOT_ADDRESSED, frozenset({"repeats"}), "wrong_tram"),
+        (plan.NEVER_PRESENT, NONE, "recovery_occupied"),
+        (plan.NEVER_PRESENT, NONE, "recovery_unknown"),
+        (plan.NEVER_STALE, frozenset({"centre_slow"}), "order_by_guess"),
+        (plan.NEVER_LOST, frozenset({"canyon", "gps_outage"}), "recovery_beyond"),
+        (plan.GPS_BEYOND, NONE, "place_broken"),
+        (plan.GPS_BEYOND, NONE, "reached_too_soon"),
+    ],
+)
+def test_what_is_planted_is_reported(plant: int, present: frozenset[str], broken: str) -> None:
+    """A guard gone, or a fault beyond its range; without it nothing is."""
+    assert sum(column(one_day(3, number, present=present, plant=plant)[0], broken) for number in range(4)) > 0
+    assert sum(column(one_day(3, number, present=present)[0], broken) for number in range(4)) == 0
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_each_fault_makes_a_difference(name: str) -> None:
+    others = [place for place, each in enumerate(SYSTEM.columns) if not each.startswith("fault_")]
+    for number in range(20):
+        without, with_it = (one_day(5, number, present=present)[0] for present in (NONE, frozenset({name})))
+        assert column(with_it, f"fault_{name}") == 1
+        if (without[others] != with_it[others]).any():
+            return
+    pytest.fail(f"{name} changes nothing")
+
+
+def test_holding_evens_out_the_intervals() -> None:
+    """The same days without a centre: trams bunch more (002, 3.2.1; G4)."""
+    held, free = (
+        np.mean([spread(one_day(5, number, limits, NONE)[2]) for number in range(4)])
+        for limits in (LIMITS, plan.UNCONTROLLED)
+    )
+    assert held < free
+
+
+def spread(log: Any) -> float:
+    """The deviation of the intervals between departures, over their mean, at the stop before the branch."""
+    left = log[:, 14]
+    apart = np.diff(np.sort(left[left >= 0]))
+    return float(np.std(apart) / np.mean(apart))
+
+
+# ---- compiled, and arrays for maps, against the kernel in CPython
+
+MACHINES = {"cycle": cycle, "dispatching": dispatching, "display": display, "stopping": stopping}
+
+
+@pytest.mark.parametrize(
+    ("machine", "name"), [(m, name) for m, module in MACHINES.items() for name in functions(module)]
+)
+def test_compiled_functions_agree_with_cpython(machine: str, name: str) -> None:
+    seen = agree_on_values(MACHINES[machine], getattr(MADE, machine), name, 150)
+    assert seen.total() == 150
+
+
+@pytest.mark.parametrize("machine", ["cycle", "display", "stopping"])
+def test_compiled_machines_agree_along_runs(machine: str) -> None:
+    states = states_of(MACHINES[machine])
+    assert states
+    assert sum(agree_along_runs(MACHINES[machine], getattr(MADE, machine), state, 20, 20) for state in states) > 0
+
+
+def drawn(chance: Random) -> tuple[Centre, Traffic, list[Tram]]:
+    """The same knowledge of some trams in maps and in arrays."""
+    count = chance.randrange(1, 6)
+    traffic = begun(count, 10, 1, len(tally.COLUMNS), 0)
+    now_ms = 1_000_000
+    trams, left_ms = {}, {}
+    for number in range(count):
+        known = Known(
+            turn=chance.randrange(4),
+            leaves_at=chance.randrange(10),
+            since_ms=now_ms - chance.choice((5, 300_000, 900_000)),
+            stop=chance.randrange(4),
+            left=chance.random() < 0.4,
+            stands=chance.random() < 0.6,
+            arrived_ms=now_ms - chance.randrange(100_000),
+            told_ms=now_ms - chance.choice((0, 11_000, 11_001)),
+            recovery_to=chance.randrange(6),
+        )
+        trams[Tram(str(number))] = known
+        keep_known(traffic.trams[number], packed(known))
+        for stop in range(7):
+            if chance.random() < 0.5:
+                made_ms = now_ms - chance.choice((119_999, 120_000, 239_999, 240_000, 600_000, 600_001))
+                left_ms[Tram(str(number)), stop] = made_ms
+                traffic.left_ms[number, stop] = made_ms
+    return Centre(now_ms, trams, left_ms), traffic, list(trams)
+
+
+def test_arrays_say_what_maps_say() -> None:
+    """The view that an order rests on, what is taken up, and what a report changes."""
+    chance = Random(11)
+    seen = []
+    for _ in range(1_500):
+        centre, traffic, trams = drawn(chance)
+        number = chance.randrange(len(trams))
+        tram = trams[number]
+        own = centre.trams[tram]
+        view = dispatcher.view(LIMITS, centre, tram, own)
+        found = view_of(packed(LIMITS), traffic, number, packed(own), centre.now_ms)
+        assert unpacked(found, dispatching.View) == view
+        seen.append(view)
+        turn, stop, leaves_at = chance.randrange(4), chance.randrange(6), chance.randrange(9)
+        may = dispatcher.may_come(centre, tram, turn, stop, leaves_at)
+        assert may_take_up(traffic, number, turn, stop, leaves_at) == may
+        report = Report(chance.randrange(5), chance.random() < 0.5, True, 7, centre.now_ms - chance.randrange(9_000))
+        after = dispatcher.note_report(centre, tram, report)
+        hear_report(traffic, number, packed(report), centre.now_ms)
+        assert unpacked(known_of(traffic.trams[number]), Known) == after.trams[tram]
+        for place in range(7):
+            assert traffic.left_ms[number, place] == after.left_ms.get((tram, place), NEVER_MS)
+    for name in ("is_clear", "is_present", "ahead_is_far", "ahead_is_near", "behind_is_far"):
+        assert {getattr(view, name) for view in seen} == {True, False}, name
+
+
+def test_a_tram_that_is_not_known_counts_nowhere() -> None:
+    _, traffic, trams = drawn(Random(1))
+    own = Known(9, 9, 0, 0, False, True, 0, 0, 0)
+    for number in range(len(trams)):
+        traffic.trams[number, K_IS] = 0
+    view = view_of(packed(LIMITS), traffic, 0, packed(own), 1_000_000)
+    assert unpacked(view, dispatching.View) == replace(
+        dispatching.View(True, False, True, False, False), behind_is_far=False
+    )
