@@ -316,7 +316,7 @@ def days(
 
     Examples:
 
-    * `heisoku days crossing --days 100 --json out/crossing.json`
+    * `heisoku days crossing --days 20`
     """
     from models.days.campaign import live_all, outcome
     from models.days.report import print_outcome, record
