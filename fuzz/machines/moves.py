@@ -152,6 +152,28 @@ def walk(place: Place, sources: Sources, random: Random, moves: int) -> Moves:
     return going
 
 
+def questioned(place: Place, sources: Sources, random: Random) -> Moves:
+    """Some service, and then every transition with events that nobody expects; the same for the same ``random``.
+
+    Most of them are refused, which takes no time: so what looks up a thing that is not there is soon asked for it.
+
+    Raises:
+        Broken: something claimed is false, or a step is not defined.
+    """
+    going = Moves(place, sources)
+    going.start_service()
+    for _ in range(random.randrange(SERVED)):
+        going.goes_on(random.randrange)
+    for step in random.sample(EVERY, len(EVERY)) * QUESTIONS:
+        going.counted["is_questioned"] += 1
+        going.play.take(step, **almost(going.play.site, going.play.system, step, random.randrange))
+    return going
+
+
+SERVED = 80
+"""So many steps of service, at most, go before the questions."""
+QUESTIONS = 4
+"""So often each transition is asked."""
 TRAINS = (2, 3)
 STARTS = 5
 """So many places to begin in are tried on each layout."""

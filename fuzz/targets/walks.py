@@ -32,8 +32,9 @@ FORMAT = "heisoku trace 1"
 WALKS_A_BATCH = 96
 COSTLY = {INTERLOCKING.name: 0.08}
 """A walk of the interlocking takes so much longer than one of a machine that it is drawn so much less."""
-JOLTED, THINNED = 0.25, 0.25
-"""Shares of the interlocking's walks: jolted into states that no run leads to; on layouts that say less."""
+JOLTED, THINNED, QUESTIONED = 0.2, 0.2, 0.3
+"""Shares of the interlocking's walks: jolted into states that no run leads to; on layouts that say less; with every
+transition asked of what nobody expects."""
 LAYOUTS = (TINY, *sorted((ROOT / "layouts").glob("*.toml")))
 NAMES = tuple(THEORIES)
 STEPS = tuple((theory, step) for theory, each in THEORIES.items() for step in each.steps)
@@ -122,6 +123,8 @@ def walked(theory: str, sources: Sources, random: Random) -> tuple[list[str], di
                 raise
             except ERRORS:
                 return [], None  # who moves trains looked up what such a layout does not say; no step did
+        elif kind < JOLTED + THINNED + QUESTIONED:
+            going = moves.questioned(place, sources, random)
         else:
             going = moves.numbered(random.randrange(2**31), sources, LAYOUTS)
         return [step for step, _ in going.play.taken], None
