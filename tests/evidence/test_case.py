@@ -50,6 +50,8 @@ def faults(case: Case) -> list[str]:
     claimed = {label for claim in case.claims for label in claim.requirements}
     found += [f"{label}: a requirement that no claim names" for label in sorted(labels - claimed)]
     found += [f"{label}: no requirement" for label in sorted(claimed - labels)]
+    numbers = Counter(each.number for each in (*case.claims, *case.hazards, *case.limits))
+    found += [f"{number} stands {count} times" for number, count in numbers.items() if count > 1]
     return found + circles(case)
 
 
@@ -78,11 +80,12 @@ def test_every_safety_invariant_is_claimed() -> None:
         ("| `mutate` |", "| |", "C13 rests on nothing"),
         ("| `mutate` |", "| `wishes` |", "C13 names the evidence wishes, which no command produces"),
         ("`prove:interlocking.no_open_flank`", "", "prove:interlocking.no_open_flank: evidence that no claim uses"),
-        ("| C13 | The", "| C15 | The", "H12 names C13, which is no claim"),
+        ("| C13 | The", "| C97 | The", "H12 names C13, which is no claim"),
         ("`world.detection_is_true` `", "`", "world.detection_is_true: an assumption that is not stated"),
         ("## 5.", "| C99 | All is well | T1 | `test` | – |\n\n## 5.", "C99 answers no hazard"),
         ("T9 T10 | `prove", "T9 | `prove", "T10: a requirement that no claim names"),
         ("| T1 | `mutate` |", "| T1 | C1 |", "C13 rests on itself"),
+        ("| C13 | The", "| C12 | The", "C12 stands 2 times"),
     ],
 )
 def test_what_is_changed_in_it_is_noticed_by_name(old: str, new: str, said: str, tmp_path: Path) -> None:
