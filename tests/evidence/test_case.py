@@ -50,7 +50,11 @@ def faults(case: Case) -> list[str]:
     claimed = {label for claim in case.claims for label in claim.requirements}
     found += [f"{label}: a requirement that no claim names" for label in sorted(labels - claimed)]
     found += [f"{label}: no requirement" for label in sorted(claimed - labels)]
-    numbers = Counter(each.number for each in (*case.claims, *case.hazards, *case.limits))
+    numbers = Counter(
+        [each.number for each in case.claims]
+        + [each.number for each in case.hazards]
+        + [each.number for each in case.limits]
+    )
     found += [f"{number} stands {count} times" for number, count in numbers.items() if count > 1]
     return found + circles(case)
 
