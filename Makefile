@@ -114,7 +114,7 @@ bench: setup
 # A second opinion on the lifter: contracts checked on the real bytecode.
 crosshair: $(VENV)/.crosshair $(VENV)/.project
 	@mkdir -p out
-	$(BIN)/crosshair check --analysis_kind=asserts --report_all --per_condition_timeout=10 $(CONTRACTS) \
+	$(BIN)/crosshair check --analysis_kind=asserts --report_all --per_condition_timeout=60 $(CONTRACTS) \
 		> out/crosshair.txt || { cat out/crosshair.txt; exit 1; }
 	@cat out/crosshair.txt
 

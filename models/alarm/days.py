@@ -29,11 +29,6 @@ def one_day(
     return out
 
 
-def simulate(seed: int, days: range) -> Numbers:
-    """Simulate days: a row for each, a column for each of ``SYSTEM.columns``."""
-    return np.array([one_day(seed, day) for day in days], np.int64).reshape(len(days), len(COLUMNS))
-
-
 SYSTEM = System(
     name="alarm",
     claims=CLAIMS,
@@ -43,6 +38,6 @@ SYSTEM = System(
     prices=PRICES,
     counts=COUNTS,
     hours=float(HOURS),
-    simulate=simulate,
+    one_day=one_day,
 )
 """The track worker's alarm on a local line (004)."""

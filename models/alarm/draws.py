@@ -121,7 +121,7 @@ def _windows(
         train[kind] = random.integers(REGULAR)
         if fault.name in OF_A_TRAIN:
             at = int(departs_s[train[kind]]) + random.integers(JOURNEY_S)
-        size[kind] = random.integers(fault.least, fault.most + 1) * (1 if random.random() < 0.5 else -1)
+        size[kind] = random.integers(int(fault.least), int(fault.most) + 1) * (1 if random.random() < 0.5 else -1)
         if happens or fault.name in beyond:
             begin[kind], end[kind] = at, at + long
     return begin, end, train, size

@@ -1,33 +1,8 @@
-"""Faults of a day as data: how often, how long, how large, and where that is from (A1, A2, A8).
-
-Those within what is assumed are drawn every day by their chance.  Those beyond it are drawn only when named: they break
-an assumption of the proofs, and the campaign has to see it.
-"""
+"""Faults of a day of a track worker (A1, A2, A8); see :mod:`models.days.faults`."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Fault:
-    """One fault: at most once a day, of one train or of the handset, at any time.
-
-    ``chance``: of a day.  ``least_s`` to ``most_s``: how long.  ``least`` to ``most``: how large, in ``unit``.
-    ``breaks``: the assumption that it breaks, none where the alarm has to live with it.
-    """
-
-    name: str
-    says: str
-    chance: float
-    least_s: int
-    most_s: int
-    unit: str
-    least: int
-    most: int
-    source: str
-    breaks: str = ""
-
+from models.days.faults import Fault
 
 FAULTS = (
     Fault("gps_out", "a train's GPS gave no fix", 0.5, 20, 900, "-", 0, 0, "practice: antenna, leaves, deep cuttings"),

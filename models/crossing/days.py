@@ -31,11 +31,6 @@ def one_day(seed: int, day: int, beyond: tuple[str, ...] = (), decides: Any = de
     return out
 
 
-def simulate(seed: int, days: range) -> Numbers:
-    """Simulate days: a row for each, a column for each of ``SYSTEM.columns``."""
-    return np.array([one_day(seed, day) for day in days], np.int64).reshape(len(days), len(COLUMNS))
-
-
 SYSTEM = System(
     name="crossing",
     claims=CLAIMS,
@@ -45,6 +40,6 @@ SYSTEM = System(
     prices=PRICES,
     counts=COUNTS,
     hours=float(len(HOURS)),
-    simulate=simulate,
+    one_day=one_day,
 )
 """Constant warning time by radio ranging (003)."""

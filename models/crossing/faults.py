@@ -1,33 +1,8 @@
-"""Faults of a day at a crossing as data: how often, how long, how large, and where that is from (X1, X3, T14).
-
-Those within what is assumed are drawn each day by their chance.  Those beyond it are drawn only when named: they break
-an assumption of the proofs, and the campaign has to see it.
-"""
+"""Faults of a day at a crossing (X1, X3, T14); see :mod:`models.days.faults`."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-
-@dataclass(frozen=True)
-class Fault:
-    """One fault: for some time of a day, or of one train.
-
-    ``chance``: of a day.  ``least_s`` to ``most_s``: how long.  ``least`` to ``most``: how large, in ``unit``.
-    ``breaks``: the assumption that it breaks, none where the crossing has to live with it.
-    """
-
-    name: str
-    says: str
-    chance: float
-    least_s: int
-    most_s: int
-    unit: str
-    least: float
-    most: float
-    source: str
-    breaks: str = ""
-
+from models.days.faults import Fault
 
 FAULTS = (
     Fault("radio_out", "no ranging of any train", 0.3, 3, 300, "-", 0, 0, "practice: interference in 2.4 GHz"),

@@ -21,7 +21,7 @@ class System:
     ``monitors``: what the machines noticed.  ``faults``: those drawn.  ``prices``: what it costs to be on the safe
     side, with units.  ``counts``: the rest.
     ``hours``: of traffic in a day.
-    ``simulate``: from a seed and the numbers of days to their rows; a day is the same in whatever range it stands.
+    ``one_day``: from a seed and the number of a day to its row; nothing else has a say in it.
     """
 
     name: str
@@ -32,9 +32,13 @@ class System:
     prices: Mapping[str, str]
     counts: Mapping[str, str]
     hours: float
-    simulate: Callable[[int, range], Numbers] = field(repr=False)
+    one_day: Callable[[int, int], Numbers] = field(repr=False)
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Every column's name, in order."""
         return (*self.claims, *self.assumptions, *self.monitors, *self.faults, *self.prices, *self.counts)
+
+    def simulate(self, seed: int, days: range) -> Numbers:
+        """Simulate days: a row for each, a column for each of ``columns``."""
+        return np.array([self.one_day(seed, day) for day in days], np.int64).reshape(len(days), len(self.columns))

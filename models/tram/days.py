@@ -165,13 +165,6 @@ def one_day(
     return traffic.row, day, traffic.log
 
 
-def simulate(seed: int, days: range) -> Numbers:
-    """Simulate days; a day is the same in whatever range it stands."""
-    if not days:
-        return np.zeros((0, len(tally.COLUMNS)), np.int64)
-    return np.stack([one_day(seed, number)[0] for number in days])
-
-
 SYSTEM = System(
     name="tram",
     claims=tally.CLAIMS,
@@ -181,6 +174,6 @@ SYSTEM = System(
     prices=tally.PRICES,
     counts=tally.COUNTS,
     hours=HOURS,
-    simulate=simulate,
+    one_day=lambda seed, number: one_day(seed, number)[0],
 )
 """One way of a tram line with a centre, stations and units (G2 to G6)."""

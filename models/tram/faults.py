@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,9 +58,8 @@ def draw(chance: np.random.Generator, present: frozenset[str] | None = None) -> 
     return drawn
 
 
-@dataclass(frozen=True)
-class Where:
-    """Where and when a day's faults are: stops, trams, and seconds of the day."""
+class Where(NamedTuple):
+    """Where and when a day's faults are: stops, trams, and seconds of the day; compiled code takes it as it is."""
 
     canyon_mm: int
     outage_s: int

@@ -10,7 +10,7 @@ from kernel.tram.dispatching import DispatchLimits
 from kernel.tram.stopping import StopLimits
 from models.compiled import packed
 from models.tram import faults, line
-from models.tram.faults import FAULTS, Where
+from models.tram.faults import FAULTS
 from models.tram.gps import BOUND_MM, Floats
 from models.tram.line import Whole
 
@@ -62,25 +62,6 @@ class Given(NamedTuple):
     plant: int
 
 
-class Places(NamedTuple):
-    """:class:`models.tram.faults.Where`, for compiled code."""
-
-    canyon_mm: int
-    outage_s: int
-    station: int
-    deaf_tram: int
-    deaf_s: int
-    slow_s: int
-    speed_tram: int
-    speed_s: int
-    broken_tram: int
-    broken_s: int
-    heedless_tram: int
-    depot_s: int
-    destination_tram: int
-    frames_lost: float
-
-
 def given(
     chance: np.random.Generator,
     limits: DispatchLimits = LIMITS,
@@ -91,7 +72,7 @@ def given(
     day = line.draw(chance)
     drawn = faults.draw(chance, present)
     assert list(drawn) == list(FAULTS)
-    where: Where = faults.place(chance, int(day.stops_mm[-1]))
+    where = faults.place(chance, int(day.stops_mm[-1]))
     return Given(
         stops_mm=day.stops_mm,
         boards_a_second=day.boards_a_second,
@@ -100,7 +81,7 @@ def given(
         leaves_at=day.leaves_at,
         is_peak=np.array([line.is_peak(hour * 3_600) for hour in range(30)], np.int64),
         limits=packed(limits),
-        where=Places(**vars(where)),
+        where=where,
         canyon_mm=round(1_000 * drawn["canyon"]),
         outage_s=round(drawn["gps_outage"]),
         station_deaf=drawn["station_deaf"],

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
-    AlarmBounds,
     Direction,
     TrainFix,
     WorkerFix,
@@ -13,15 +12,8 @@ from kernel.alarm.distance import (
     nearest_um,
     older_ms,
 )
+from models.alarm.line import BOUNDS
 
-BOUNDS = AlarmBounds(
-    train_mm_s=27_000,
-    worker_mm_s=2_000,
-    length_mm=60_000,
-    train_error_mm=20_000,
-    worker_error_mm=15_000,
-    turning_ms=30_000,
-)
 WORKER = WorkerFix(place_mm=0, age_ms=0)
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from kernel.alarm.distance import AlarmBounds, Direction, TrainFix, WorkerFix
+from kernel.alarm.distance import Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import (
     Display,
-    Freshness,
     Handset,
     Known,
     NoUse,
@@ -23,18 +22,11 @@ from kernel.alarm.tone import (
     nearest_by_display_um,
     tone,
 )
+from models.alarm.line import BOUNDS, FRESH
 
-BOUNDS = AlarmBounds(
-    train_mm_s=27_000,
-    worker_mm_s=2_000,
-    length_mm=60_000,
-    train_error_mm=20_000,
-    worker_error_mm=15_000,
-    turning_ms=30_000,
-)
 REGISTER = Register(
     BOUNDS,
-    Freshness(fix_ms=10_000, display_ms=12_000, server_ms=8_000, worker_ms=5_000),
+    FRESH,
     display_error_mm=10_000,
     tolerance_mm=50_000,
     sections={},

@@ -11,7 +11,7 @@ import pytest
 
 from kernel.alarm.tone import Tone
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
-from models.alarm.days import SYSTEM, one_day, simulate
+from models.alarm.days import SYSTEM, one_day
 from models.alarm.draws import HOURS, SECONDS, drawn
 from models.alarm.faults import BEYOND, FAULTS, WITHIN
 from models.alarm.line import REGISTER, REGULAR
@@ -37,11 +37,13 @@ def test_columns_are_the_systems() -> None:
 
 
 def test_days_in_two_batches_are_those_of_one_and_no_claim_is_broken() -> None:
-    whole = simulate(SEED, range(7, 13))
-    assert np.array_equal(whole, np.concatenate([simulate(SEED, range(7, 9)), simulate(SEED, range(9, 13))]))
+    whole = SYSTEM.simulate(SEED, range(7, 13))
+    assert np.array_equal(
+        whole, np.concatenate([SYSTEM.simulate(SEED, range(7, 9)), SYSTEM.simulate(SEED, range(9, 13))])
+    )
     assert not np.array_equal(whole[0], whole[1])
-    assert not np.array_equal(whole[0], simulate(SEED + 1, range(7, 8))[0])
-    assert simulate(SEED, range(0)).shape == (0, len(COLUMNS))
+    assert not np.array_equal(whole[0], SYSTEM.simulate(SEED + 1, range(7, 8))[0])
+    assert SYSTEM.simulate(SEED, range(0)).shape == (0, len(COLUMNS))
     assert total(whole, CLAIMS) == 0
     assert total(whole, ASSUMPTIONS) == 0
     assert (whole[:, NUMBER["seconds"]] == SECONDS).all()

@@ -14,7 +14,7 @@ from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, Due, Train
 from models.compiled import packed, unpacked
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
-from models.crossing.days import SYSTEM, one_day, simulate
+from models.crossing.days import SYSTEM, one_day
 from models.crossing.faults import FAULTS
 from models.crossing.made import MADE, NO_DUES
 from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
@@ -44,7 +44,7 @@ def days(count: int, **planted: Any) -> Numbers:
 
 
 def test_no_claim_breaks_and_no_assumption_does() -> None:
-    rows = simulate(5, range(12))
+    rows = SYSTEM.simulate(5, range(12))
     assert counted(rows, CLAIMS) == {}
     assert counted(rows, ASSUMPTIONS) == {}
     assert (rows[:, NUMBER["arrivals"]] > 400).all()
@@ -55,9 +55,9 @@ def test_no_claim_breaks_and_no_assumption_does() -> None:
 
 
 def test_a_day_is_the_same_in_whatever_batch() -> None:
-    whole = simulate(7, range(4))
-    assert (np.concatenate([simulate(7, range(1)), simulate(7, range(1, 4))]) == whole).all()
-    assert (simulate(8, range(4)) != whole).any()
+    whole = SYSTEM.simulate(7, range(4))
+    assert (np.concatenate([SYSTEM.simulate(7, range(1)), SYSTEM.simulate(7, range(1, 4))]) == whole).all()
+    assert (SYSTEM.simulate(8, range(4)) != whole).any()
 
 
 @pytest.mark.parametrize("name", BROKEN_BY)

@@ -49,11 +49,11 @@ def contracts(*files: Path) -> set[Place]:
 
 
 def verdicts(files: Sequence[Path]) -> dict[Place, str]:
-    """What CrossHair says of every contract; each is given 10 s, as `make crosshair` does."""
+    """What CrossHair says of every contract; each is given a minute, as `make crosshair` does."""
     check = (sys.executable, "-m", "crosshair", "check")
-    options = ("--analysis_kind=asserts", "--report_all", "--per_condition_timeout=10")
+    options = ("--analysis_kind=asserts", "--report_all", "--per_condition_timeout=60")
     told = subprocess.run(
-        [*check, *options, *map(str, files)], cwd=ROOT, capture_output=True, text=True, timeout=600, check=False
+        [*check, *options, *map(str, files)], cwd=ROOT, capture_output=True, text=True, timeout=1_800, check=False
     )
     lines = told.stdout.splitlines()
     found = [match for line in lines if (match := LINE.match(line))]

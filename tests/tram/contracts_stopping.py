@@ -26,8 +26,9 @@ def nothing_goes_back(left: bool, stands: bool, place_mm: int, speed_mm_s: int, 
 def who_stands_is_slow_and_near(left: bool, stands: bool, place_mm: int, speed_mm_s: int) -> None:
     """Below 5 km/h, and no farther from its stop than places are held (G2)."""
     assert after(left, stands, place_mm, speed_mm_s).stands
+    now = after(left, stands, place_mm, speed_mm_s)
     assert speed_mm_s < 1_389
-    assert -50_000 <= place_mm - (HERE_MM if after(left, stands, place_mm, speed_mm_s).stop == 5 else NEXT_MM) <= 50_000
+    assert -50_000 <= place_mm - (HERE_MM if now.stop == 5 else NEXT_MM) <= 50_000
 
 
 def a_standing_tram_is_held(place_mm: int, speed_mm_s: int) -> None:

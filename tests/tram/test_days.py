@@ -17,7 +17,7 @@ from kernel.tram.dispatching import Known, Report
 from models.compiled import packed, unpacked
 from models.tram import given as plan
 from models.tram import tally
-from models.tram.days import SYSTEM, one_day, simulate
+from models.tram.days import SYSTEM, one_day
 from models.tram.deciding import hear_report, may_take_up, view_of
 from models.tram.faults import FAULTS
 from models.tram.given import LIMITS
@@ -37,14 +37,14 @@ def column(rows: Any, name: str) -> int:
 @cache
 def ten_days() -> Any:
     """Ten days with drawn faults."""
-    return simulate(7, range(10))
+    return SYSTEM.simulate(7, range(10))
 
 
 def test_a_system_has_its_columns() -> None:
     assert SYSTEM.columns == tally.COLUMNS
     assert len(set(SYSTEM.columns)) == len(SYSTEM.columns) == ten_days().shape[1]
     assert SYSTEM.hours >= 16
-    assert simulate(7, range(0)).shape == (0, len(SYSTEM.columns))
+    assert SYSTEM.simulate(7, range(0)).shape == (0, len(SYSTEM.columns))
 
 
 def test_no_claim_and_no_assumption_is_broken_and_trams_run() -> None:
@@ -56,13 +56,13 @@ def test_no_claim_and_no_assumption_is_broken_and_trams_run() -> None:
 
 
 def test_a_day_is_the_same_in_whatever_batch() -> None:
-    assert (simulate(7, range(3, 6)) == ten_days()[3:6]).all()
-    assert (simulate(7, range(9, 10)) == ten_days()[9:]).all()
-    assert (simulate(8, range(2)) != ten_days()[:2]).any()
+    assert (SYSTEM.simulate(7, range(3, 6)) == ten_days()[3:6]).all()
+    assert (SYSTEM.simulate(7, range(9, 10)) == ten_days()[9:]).all()
+    assert (SYSTEM.simulate(8, range(2)) != ten_days()[:2]).any()
 
 
 def test_faults_are_drawn_by_their_chance() -> None:
-    rows = simulate(7, range(10))
+    rows = SYSTEM.simulate(7, range(10))
     for name in FAULTS:
         assert set(rows[:, SYSTEM.columns.index(f"fault_{name}")]) <= {0, 1}
     assert sum(column(rows, f"fault_{name}") for name in FAULTS) > 10

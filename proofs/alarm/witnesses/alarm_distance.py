@@ -15,20 +15,12 @@ from kernel.alarm.distance import (
     WorkerFix,
 )
 from models.alarm.alarm_distance import Line, Lookout, gap_um
+from models.alarm.line import BOUNDS
 from proofs.alarm.alarm_distance import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
 DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
-BOUNDS = AlarmBounds(
-    train_mm_s=27_000,
-    worker_mm_s=2_000,
-    length_mm=60_000,
-    train_error_mm=20_000,
-    worker_error_mm=15_000,
-    turning_ms=30_000,
-)
-"""A local line: 97 km/h, three cars."""
 SITE = Line(BOUNDS, below_mm=58_000, above_mm=2_000)
 """The antenna is at the front of a train that runs down."""
 WORKER_MM = 5_000_000

@@ -20,15 +20,14 @@ from kernel.alarm.tone import (
     Tone,
 )
 from models.alarm.alarm_tone import Body, Heard, Railway, gap_um, has_departed
+from models.alarm.line import BOUNDS, FRESH
 from proofs.alarm.witnesses import one_decision
 from proofs.alarm.witnesses.worksite import (
     ALARM,
-    BOUNDS,
     CAUTION,
     DOWN,
     FAULT,
     FIRST,
-    FRESH,
     KM,
     NORMAL,
     OTHER,

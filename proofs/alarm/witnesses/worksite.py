@@ -10,7 +10,6 @@ from kernel.alarm.distance import (
     NO_TRAIN_FIX,
     NO_WORKER_FIX,
     UM_A_MM,
-    AlarmBounds,
     Direction,
     TrainFix,
     WorkerFix,
@@ -18,7 +17,6 @@ from kernel.alarm.distance import (
 from kernel.alarm.tone import (
     NO_DISPLAY,
     Display,
-    Freshness,
     Handset,
     Known,
     NoUse,
@@ -29,20 +27,12 @@ from kernel.alarm.tone import (
     Train,
 )
 from models.alarm.alarm_tone import Body, Heard, Railway, Worksite
+from models.alarm.line import BOUNDS, FRESH
 from proofs.alarm.alarm_tone import THEORY
 from proofs.onboard.witnesses.play import Play
 
 DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
 ALARM, FAULT, CAUTION, NORMAL = Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL
-BOUNDS = AlarmBounds(
-    train_mm_s=27_000,
-    worker_mm_s=2_000,
-    length_mm=60_000,
-    train_error_mm=20_000,
-    worker_error_mm=15_000,
-    turning_ms=30_000,
-)
-FRESH = Freshness(fix_ms=10_000, display_ms=12_000, server_ms=8_000, worker_ms=5_000)
 TUNNEL, YARD, SIDING = Section("tunnel"), Section("yard"), Section("siding")
 KM = 1_000_000
 REGISTER = Register(

@@ -16,12 +16,12 @@ from models.days.system import Numbers, System
 CLAIMS, MONITORS, FAULTS = {"late": "warned late"}, {"silent": "a link was silent"}, {"fault_outage": "an outage"}
 
 
-def simulated(seed: int, numbers: range) -> Numbers:
+def one_day(seed: int, number: int) -> Numbers:
     """A day breaks its claim if its number is the seed."""
-    return np.array([[int(day == seed), day % 2, day % 3] for day in numbers], np.int64)
+    return np.array([int(number == seed), number % 2, number % 3], np.int64)
 
 
-SYSTEM = System("crossing", CLAIMS, {}, MONITORS, FAULTS, {}, {}, 16.0, simulated)
+SYSTEM = System("crossing", CLAIMS, {}, MONITORS, FAULTS, {}, {}, 16.0, one_day)
 
 
 @pytest.fixture(autouse=True)
