@@ -184,16 +184,14 @@ def draw(
     * `heisoku draw layouts/passing_station.toml -o out/station.svg`
     * `heisoku draw layouts/passing_station.toml -o out/station.svg --route "W to 1"`
     """
-    from models.layouts import BadInput, load
     from models.layouts import draw as draw_layout
+    from models.layouts import load
 
     writable(output)
-    try:
+    with bad_input_refused():
         imported = load(layout)
         shown = imported.longest_route if route is None else route
         picture = draw_layout(imported, shown)
-    except BadInput as bad:
-        raise Refused(str(bad)) from bad
     write_whole(output, picture.encode())
     drawn = imported.layout
     counts = f"{len(drawn.blocks)} blocks, {len(drawn.points)} points, {len(drawn.tag_in)} tags drawn"
@@ -309,6 +307,9 @@ def days(
     seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
     jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
     json: Json = None,
+    keep: Annotated[
+        Path | None, typer.Option(metavar="F", help="Keep days there, and go on from it.", show_default=False)
+    ] = None,
 ) -> None:
     """Simulate whole days of a system with faults, and hold what its machines decide against the truth.
 
@@ -316,16 +317,18 @@ def days(
 
     Examples:
 
-    * `heisoku days crossing --days 20`
+    * `heisoku days crossing --days 20 --keep out/crossing.days`
     """
     from models.days.campaign import live_all, outcome
+    from models.days.kept import KeptDays
     from models.days.report import print_outcome, record
     from models.days.systems import system_of
 
-    writable(json)
-    out = console()
-    with progress("days") as step:
-        found = outcome(system_of(system.value), live_all(system.value, seed, days, jobs, step))
+    writable(json, keep)
+    out, whose = console(), system_of(system.value)
+    with bad_input_refused(), progress("days") as step:
+        kept = KeptDays(keep, whose, seed) if keep else None
+        found = outcome(whose, live_all(whose.name, seed, days, jobs, step, kept))
     print_outcome(out, found)
     if json:
         write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
@@ -380,14 +383,10 @@ def replay(
     * `heisoku replay trace.json --html out/trace.html --json out/replay.json`
     """
     from fuzz.failures.command import replay_file
-    from models.layouts import BadInput
 
     writable(html, json)
-    try:
-        with progress("replaying") as step:
-            found = replay_file(trace, html is not None, step)
-    except BadInput as bad:
-        raise Refused(str(bad)) from bad
+    with bad_input_refused(), progress("replaying") as step:
+        found = replay_file(trace, html is not None, step)
     raise typer.Exit(found.report(console(), html, json))
 
 
@@ -421,6 +420,17 @@ def console(file: TextIO | None = None) -> Console:
 def complain(line: str) -> None:
     """One line on standard error."""
     print(printable(line), file=sys.stderr)
+
+
+@contextmanager
+def bad_input_refused() -> Iterator[None]:
+    """Tell of a file that cannot be used in one line."""
+    from models.layouts import BadInput
+
+    try:
+        yield
+    except BadInput as bad:
+        raise Refused(str(bad)) from bad
 
 
 def writable(*paths: Path | None) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from models.days.kept import KeptDays
 from models.days.system import Numbers, System
 from models.days.systems import system_of
 from models.processes import spread
@@ -66,15 +67,25 @@ def lived(batch: Batch) -> Numbers:
 
 
 def live_all(
-    name: str, seed: int, days: int, jobs: int, progress: Callable[[int, int, str], object] = lambda *_: None
+    name: str,
+    seed: int,
+    days: int,
+    jobs: int,
+    progress: Callable[[int, int, str], object] = lambda *_: None,
+    kept: KeptDays | None = None,
 ) -> Numbers:
-    """Simulate a campaign; a row for each day, in order."""
-    todo = [Batch(name, seed, range(first, min(first + DAYS_A_BATCH, days))) for first in range(0, days, DAYS_A_BATCH)]
-    rows = []
+    """Simulate a campaign; a row for each day, in order.  Batches that are kept already are not simulated again."""
+    batches = [range(first, min(first + DAYS_A_BATCH, days)) for first in range(0, days, DAYS_A_BATCH)]
+    rows = {batch: found for batch in batches if kept and (found := kept.rows(batch)) is not None}
+    todo = [Batch(name, seed, batch) for batch in batches if batch not in rows]
+    done = sum(map(len, rows))
     for batch, found in zip(todo, spread(lived, todo, jobs), strict=True):
-        rows.append(found)
-        progress(batch.days.stop, days, name)
-    return np.concatenate(rows)
+        rows[batch.days] = found
+        if kept:
+            kept.keep(batch.days, found)
+        done += len(found)
+        progress(done, days, name)
+    return np.concatenate([rows[batch] for batch in batches])
 
 
 def outcome(system: System, rows: Numbers) -> Outcome:
