@@ -1,6 +1,7 @@
 # make assure   prove the kernel, check the sample layouts, ride trains, live days, reproduce the papers, drop guards,
 #               fuzz briefly; write the records and the report under out/
 # make mutants  drop every guard, condition and update, one after the other
+# make record   all of it at the size of the record, for a night: every mutant, certificate, five seeds, 10,000 days
 # make days     whole days of crossing, trams and track workers; DAYS=10000 for the record
 # make fuzz     a campaign on the sample layouts; BATCHES=1000 for more, heisoku fuzz --hours for a night
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
@@ -17,6 +18,8 @@ BIN    := $(VENV)/bin
 PIP    := $(BIN)/python -m pip --disable-pip-version-check
 LAYOUTS := $(sort $(wildcard layouts/*.toml))
 SOLVER ?= both
+# Every obligation is asked at so many seeds.
+SEEDS  ?= 1
 TESTS  ?= tests
 CONTRACTS := $(sort $(wildcard tests/contracts_*.py tests/*/contracts_*.py))
 # Tests run on this many processes.
@@ -27,23 +30,37 @@ SYSTEMS := crossing tram alarm
 PAPERS := 000 001 002 003 004
 # So many mutants are tried by make assure; make mutants tries all.
 MUTANTS ?= 100
+# The same of obligations with certificates; make certificates makes all.
+CERTIFICATES ?= 150
 BEYOND ?= 128
 BATCHES ?= 8
 
 .DELETE_ON_ERROR:
-.PHONY: help assure prove check ride days fuzz beyond papers mutate mutants report test lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants report test lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
 
 # ---- what it is for
 
-assure: prove check ride days papers mutate fuzz report
+assure: prove certify check ride days papers mutate fuzz report
+
+# The parts one after the other, each at its whole size; the report last.
+record:
+	$(MAKE) prove SEEDS=5
+	$(MAKE) certificates check
+	$(MAKE) ride RIDES=112000
+	$(MAKE) beyond BEYOND=1024
+	$(MAKE) days DAYS=10000
+	$(MAKE) papers mutants
+	$(MAKE) fuzz BATCHES=1000
+	$(MAKE) crosshair test
+	$(MAKE) report
 
 prove: setup
 	@mkdir -p out
 	rm -rf out/obligations
-	$(BIN)/heisoku prove --solver $(SOLVER) --json out/prove.json --junit out/prove.xml --keep out/obligations
+	$(BIN)/heisoku prove --solver $(SOLVER) --seeds $(SEEDS) --json out/prove.json --junit out/prove.xml --keep out/obligations
 
 check: setup
 	@mkdir -p out
@@ -67,13 +84,21 @@ beyond: setup
 days: setup
 	@mkdir -p out
 	set -e; for system in $(SYSTEMS); do \
-		$(BIN)/heisoku days $$system --days $(DAYS) --json out/days-$$system.json; done
+		$(BIN)/heisoku days $$system --days $(DAYS) --keep out/$$system.days --json out/days-$$system.json; done
 
 # A paper's figure that ours does not meet is told in the report and ends nothing here.
 papers: setup
 	@mkdir -p out
 	set -e; for paper in $(PAPERS); do \
 		$(BIN)/heisoku reproduce $$paper -o out/$$paper --json out/$$paper.json || test $$? -eq 1; done
+
+certify: setup
+	@mkdir -p out
+	$(BIN)/heisoku certify --sample $(CERTIFICATES) --json out/certificates.json
+
+certificates: setup
+	@mkdir -p out
+	$(BIN)/heisoku certify --json out/certificates.json
 
 mutate: setup
 	@mkdir -p out

@@ -24,6 +24,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from evidence.manifest.command import manifest, verify
 from evidence.report.command import report
 from fuzz.campaign.command import fuzz
+from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
 from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json, write_whole
 
@@ -232,8 +233,9 @@ def reproduce(
         raise Refused(f"{output}: is not a folder; name another")
     writable(json, output / "tables.txt" if output else None)
     described = PAPERS[paper.value]
+    runs = runs or described.runs
     with progress(f"paper {paper.value}") as step:
-        found = described.reproduce(seed, runs or described.runs, step)
+        found = described.reproduce(seed, runs, step)
     out = console()
     show(out, found)
     if output:
@@ -242,7 +244,7 @@ def reproduce(
             write_whole(output / f"{picture.name}.png", png(picture))
         print_line(out, f"{output}: {len(found.pictures)} pictures and the tables")
     if json:
-        write_json(json, {**found.record(), "versions": versions(), "commit": commit()})
+        write_json(json, {**found.record(), "runs": runs, "versions": versions(), "commit": commit()})
     counts = ", ".join(f"{count:,} {what}" for what, count in found.counts.items())
     print_line(out, f"{counts}: {found.verdict}")
     raise typer.Exit(HOLDS if found.verdict == CHECKED[HOLDS] else DOES_NOT_HOLD)
@@ -357,11 +359,8 @@ def handset(
     print_line(console(), f"{output}: {minutes} minutes of day {day} with seed {seed}")
 
 
-app.command()(fuzz)
-app.command()(mutate)
-app.command()(manifest)
-app.command()(report)
-app.command()(verify)
+for elsewhere in (certify, fuzz, mutate, manifest, report, verify):
+    app.command()(elsewhere)
 
 
 @app.command()

@@ -72,6 +72,12 @@ def catalogue() -> Mapping[str, Evidence]:
         Evidence(
             "fuzz", "faulty traffic through the kernel, every invariant after each step", "make fuzz", "fuzz.json"
         ),
+        Evidence(
+            "certify",
+            "each obligation with a proof whose every step was checked",
+            "heisoku certify --json out/certificates.json",
+            "certificates.json",
+        ),
         Evidence("mutate", "what becomes of the proofs when a guard is dropped", "heisoku mutate", "mutate.json"),
         Evidence("crosshair", "contracts of machines on the bytecode that runs", "make crosshair", "crosshair.txt"),
         Evidence("test", "tests of the kernel, the lifter and everything else", "make test", "test.xml"),

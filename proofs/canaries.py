@@ -71,7 +71,7 @@ def seen(asked: Sequence[str]) -> list[CanarySeen]:
 def _seen(solver: str, budget: int) -> tuple[CanarySeen, ...]:
     """Put every canary to one solver; asked once a process and budget."""
     assert budget == BUDGET[solver]
-    return tuple(_asked(solver, canary, part) for canary, part in _laid_out())
+    return tuple(_asked(solver, canary, part) for canary, part in laid_out())
 
 
 def _asked(solver: str, canary: Canary, part: Part) -> CanarySeen:
@@ -88,8 +88,8 @@ def _asked(solver: str, canary: Canary, part: Part) -> CanarySeen:
 
 
 @cache
-def _laid_out() -> tuple[tuple[Canary, Part], ...]:
-    """Lay the canaries out, lifted apart from everything that is to be proved."""
+def laid_out() -> tuple[tuple[Canary, Part], ...]:
+    """Every canary and its question, lifted apart from everything that is to be proved."""
     return tuple(_parts())
 
 

@@ -145,6 +145,7 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
         "",
         *(f"{theory}: {counted(obligations)}" for theory, obligations in theories.items() if len(theories) > 1),
         counted(report.obligations),
+        *_empty(cells),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
         *on_canaries(report.canaries),
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
@@ -153,6 +154,12 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
     if split:
         lines.insert(-1, f"{split} obligations on which solvers or seeds differ")
     return lines
+
+
+def _empty(cells: Cells) -> list[str]:
+    """How many cells there are in which nothing was asked."""
+    empty = sum(all("note" in answer for answer in cell) for cell in cells.values())
+    return [f"in {empty} of them nothing is looked up, so nothing was asked"] * bool(empty)
 
 
 def on_canaries(seen: Sequence[CanarySeen]) -> list[str]:

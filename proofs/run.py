@@ -21,6 +21,7 @@ from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.workbench import Part, Workbench
 
 ROOT = Path(__file__).resolve().parent.parent
+NOTHING_TO_ASK = "nothing is asked: nothing is looked up there"
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,10 @@ def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], dig
     replies = [solvers.ask(solver, part, seed) for part in asked]
     answers = {reply.answer for reply in replies}
     verdict: Verdict = "refuted" if "sat" in answers else "proved" if answers <= {"unsat"} else "undecided"
-    return {
+    empty = not asked
+    if empty and column != EVERY_LOOKUP_IS_DEFINED and theory_of(row)[1] != READING:
+        verdict = "undecided"
+    told: Obligation = {
         "transition": row,
         "invariant": column,
         "hypotheses": scripts.hypotheses(row, column),
@@ -99,6 +103,7 @@ def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], dig
         "smt2_sha256": digest,
         "source": source(row, column),
     }
+    return {**told, "note": NOTHING_TO_ASK} if empty else told
 
 
 def work(task: Task) -> tuple[list[Obligation], float]:

@@ -159,6 +159,25 @@ def _mutated(record: Kept, which: str) -> tuple[Came, str]:
     return "holds", says
 
 
+def _certified(record: Kept, which: str) -> tuple[Came, str]:
+    data, found = record.data, record.data["obligations"]
+    parts, steps, trusted = (sum(each[what] for each in found) for what in ("parts", "steps", "trusted"))
+    checked = sum(each["answer"] == "checked" for each in found)
+    says = (
+        f"{checked:,} of {len(found):,} obligations, {parts:,} proofs of {steps:,} steps, {trusted:,} of them on trust"
+    )
+    says += f", by {data['external']} too" if data["external"] else ", by no external checker"
+    passed = [each["asked"] for each in data["controls"] if not each["refused"]]
+    if any(each["answer"] == "sat" for each in found):
+        return "does not hold", says
+    if passed or not data["controls"]:
+        return "not shown", f"no certificate is believed: {passed[0] if passed else 'no control'} went through"
+    if len(found) < data["of"]:
+        return "not shown", f"{says}; a sample of {data['of']:,}"
+    outside = all(each["external"] in ("", "correct") for each in found)
+    return ("holds" if outside and checked == len(found) and not trusted else "not shown"), says
+
+
 def _confirmed(record: Kept, which: str) -> tuple[Came, str]:
     return judged(record.answers, "conditions", skipping=False)
 
@@ -199,6 +218,7 @@ JUDGES: Mapping[str, Callable[[Kept, str], tuple[Came, str]]] = {
     "reproduce": _reproduced,
     "fuzz": _fuzzed,
     "mutate": _mutated,
+    "certify": _certified,
     "crosshair": _confirmed,
     "test": _tested,
 }

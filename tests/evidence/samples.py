@@ -159,6 +159,13 @@ def mutated() -> dict[str, Any]:
     return {"verdict": "holds", "mutants": [mutant, classed], "of": 2, "seconds": 1.0, "kills": kills, **OF}
 
 
+def certified() -> dict[str, Any]:
+    one = {"row": "braking.init", "column": "the_bounds", "parts": 1, "steps": 9, "trusted": 0, "answer": "checked"}
+    found = [{**one, "smt2_sha256": "0" * 64, "external": ""}]
+    control = {"asked": "a row × a contradiction", "refused": True}
+    return {"verdict": "holds", "obligations": found, "of": 1, "controls": [control], "external": None, **OF}
+
+
 def tests() -> str:
     cases = [f'<testcase classname="tests.onboard.test_theories" name="test_it[{name}]"/>' for name in THEORIES]
     cases += ['<testcase classname="tests.proofs.test_witnesses" name="test_a_witness_goes_as_it_says[one]"/>']
@@ -169,6 +176,7 @@ def write(folder: Path) -> Path:
     """Write one record of each kind; what holds of each is no more than what stands in it."""
     folder.mkdir(parents=True, exist_ok=True)
     records: dict[str, dict[str, Any]] = {"prove.json": proved(), "check.json": checked(), "mutate.json": mutated()}
+    records |= {"certificates.json": certified()}
     records |= {"ride.json": ridden(None), "beyond.json": ridden("diameter_ppm"), "fuzz.json": fuzzed()}
     for each in catalogue().values():
         kind, _, which = each.name.partition(":")

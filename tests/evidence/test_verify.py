@@ -4,24 +4,40 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import typer
 
 from evidence.catalogue import catalogue
 from evidence.manifest import command
-from evidence.manifest.again import Figure, Result, drawn, figures, made_again
+from evidence.manifest.again import Figure, drawn, figures, made_again
+from evidence.manifest.making import Result
 from evidence.records.reading import read
+from models.days.campaign import outcome as days_outcome
+from models.days.kept import KeptDays
+from models.days.report import record as days_record
+from models.days.system import System
 from models.layouts import as_json, check, load
+from models.reproduce import PAPERS
 from models.rides import report
 from models.rides.campaign import ride_all
 from models.rides.tally import outcome
+from proofs.certificates.checking import certified
 from proofs.records import write_json
 from proofs.run import prove_all
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+KINDS = ("obligation", "certificate", "witness", "layout", "ride", "day", "days", "paper", "mutant")
+TRAM = System(
+    "tram", {"late": "late"}, {}, {}, {}, {}, {"departures": "departures"}, 16.0,
+    lambda seed, day: np.array([0, 100 * seed + day], np.int64),
+)  # fmt: skip
+"""Days whose rows are their numbers."""
+CLAIM = "broken_means_a_bound_was_broken"
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +54,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_json(here / "ride.json", report.record(3, {"": outcome(rows[""])}))
     mutant = {"mutant": "kernel.onboard.split.is_intact: and-operand not state.split", "outcome": "counterexample"}
     write_json(here / "mutate.json", {"mutants": [mutant]})
+    write_json(here / "certificates.json", {"obligations": [asdict(certified(("brake_watch.init", CLAIM)))]})
+    write_json(here / "000.json", {**PAPERS["000"].reproduce(4, 1, lambda *_: None).record(), "runs": 1})
+    lived = TRAM.simulate(5, range(3))
+    KeptDays(here / "tram.days", TRAM, 5).keep(range(3), lived)
+    write_json(here / "days-tram.json", days_record(5, days_outcome(TRAM, lived)))
     return here
+
+
+@pytest.fixture(autouse=True)
+def _days_that_take_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The system's own would have to be compiled first."""
+    monkeypatch.setattr("evidence.manifest.making.system_of", lambda name: {"tram": TRAM}[name])
 
 
 def pool(folder: Path) -> list[Figure]:
@@ -52,7 +79,7 @@ def of_kind(folder: Path, kind: str) -> Figure:
 def test_there_is_something_of_each_kind_and_a_draw_takes_of_each(folder: Path) -> None:
     found = pool(folder)
     kinds = {each.kind for each in found}
-    assert kinds == {"obligation", "witness", "layout", "ride", "mutant"}
+    assert kinds == set(KINDS)
     assert {each.kind for each in drawn(found, 1, 12)} == kinds
     assert [each.what for each in drawn(found, 1, 12)] == [each.what for each in drawn(found, 1, 12)]
     draws = {tuple(each.what for each in drawn(found, seed, 12)) for seed in range(6)}
@@ -61,7 +88,7 @@ def test_there_is_something_of_each_kind_and_a_draw_takes_of_each(folder: Path) 
     assert drawn(found, 1, 0) == []
 
 
-@pytest.mark.parametrize("kind", ["obligation", "witness", "layout", "ride", "mutant"])
+@pytest.mark.parametrize("kind", KINDS)
 def test_what_was_made_comes_to_the_same_again(kind: str, folder: Path) -> None:
     result = made_again(of_kind(folder, kind))
     assert result.same, result.says
@@ -69,7 +96,7 @@ def test_what_was_made_comes_to_the_same_again(kind: str, folder: Path) -> None:
 
 def spoiled(folder: Path, to: Path, name: str, at: tuple[Any, ...], values: Mapping[str, Any]) -> Path:
     """Copy the records with one of them edited."""
-    for path in folder.glob("*.json"):
+    for path in [*folder.glob("*.json"), *folder.glob("*.days")]:
         (to / path.name).write_bytes(path.read_bytes())
     record = json.loads((to / name).read_text("utf-8"))
     place = record
@@ -90,6 +117,11 @@ def spoiled(folder: Path, to: Path, name: str, at: tuple[Any, ...], values: Mapp
         ("layout", "check.json", ("layouts", 0, "checked"), {"a_destination_is_covered": 1}, "another checked"),
         ("layout", "check.json", ("layouts", 0), {"file": "layouts/gone.toml"}, "gone.toml"),
         ("ride", "ride.json", ("campaigns", 0, "sums"), {"cycles": 1}, "another sums"),
+        ("certificate", "certificates.json", ("obligations", 0), {"steps": 1}, "another steps"),
+        ("days", "days-tram.json", ("columns", "counts", "departures"), {"all": 1}, "another columns"),
+        ("days", "days-tram.json", (), {"days": 4}, "not each of the days is kept"),
+        ("day", "days-tram.json", (), {"seed": 6}, "seed 5, not 6"),
+        ("paper", "000.json", ("rows", 0), {"ours": "1 m"}, "another ours"),
         ("mutant", "mutate.json", ("mutants", 0), {"outcome": "survived"}, "recorded as survived"),
         ("mutant", "mutate.json", ("mutants", 0), {"mutant": "kernel.gone: guard"}, "no such mutant"),
     ],

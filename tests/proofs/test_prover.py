@@ -392,3 +392,16 @@ def test_what_an_obligation_spends_does_not_depend_on_what_was_done_before() -> 
     again = solvers.ask("z3", part, 0)
     assert first.answer == again.answer == "unsat"
     assert 0 < again.spent < 3 * first.spent, "the terms made between would count four times as much"
+
+
+def test_a_cell_in_which_nothing_is_asked_says_so_and_only_a_look_up_may_be_one() -> None:
+    """Nothing asked is nothing proved: of a claim that is to be kept it decides nothing."""
+    empty = run.settle("cycle.receive", EVERY_LOOKUP_IS_DEFINED, "z3", 0, [], "")
+    assert (empty["verdict"], empty["note"]) == ("proved", run.NOTHING_TO_ASK)
+    kept = run.settle("split.run_a_cycle", "split_is_latched", "z3", 0, [], "")
+    assert (kept["verdict"], kept["note"]) == ("undecided", run.NOTHING_TO_ASK)
+
+
+def test_how_many_cells_ask_nothing_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert heisoku.run(["prove", "--only", "^cycle.receive ", "--jobs", "1"]) == 0
+    assert "in 1 of them nothing is looked up, so nothing was asked" in capsys.readouterr().out

@@ -1,0 +1,127 @@
+"""`heisoku certify`: every obligation with a proof that is written down and checked step by step."""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+from rich.console import Console
+
+from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json
+
+if TYPE_CHECKING:
+    from proofs.certificates.checking import Certified
+
+DRAWN_FROM = 1
+WORDS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecided"}
+
+
+def certify(
+    only: Annotated[
+        str | None,
+        typer.Option(metavar="PATTERN", help='Only obligations, as "row column", that match.', show_default=False),
+    ] = None,
+    sample: Annotated[
+        int | None, typer.Option(metavar="N", min=1, help="Only N of them, always the same.", show_default=False)
+    ] = None,
+    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    json: Annotated[
+        Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)
+    ] = None,
+) -> None:
+    """Have a proof of each obligation written down, and each step of it checked.
+
+    cvc5 writes it and its own checker goes through it; so does ethos where it is installed and HEISOKU_CPC names
+    its rules.  What is no theorem is put to them first.
+
+    Examples:
+    * `heisoku certify --only '^braking'`
+    """
+    from models.processes import spread
+    from proofs.certificates.checking import certified, controls, external
+    from proofs.theories import ROWS, columns
+
+    try:
+        matches = re.compile(only or "")
+    except re.error as error:
+        _refuse(f"--only {only}: not a pattern ({error}); give a part of a name")
+    asked = [(row, column) for row in ROWS for column in columns(row) if matches.search(f"{row} {column}")]
+    if not asked:
+        _refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
+    if json is not None and (json.is_dir() or not json.absolute().parent.is_dir()):
+        _refuse(f"{json}: cannot be written; name another file")
+    there_are = sum(len(columns(row)) for row in ROWS)
+    if sample is not None:
+        chosen = set(random.Random(DRAWN_FROM).sample(asked, min(sample, len(asked))))
+        asked = [each for each in asked if each in chosen]
+    began, refused, found = time.perf_counter(), controls(), list["Certified"]()
+    for one in spread(certified, asked, jobs):
+        found.append(one)
+        if sys.stderr.isatty():
+            print(f"{len(found)}/{len(asked)} {one.answer:14} {one.row} × {one.column}"[:120], file=sys.stderr)
+    checker = external()
+    told = record(found, there_are, refused, checker and checker[0], time.perf_counter() - began)
+    if json:
+        write_json(json, {**told, "only": only, "sample": sample, "versions": versions(), "commit": commit()})
+    out = Console(width=None if sys.stdout.isatty() else 120)
+    for line in lines(told):
+        out.print(line, markup=False, highlight=False, soft_wrap=True)
+    raise typer.Exit(exit_code(told))
+
+
+def _refuse(line: str) -> NoReturn:
+    print("".join(char if char.isprintable() else " " for char in line), file=sys.stderr)
+    raise typer.Exit(BAD_INPUT)
+
+
+def record(
+    found: Sequence[Certified], there_are: int, refused: Sequence[tuple[str, bool]], checker: str | None, seconds: float
+) -> dict[str, Any]:
+    """Give the run as it is written to a file.
+
+    ``there_are``: so many obligations.  ``checker``: the external one, none if there is none.
+    """
+    told = {
+        "obligations": [asdict(each) for each in found],
+        "of": there_are,
+        "controls": [{"asked": name, "refused": was} for name, was in refused],
+        "external": checker,
+        "seconds": round(seconds, 1),
+    }
+    return {"verdict": WORDS[exit_code(told)], **told}
+
+
+def exit_code(told: Mapping[str, Any]) -> int:
+    """0 if each is checked and nothing is taken on trust, 1 if one is refuted, else 3; so too if a control passed."""
+    answers = [each["answer"] for each in told["obligations"]]
+    if "sat" in answers:
+        return DOES_NOT_HOLD
+    doubted = not all(each["refused"] for each in told["controls"]) or not told["controls"]
+    trusted = any(each["trusted"] for each in told["obligations"])
+    outside = any(each["external"] not in ("", "correct") for each in told["obligations"])
+    return UNDECIDED if doubted or trusted or outside or not answers or set(answers) != {"checked"} else HOLDS
+
+
+def lines(told: Mapping[str, Any]) -> list[str]:
+    """What to print: each obligation without a certificate, and the sum."""
+    found = told["obligations"]
+    said = [
+        f"{each['row']} × {each['column']}: {each['answer']}, {each['trusted']} steps on trust"
+        f"{', outside: ' + each['external'] if each['external'] else ''}"
+        for each in found
+        if each["answer"] != "checked" or each["trusted"] or each["external"] not in ("", "correct")
+    ]
+    said += [f"control: {each['asked']}: went through as proved" for each in told["controls"] if not each["refused"]]
+    parts, steps = (sum(each[what] for each in found) for what in ("parts", "steps"))
+    checked = sum(each["answer"] == "checked" for each in found)
+    outside = f"by {told['external']} too" if told["external"] else "no external checker is installed"
+    came = f"{checked:,} of {len(found):,} obligations with {parts:,} proofs of {steps:,} steps checked, {outside}"
+    return [*said, f"{came}; {len(told['controls'])} controls: {told['verdict']}"]
