@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kernel.maps import Map
+from kernel.maps import Map, Members
 from kernel.names import (
     Block,
     Cause,
@@ -75,8 +75,8 @@ class Centre:
     runs: Map[Run, Grant]
     claimed: Map[Block, frozenset[Run]]
     locked: Map[Point, Map[Run, Position]]
-    lost_blocks: frozenset[Block]
-    lost_points: frozenset[Point]
+    lost_blocks: Members[Block]
+    lost_points: Members[Point]
     terminal_life: Map[Point, TerminalLife]
     supervised: frozenset[Train]
     statements: Map[Train, Statement]

@@ -1,11 +1,12 @@
-"""The map that state is kept in: the host supplies it, the kernel only looks up and adds.
+"""The map and the set that state is kept in: the host supplies them, the kernel looks up, adds and takes away.
 
-``dict`` is one; a persistent map with the same operations serves a large network.
+``dict`` and ``frozenset`` are two; persistent ones with the same operations serve a large network.
 """
 
 from __future__ import annotations
 
 from collections.abc import ItemsView, Iterator
+from collections.abc import Set as AbstractSet
 from typing import Any, Protocol, TypeVar, overload
 
 K = TypeVar("K")
@@ -47,4 +48,28 @@ class Map(Protocol[K, V]):
 
     def __or__(self, other: dict[K, V], /) -> Map[K, V]:
         """Give a map with the entries of ``other`` added or put in place of those here."""
+        ...
+
+
+class Members(Protocol[K]):
+    """Things that are in it or not; ``-`` and ``|`` give a new one, the old one stays."""
+
+    def __contains__(self, member: Any, /) -> bool:
+        """Tell whether something is in it."""
+        ...
+
+    def __iter__(self) -> Iterator[K]:
+        """Give what is in it."""
+        ...
+
+    def __len__(self) -> int:
+        """Count what is in it."""
+        ...
+
+    def __sub__(self, other: AbstractSet[Any], /) -> Members[K]:
+        """Give one without what is in ``other``."""
+        ...
+
+    def __or__(self, other: frozenset[K], /) -> Members[K]:
+        """Give one with what is in ``other`` too."""
         ...

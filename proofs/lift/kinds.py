@@ -16,7 +16,7 @@ from enum import Enum
 from functools import cache
 from typing import Any, NewType, TypeAlias
 
-from kernel.maps import Map
+from kernel.maps import Map, Members
 from proofs.lift.errors import OutsideSubset
 
 
@@ -68,7 +68,7 @@ class TupleKind:
 
 @dataclass(frozen=True)
 class SetKind:
-    """``frozenset[T]``."""
+    """``frozenset[T]``, or whatever set the host keeps state in."""
 
     element: Kind
 
@@ -109,7 +109,7 @@ def kind_of_type(annotation: Any, owner: Any = None) -> Kind:
             return OptionKind(kind_of_type(rest[0], owner))
     elif origin is tuple and arguments and Ellipsis not in arguments:
         return TupleKind(tuple(kind_of_type(argument, owner) for argument in arguments))
-    elif origin is frozenset:
+    elif origin in (frozenset, Members):
         return SetKind(_key(arguments[0], owner))
     elif origin in (Mapping, Map):
         return MapKind(_key(arguments[0], owner), kind_of_type(arguments[1], owner))
