@@ -7,7 +7,7 @@
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
 # make beyond   the same with one fault after the other beyond its declared range
 # make papers   the papers' figures beside ours, with pictures
-# make test     ruff, mypy, pytest
+# make test     ruff, mypy, pytest; make slow: tests that take longer, of which these have samples
 # make bench    print the measured figures
 #
 # Needs Python 3.11 or later and make; everything else is installed into .venv, once.
@@ -36,7 +36,7 @@ BEYOND ?= 128
 BATCHES ?= 8
 
 .DELETE_ON_ERROR:
-.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants report test lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants report test slow lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -54,7 +54,7 @@ record:
 	$(MAKE) days DAYS=10000
 	$(MAKE) papers mutants
 	$(MAKE) fuzz BATCHES=1000
-	$(MAKE) crosshair test
+	$(MAKE) crosshair test slow
 	$(MAKE) report
 
 prove: setup
@@ -116,7 +116,11 @@ report: setup
 
 test: lint types
 	@mkdir -p out
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --junit-xml=out/test.xml $(TESTS)
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow" --junit-xml=out/test.xml $(TESTS)
+
+# What takes longer; each has a sample of itself among the tests.
+slow: setup
+	$(BIN)/python -m pytest -n $(JOBS) -m slow $(TESTS)
 
 lint: setup
 	$(BIN)/ruff check .
