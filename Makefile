@@ -6,6 +6,7 @@
 # make fuzz     a campaign on the sample layouts; BATCHES=1000 for more, heisoku fuzz --hours for a night
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
 # make beyond   the same with one fault after the other beyond its declared range
+# make malformed  ten thousand malformed layout files; FILES=1000 for fewer
 # make papers   the papers' figures beside ours, with pictures
 # make test     ruff, mypy, pytest; make slow: tests that take longer, of which these have samples
 # make bench    print the measured figures
@@ -33,10 +34,11 @@ MUTANTS ?= 100
 # The same of obligations with certificates; make certificates makes all.
 CERTIFICATES ?= 150
 BEYOND ?= 128
+FILES  ?= 10000
 BATCHES ?= 8
 
 .DELETE_ON_ERROR:
-.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants report test slow lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -48,14 +50,14 @@ assure: prove certify check ride days papers mutate fuzz report
 # The parts one after the other, each at its whole size; the report last.
 record:
 	$(MAKE) prove SEEDS=5
-	$(MAKE) certificates check
+	$(MAKE) certificates cores check
 	$(MAKE) ride RIDES=112000
 	$(MAKE) beyond BEYOND=1024
 	$(MAKE) days DAYS=10000
 	$(MAKE) papers mutants
 	$(MAKE) fuzz BATCHES=1000
 	$(MAKE) crosshair test slow
-	$(MAKE) report
+	$(MAKE) pdf
 
 prove: setup
 	@mkdir -p out
@@ -104,9 +106,22 @@ mutate: setup
 	@mkdir -p out
 	$(BIN)/heisoku mutate --sample $(MUTANTS) --json out/mutate.json
 
+malformed: setup
+	$(BIN)/python -m tests.layouts.malformed --files $(FILES) --keep out/malformed
+
 mutants: setup
 	@mkdir -p out
 	$(BIN)/heisoku mutate --json out/mutate.json
+
+# Which hypotheses, guards and updates each proof uses; the report tells it both ways.
+cores: setup
+	@mkdir -p out
+	$(BIN)/python -m proofs.cores --json out/cores.json
+
+# The report to be filed; it needs Pango (Debian: libpango-1.0-0, libpangoft2-1.0-0, libharfbuzz-subset0).
+pdf: setup
+	$(BIN)/heisoku report -o out/report.html -o out/report.pdf
+	$(BIN)/heisoku manifest out
 
 report: setup
 	$(BIN)/heisoku report -o out/report.html

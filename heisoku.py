@@ -24,6 +24,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from evidence.manifest.command import manifest, verify
 from evidence.report.command import report
 from fuzz.campaign.command import fuzz
+from models.layouts.export.command import export
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
 from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json, write_whole
@@ -349,7 +350,6 @@ def handset(
     """Write a track worker's handset as one page, fed by a simulated day: tones, trains, both views.
 
     Examples:
-
     * `heisoku handset -o out/handset.html --minutes 20`
     """
     from models.alarm.page.writing import write
@@ -359,7 +359,7 @@ def handset(
     print_line(console(), f"{output}: {minutes} minutes of day {day} with seed {seed}")
 
 
-for elsewhere in (certify, fuzz, mutate, manifest, report, verify):
+for elsewhere in (certify, export, fuzz, mutate, manifest, report, verify):
     app.command()(elsewhere)
 
 

@@ -16,12 +16,19 @@ from evidence.manifest.hashes import ROOT, files, hash_of, sources
 from evidence.pairs import Together, together, unwatched
 from evidence.records.reading import Kept, Records, read
 from evidence.records.showing import Came, Shown, shown
+from evidence.report.cored import RECORD as CORES
+from evidence.report.cored import Cored, cored
 from evidence.report.goals import WORST, Drawing, argued, drawn
+from evidence.report.playing import Table, tables
+from evidence.report.resting import Resting, resting
+from evidence.report.saying import Said, vocabulary
+from evidence.report.strips import Strip, strips
 from evidence.report.tracing import PROOFS, Proved, Requirement, proofs_of, requirements
 from evidence.report.words import titled_rows
 from proofs import assumptions
 from proofs.assumptions import Assumption
 from proofs.records import commit, versions
+from proofs.theories import THEORIES
 
 DATA = ROOT / "evidence"
 REPORTS = (".html", ".pdf")
@@ -98,6 +105,21 @@ class Book:
         return found
 
     @cached_property
+    def vocabulary(self) -> list[Said]:
+        """The words that invariants are said in."""
+        return vocabulary()
+
+    @cached_property
+    def strips(self) -> Sequence[Strip]:
+        """The witnesses of the interlocking."""
+        return strips()
+
+    @cached_property
+    def tables(self) -> Mapping[str, Sequence[Table]]:
+        """The witnesses of the theories beside it."""
+        return {name: tables(name) for name in THEORIES if name != "interlocking"}
+
+    @cached_property
     def claimed_by(self) -> Mapping[str, list[str]]:
         """The claims that name each piece of evidence."""
         found: dict[str, list[str]] = {}
@@ -141,9 +163,20 @@ class Book:
         return [each for each in found if isinstance(each, dict)] if isinstance(found, list) else []
 
     @cached_property
+    def resting(self) -> Resting:
+        """Which invariants rest on which guards and updates, by the record of mutants."""
+        return resting(self.rows("mutate.json", "mutants"))
+
+    @cached_property
+    def cored(self) -> Cored | None:
+        """What the proofs rest on by their unsat cores; None where there is no record of this commit."""
+        record = self.records[CORES]
+        return cored(record.data) if record.data and record.commit == self.commit else None
+
+    @cached_property
     def mutants(self) -> Mapping[str, Any]:
         """What mutation came to: counts by theory, what kills nothing, and all that is not simply killed."""
-        rows = self.rows("mutate.json", "mutants")
+        rows = sorted(self.rows("mutate.json", "mutants"), key=lambda row: str(row["mutant"]))
         theories: dict[str, Counter[str]] = {}
         for row in rows:
             for theory in row["theories"] or ("said only",):
@@ -213,7 +246,7 @@ class Book:
 def gathered(folder: Path) -> Book:
     """Read the case and the records of a folder."""
     known, now = catalogue(), commit()
-    records = dict(read(folder, frozenset(each.record for each in known.values())))
+    records = dict(read(folder, frozenset({CORES, *(each.record for each in known.values())})))
     found = shown(known, records, now)
     for each in found.values():
         if each.malformed:

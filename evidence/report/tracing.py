@@ -6,13 +6,14 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 from evidence.case import Case
 from evidence.manifest.hashes import ROOT
 from evidence.records.reading import Kept
 from evidence.records.showing import Came, cells_of
+from evidence.report.places import Place, place_of
+from evidence.report.saying import Said, said
 from evidence.report.words import first_sentence, rows_of
 from proofs import pages, scripts
 from proofs.lints import requirements_in
@@ -32,18 +33,6 @@ GROUPS = {
 
 
 @dataclass(frozen=True)
-class Place:
-    """A function of the sources: its name, file, lines and what it says of itself."""
-
-    name: str
-    file: str
-    first: int
-    last: int
-    says: str
-    source: str
-
-
-@dataclass(frozen=True)
 class Proved:
     """An invariant, and what the record says of its column.
 
@@ -55,13 +44,18 @@ class Proved:
     name: str
     theory: str
     evidence: str
-    place: Place
+    said: Said
     cells: int
     closed: int
     margin: float
     seeds: int
     rests: tuple[str, ...]
     safety: bool
+
+    @property
+    def place(self) -> Place:
+        """Where it stands."""
+        return self.said.place
 
     @property
     def came(self) -> Came:
@@ -94,14 +88,6 @@ class Requirement:
     witnesses: tuple[Played, ...]
 
 
-def place_of(name: str, function: Callable[..., Any]) -> Place:
-    """Where a function stands."""
-    lines, first = inspect.getsourcelines(function)
-    path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
-    says = first_sentence(inspect.getdoc(function) or "")
-    return Place(name, path.as_posix(), first, first + len(lines) - 1, says, "".join(lines))
-
-
 @cache
 def kernel_place(name: str) -> Place:
     """Where a public function of the kernel stands, named as the traceability page names it."""
@@ -126,7 +112,7 @@ def proofs_of(record: Kept | None, evidence: Mapping[str, object]) -> Mapping[st
                 full,
                 theory.name,
                 f"prove:{full}" if f"prove:{full}" in evidence else PROOFS,
-                place_of(name, claim),
+                said(claim),
                 len(cells),
                 sum(_closed(cell) for cell in mine),
                 max((each["rlimit_spent"] / each["rlimit"] for each in told), default=0.0),

@@ -15,14 +15,15 @@ ROLE = re.compile(r":\w+:`([^`]+)`")
 
 
 def markdown(text: str) -> Markup:
-    """A sentence or a few as HTML: code, emphasis, and of links their words."""
+    """A sentence or a few as HTML: code, emphasis, and of links their words; marked as said by people, not counted."""
     plain = ROLE.sub(r"`\1`", LINK.sub(r"\1", text.replace("\\|", "|")))
     parts = []
     last = 0
     for found in CODE.finditer(plain):
         parts += [_emphasised(plain[last : found.start()]), Markup("<code>{}</code>").format(found[1])]
         last = found.end()
-    return Markup("").join([*parts, _emphasised(plain[last:])])
+    whole = Markup("").join([*parts, _emphasised(plain[last:])])
+    return Markup('<span class="said">{}</span>').format(whole) if whole else whole
 
 
 def _emphasised(text: str) -> Markup:
@@ -42,6 +43,11 @@ def number(value: object) -> str:
 def first_sentence(text: str) -> str:
     """The first paragraph of a docstring, on one line."""
     return " ".join(text.strip().split("\n\n")[0].split())
+
+
+def shortened(text: str, most: int) -> str:
+    """A text of at most so many characters; where it is cut stands an ellipsis."""
+    return text if len(text) <= most else f"{text[: most - 1].rstrip()}…"
 
 
 def wrapped(text: str, columns: int, most: int = 99) -> list[str]:

@@ -17,6 +17,7 @@ SECTIONS = (
     ("evidence", "Evidence"),
     ("requirements", "Requirements"),
     ("invariants", "Proofs"),
+    ("witnesses", "Witnesses"),
     ("assumptions", "Assumptions"),
     ("layouts", "Layouts"),
     ("campaigns", "Campaigns"),
@@ -29,6 +30,8 @@ SECTIONS = (
     ("glossary", "Glossary"),
 )
 CLASSES = {"implied": "implied", "service": "for service", "second_line": "second line"}
+RESTING_AT_MOST = 30
+"""So many guards are listed below an invariant; all stand under their functions."""
 MEASURED = ("days:", "reproduce:", "ride", "beyond", "fuzz")
 """Evidence that is measured, and not proved."""
 
@@ -57,6 +60,7 @@ def page_of(book: Book) -> str:
         classes=CLASSES,
         measured=measured,
         pairs_at_most=PAIRS_AT_MOST,
+        resting_at_most=RESTING_AT_MOST,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 
 from kernel.layout import Layout, TagRecords
@@ -16,26 +16,11 @@ from models.layouts.following import Path
 from models.layouts.granting import Granted, grant, hold_flank
 from models.layouts.numbers import LARGEST_BLOCK_NUMBER, number_blocks, records_for
 from models.layouts.results import Imported, Places
+from models.layouts.told import Told
 from models.layouts.track import Cut, Heading
 
 Neighbours = Mapping[Block, frozenset[Block]]
 Opens = Mapping[Block, Mapping[Block, Mapping[Point, Position]]]
-Pairs = frozenset[tuple[Block, Block]]
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a file tells beside its track and routes.
-
-    ``held``: block pairs (from, into) that train protection alone keeps apart; none: every pair
-    that no point keeps apart.
-    """
-
-    name: str
-    kind: str
-    trains: Sequence[str]
-    fouls: Mapping[Block, frozenset[Block]] = field(default_factory=dict)
-    held: Pairs | None = None
 
 
 def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findings) -> Imported:
@@ -65,6 +50,7 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
         tuple(findings.remarks),
         tuple(findings.violations),
         blocks.segments.station,
+        told,
     )
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import combinations
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from models.layouts.findings import Findings
@@ -27,22 +27,88 @@ def shared(first: TableRoute, second: TableRoute) -> tuple[list[str], list[str]]
     return [*opposite, *sections, *track], words
 
 
+MOST_TOLD = 10_000
+"""So many pairs are told one by one; a table in which more are wrong is wrong as a whole."""
+
+
 def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
     """Every pair: a conflict that follows must be declared by both; one that does not follow is needless."""
-    for first, second in combinations(routes, 2):
-        declared = [second.name in first.conflicts, first.name in second.conflicts]
-        elements, words = shared(first, second)
-        names = f"routes '{first.name}' and '{second.name}'"
-        if words and not all(declared):
-            silent = [route.name for route, told in zip((first, second), declared, strict=True) if not told]
-            by = f"route '{silent[0]}' does not declare it" if len(silent) == 1 else "neither declares it"
-            text = f"{names} conflict by {', '.join(words)}, and {by}"
-            findings.violation("conflicts are declared", (first.name, second.name, *elements), text)
-        elif not words and any(declared):
-            text = f"{names} are declared to conflict but share neither path nor points: needless"
-            findings.remark((first.name, second.name), text)
-            if not all(declared):
-                findings.remark((first.name, second.name), f"{names}: the conflict is declared by one of them only")
+    following, (declares, declared) = _following(routes), _declared(routes)
+    told = missed = needless = 0
+    for at, first in enumerate(routes):
+        missing = (following[at] & ~(declares[at] & declared[at])) >> at + 1
+        idle = ((declares[at] | declared[at]) & ~following[at]) >> at + 1
+        if told < MOST_TOLD:
+            for other in _bits(missing | idle, at + 1):
+                told += 1
+                _tell(first, routes[other], findings)
+        else:
+            missed, needless = missed + missing.bit_count(), needless + idle.bit_count()
+    if missed:
+        text = f"{missed:,} more pairs of routes conflict and do not declare it"
+        findings.violation("conflicts are declared", (), text)
+    if needless:
+        findings.remark((), f"{needless:,} more conflicts are declared that are needless")
     for route in routes:
         if route.name in route.conflicts:
             findings.remark((route.name,), f"route '{route.name}' is declared to conflict with itself")
+
+
+def _tell(first: TableRoute, second: TableRoute, findings: Findings) -> None:
+    """What is wrong with one pair."""
+    declared = [second.name in first.conflicts, first.name in second.conflicts]
+    elements, words = shared(first, second)
+    names = f"routes '{first.name}' and '{second.name}'"
+    if words:
+        silent = [route.name for route, told in zip((first, second), declared, strict=True) if not told]
+        by = f"route '{silent[0]}' does not declare it" if len(silent) == 1 else "neither declares it"
+        text = f"{names} conflict by {', '.join(words)}, and {by}"
+        findings.violation("conflicts are declared", (first.name, second.name, *elements), text)
+    else:
+        text = f"{names} are declared to conflict but share neither path nor points: needless"
+        findings.remark((first.name, second.name), text)
+        if not all(declared):
+            findings.remark((first.name, second.name), f"{names}: the conflict is declared by one of them only")
+
+
+def _following(routes: Sequence[TableRoute]) -> list[int]:
+    """For each route the others it shares something with, as the bits of an integer."""
+    over: dict[tuple[str, str], int] = defaultdict(int)
+    lying: dict[tuple[str, str], int] = defaultdict(int)
+    for at, route in enumerate(routes):
+        for name in _runs_over(route):
+            over[name] |= 1 << at
+        for point in route.points.items():
+            over["point", point[0]] |= 1 << at
+            lying[point] |= 1 << at
+    found = []
+    for route in routes:
+        bits = 0
+        for name in _runs_over(route):
+            bits |= over[name]
+        for point in route.points.items():
+            bits |= over["point", point[0]] & ~lying[point]
+        found.append(bits)
+    return found
+
+
+def _runs_over(route: TableRoute) -> list[tuple[str, str]]:
+    return [("section", name) for name in route.sections] + [("path", name) for name in route.path]
+
+
+def _declared(routes: Sequence[TableRoute]) -> tuple[list[int], list[int]]:
+    """For each route the others it declares a conflict with, and those that declare one with it, as bits."""
+    number = {route.name: at for at, route in enumerate(routes)}
+    declares, declared = [0] * len(routes), [0] * len(routes)
+    for at, route in enumerate(routes):
+        for other in route.conflicts:
+            declares[at] |= 1 << number[other]
+            declared[number[other]] |= 1 << at
+    return declares, declared
+
+
+def _bits(value: int, first: int) -> Iterator[int]:
+    """The places of the bits that are set, lowest first, counted from ``first``."""
+    for at, digit in enumerate(reversed(f"{value:b}"), first):
+        if digit == "1":
+            yield at

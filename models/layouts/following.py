@@ -11,28 +11,8 @@ from kernel.names import Block, Point, Position
 from models.layouts.blocks import Blocks, opposite
 from models.layouts.findings import Findings
 from models.layouts.results import BadInput
+from models.layouts.told import Wanted
 from models.layouts.track import Cut, Heading, Joint, Stop
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """A route as a file states it.
-
-    ``side``: the side of the entry mark that the route runs to (``LOW`` or ``HIGH``).
-    ``positions``: for each point, the position it must lie in.  ``release``: the detectors up to
-    which it is released in parts.  ``overlap``: the mark at which the overlap ends.  ``flank``:
-    points held off the path, with their positions.
-    """
-
-    name: str
-    place: str
-    entry: str
-    side: int
-    exit: str
-    positions: Mapping[str, str]
-    release: tuple[str, ...] = ()
-    overlap: str | None = None
-    flank: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass

@@ -6,13 +6,14 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from kernel.names import Block
-from models.layouts.assemble import Told, assemble
+from models.layouts.assemble import assemble
 from models.layouts.blocks import Blocks, find_blocks
 from models.layouts.findings import Findings
-from models.layouts.following import Follower, Wanted
+from models.layouts.following import Follower
 from models.layouts.native_schema import VALIDATOR
 from models.layouts.reading import identifier, validate
 from models.layouts.results import BadInput, Imported
+from models.layouts.told import Told, Wanted
 from models.layouts.track import HIGH, LOW, Junction, Kind, Mark, Segments, Station, cut_into_segments
 
 SLIP_LEGS = ("a1", "b1", "a2", "b2")
@@ -46,9 +47,10 @@ def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
             raise BadInput(file, f"blocks.{block_name}", what, "name each block once")
     findings = Findings("point")
     follower = Follower(blocks, file, findings)
-    paths = [path for wanted in reader.routes(station) if (path := follower.follow(wanted)) is not None]
-    fouls = reader.fouling(blocks)
-    told = Told(file, "native", tuple(data.get("trains", trains)), fouls, reader.held(blocks))
+    routes = tuple(reader.routes(station))
+    paths = [path for wanted in routes if (path := follower.follow(wanted)) is not None]
+    fleet, fouls = tuple(data.get("trains", trains)), reader.fouling(blocks)
+    told = Told(file, "native", fleet, routes, fouls, reader.held(blocks), data.get("name"))
     return assemble(blocks, paths, told, findings)
 
 

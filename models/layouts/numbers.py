@@ -6,7 +6,9 @@ from collections.abc import Iterable, Mapping
 
 from kernel.layout import TagRecords
 from kernel.names import Block, Record, Tag
+from kernel.tags import Kind
 
+PLAIN, TURNOUT = "plain", "turnout"
 LARGEST_BLOCK_NUMBER = 255
 LONGEST_DISTANCE_MM = 2**28 - 1
 """The most that a tag's 28 bits can say."""
@@ -37,7 +39,13 @@ def records_for(
     """A record for each tag: kind, block number, distance in mm to the next tag of the same block."""
     return TagRecords(
         {
-            tag: Record(f"{'turnout' if block in turnouts else 'plain'}:{numbers[block]}:{distance_mm.get(tag, 0)}")
+            tag: Record(f"{TURNOUT if block in turnouts else PLAIN}:{numbers[block]}:{distance_mm.get(tag, 0)}")
             for tag, block in tag_in.items()
         }
     )
+
+
+def fields_of(record: Record) -> tuple[int, int, int]:
+    """The kind's code, the block's number and the distance in mm that a record stands for (T1)."""
+    word, number, distance_mm = record.split(":")
+    return (Kind.TURNOUT if word == TURNOUT else Kind.PLAIN).value, int(number), int(distance_mm)

@@ -11,13 +11,14 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
-from models.layouts.assemble import Told, assemble
+from models.layouts.assemble import assemble
 from models.layouts.blocks import find_blocks
 from models.layouts.findings import Findings
-from models.layouts.following import Follower, Wanted
+from models.layouts.following import Follower
 from models.layouts.numbers import LONGEST_DISTANCE_MM
 from models.layouts.reading import by_name, identifier, validate
 from models.layouts.results import BadInput, Imported
+from models.layouts.told import Told, Wanted
 from models.layouts.track import HIGH, LOW, Junction, Kind, Mark, Station, cut_into_segments
 
 KINDS: Mapping[str, Kind] = {
@@ -102,12 +103,12 @@ def import_railjson(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     validate(file, data, dialect.validator)
     reader = Reader(file, data, dialect)
     station = reader.station()
-    wanted = reader.routes(station)
+    routes = tuple(reader.routes(station))
     findings = Findings("switch")
     blocks = find_blocks(cut_into_segments(station), {})
     follower = Follower(blocks, file, findings)
-    paths = [path for route in wanted if (path := follower.follow(route)) is not None]
-    return assemble(blocks, paths, Told(file, "RailJSON", trains), findings)
+    paths = [path for route in routes if (path := follower.follow(route)) is not None]
+    return assemble(blocks, paths, Told(file, "RailJSON", trains, routes), findings)
 
 
 class Reader:

@@ -24,6 +24,10 @@ LONGEST_NAME = 200
 YAML_KEY = re.compile(r"""^(---|["']?[\w.-]+["']?\s*:(\s|$))""")
 
 
+DOTTED_KEY = re.compile(rf"""(?<![\w"'-])(?:(?>[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*+\.[ \t]*+){{{DEEPEST_NESTING}}}""")
+"""A key of so many parts; Python's parser takes time with the square of them."""
+
+
 def read_text(file: Path) -> str:
     """The file's text, which must be UTF-8 and not empty."""
     try:
@@ -83,6 +87,8 @@ def parse_json(file: str, text: str) -> Any:
 
 def parse_toml(file: str, text: str) -> Any:
     """TOML, with the line of an error."""
+    if DOTTED_KEY.search(text):
+        raise too_deep(file)
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

@@ -14,6 +14,7 @@ from typing import Literal
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Point, Route, Tag
 from models.ground import Ground
+from models.layouts.told import Told
 from models.layouts.track import Station
 
 Verdict = Literal["holds", "does not hold"]
@@ -75,7 +76,8 @@ class Places:
 class Imported:
     """A layout file, read: what the kernel is told, how the track is, and what was noticed.
 
-    ``kind`` names the format; ``station`` is the track graph for formats that have one.
+    ``kind`` names the format; ``station`` is the track graph for formats that have one;
+    ``told``: what the file tells beside it.
     """
 
     name: str
@@ -87,6 +89,7 @@ class Imported:
     remarks: tuple[Remark, ...]
     violations: tuple[Violation, ...]
     station: Station | None = None
+    told: Told | None = None
 
     @property
     def longest_route(self) -> Route | None:

@@ -11,6 +11,7 @@ routes run over it: from one block lead those that follow it on some route which
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -97,7 +98,7 @@ def _read_route(file: str, name: str, row: Mapping[str, Any]) -> TableRoute:
     lists: dict[str, list[str]] = {}
     for field in ("path", "sections", "points", "conflicts"):
         ids = [identifier(file, f"{place} {field}", item["id"]) for item in row[field]]
-        twice = next((item for index, item in enumerate(ids) if item in ids[:index]), None)
+        twice = next((item for item, count in Counter(ids).items() if count > 1), None)
         if twice is not None:
             why = "the path runs in a loop" if field == "path" else "keep one of the two"
             raise BadInput(file, f"{place} {field}", f"lists '{twice}' twice", why)

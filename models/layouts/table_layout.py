@@ -14,6 +14,8 @@ from models.ground import Ground
 from models.layouts.findings import Findings
 from models.layouts.numbers import number_blocks, records_for
 from models.layouts.results import Imported, Places
+from models.layouts.told import Told, Wanted
+from models.layouts.track import LOW
 
 if TYPE_CHECKING:
     from models.layouts.table import TableRoute
@@ -75,7 +77,9 @@ def assemble_table(file: str, routes: Sequence[TableRoute], trains: Sequence[str
     records = records_for(layout.tag_in, number_blocks(layout.blocks, groups), {}, turnouts)
     ground = track.ground(rows, layout)
     remarks, violations = tuple(findings.remarks), tuple(findings.violations)
-    return Imported(file, "interlocking table", layout, ground, records, places, remarks, violations)
+    stated = tuple(Wanted(r.name, f"route '{r.name}'", r.source, LOW, r.destination, r.points) for r in routes)
+    told = Told(file, "interlocking table", tuple(trains), stated)
+    return Imported(file, told.kind, layout, ground, records, places, remarks, violations, told=told)
 
 
 def _element(block: Block) -> str:

@@ -12,6 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLES = sorted((ROOT / "layouts").glob("*.toml"))
 SHARED = Path(os.environ.get("HEISOKU_LAYOUTS", ROOT.parent / "shared" / "layouts"))
+REAL_FILES = sorted(path for path in SHARED.glob("*.*") if path.suffix != ".md")
 needs_shared = pytest.mark.skipif(
     not SHARED.is_dir(), reason=f"{SHARED} is absent: it holds layouts from public repositories (HEISOKU_LAYOUTS)"
 )

@@ -105,6 +105,8 @@ RAILJSON: dict[str, tuple[bytes, str]] = {
     "deep nesting": (b'{"routes": ' + b"[" * 100_000 + b"]" * 100_000 + b"}", "nesting"),
     "deep lists": (b"[" * 100_000, "nesting"),
     "deep objects": (b'{"a":' * 100_000, "nesting"),
+    "a TOML key of many parts": (b'format = "heisoku-layout-1"\n' + b"a." * 50_000 + b"a = 1", "nesting"),
+    "a TOML key of many quoted parts": (b'format = "heisoku-layout-1"\n' + b'"a" . ' * 9_000 + b"a = 1", "nesting"),
     "deep TOML": (b'format = "heisoku-layout-1"\na = ' + b"[" * 100_000, "nesting"),
     "deep YAML": (b"interlocking-table: " + b"[" * 100_000, "nesting"),
     "alias bomb": (BOMB.encode(), "anchor or alias"),
@@ -113,7 +115,8 @@ RAILJSON: dict[str, tuple[bytes, str]] = {
     "two YAML documents": (b"a: 1\n---\nb: 2\n", "second document"),
     "XML": (b"<html/>", "is XML, but html and no railML"),
     "railML of no version": (b"<railML/>", "has no attribute version"),
-    "railML 2": (b"<railml version='2.4'/>", "railML 2.4, which is not read"),
+    "railML 2": (b"<railml version='2.4'/>", "has no track with a trackTopology"),
+    "railML 1": (b"<railml version='1.1'/>", "railML 1.1, which is not read"),
     "nonsense": (b"hello world", "line 1"),
     "TOML of another kind": (b"[project]\nname = 'x'\n", "has no 'format'"),
 }

@@ -18,7 +18,16 @@ from models.layouts.generate import as_toml, generate, network
 from models.layouts.native_schema import SCHEMA
 from models.layouts.railjson import import_railjson
 from models.layouts.table import import_table
-from tests.layouts.stations import ROOT, SAMPLES, SHARED, needs_shared, plain_station, railjson_of, table_rows
+from tests.layouts.stations import (
+    REAL_FILES,
+    ROOT,
+    SAMPLES,
+    SHARED,
+    needs_shared,
+    plain_station,
+    railjson_of,
+    table_rows,
+)
 
 PLAIN = import_railjson("plain", railjson_of(plain_station()), ("T1", "T2"))
 
@@ -142,6 +151,19 @@ def test_needless_and_one_sided_conflicts_of_a_table() -> None:
     assert any("needless" in remark.text for remark in result.remarks)
 
 
+def test_of_very_many_missing_conflicts_the_rest_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    rows = table_rows()
+    for row in rows:
+        row["conflicts"] = []
+    table = {"interlocking-table": rows}
+    every = [v for v in import_table("table", table, ("T1",)).violations if v.axiom == "conflicts are declared"]
+    monkeypatch.setattr("models.layouts.conflicts.MOST_TOLD", 3)
+    *told, rest = (v for v in import_table("table", table, ("T1",)).violations if v.axiom == "conflicts are declared")
+    assert told == every[: len(told)]
+    assert 3 <= len(told) < len(every)
+    assert rest.text == f"{len(every) - len(told)} more pairs of routes conflict and do not declare it"
+
+
 def conflicts(imported: Imported, first: Route, second: Route) -> bool:
     """Whether two runs of these routes would conflict: a common block, or a point two ways."""
     layout = imported.layout
@@ -198,6 +220,16 @@ def test_real_layout_is_imported_without_findings_and_drawn(name: str) -> None:
     assert imported.violations == ()
     assert imported.layout.routes
     Xml.fromstring(draw_svg(imported, min(imported.layout.routes)))
+
+
+@needs_shared
+@pytest.mark.parametrize("path", REAL_FILES, ids=lambda path: path.name)
+def test_every_real_file_is_imported_or_refused_for_what_is_true_of_it(path: Path) -> None:
+    if path.suffix == ".json" and json.loads(path.read_text("utf-8"))["routes"] == []:
+        with pytest.raises(BadInput, match="has no routes: nothing to check"):
+            load(path)
+    else:
+        assert load(path).layout.routes
 
 
 @needs_shared

@@ -1,4 +1,4 @@
-"""railML 3: track from the topology, points from switches, boundaries from detectors and signals, routes."""
+"""railML 2 and 3: track, points from switches, boundaries from detectors and signals, routes as told or derived."""
 
 from models.layouts.railml.importing import import_railml
 

@@ -12,7 +12,8 @@ from lxml import etree
 from models.layouts.reading import identifier
 from models.layouts.results import BadInput
 
-VERSIONS = ("3.1", "3.2", "3.3")
+VERSIONS_2 = ("2.0", "2.1", "2.2", "2.3", "2.4", "2.5")
+VERSIONS_3 = ("3.1", "3.2", "3.3")
 SHOWN = 40
 """So many characters of a value are repeated in a message."""
 Element = etree._Element
@@ -24,6 +25,11 @@ class Document:
 
     file: str
     root: Element
+
+    @property
+    def is_version_2(self) -> bool:
+        """Whether track is told as in railML 2, by tracks and their connections."""
+        return self.root.get("version") in VERSIONS_2
 
     def bad(self, element: Element | None, what: str, what_to_do: str) -> BadInput:
         """The error for an element, by its id if it has one."""
@@ -116,13 +122,17 @@ def document(file: str, text: str) -> Document:
     except etree.XMLSyntaxError as error:
         place = f"line {error.lineno}" if error.lineno else "file"
         raise BadInput(file, place, f"is not XML: {error.msg}", "check that the file is complete") from error
+    entity = next(root.iter(etree.Entity), None)
+    if entity is not None:
+        what = f"uses the entity {str(entity.text)[:SHOWN]}, and entities are not expanded"
+        raise BadInput(file, f"line {entity.sourceline or '?'}", what, "write out what it stands for")
     found = Document(file, root)
     if kind_of(root).lower() != "railml":
-        raise BadInput(file, f"line {root.sourceline}", f"is XML, but {kind_of(root)} and no railML", "bring railML 3")
+        raise BadInput(file, f"line {root.sourceline}", f"is XML, but {kind_of(root)} and no railML", "bring railML")
     version = found.attribute(root, "version")
-    if version not in VERSIONS:
+    if version not in (*VERSIONS_2, *VERSIONS_3):
         what = f"is railML {version[:SHOWN]}, which is not read"
-        raise found.bad(None, what, f"bring one of the versions {', '.join(VERSIONS)}")
+        raise found.bad(None, what, f"bring one of the versions {', '.join((*VERSIONS_2, *VERSIONS_3))}")
     return found
 
 

@@ -34,6 +34,20 @@ class Marks:
     signals: set[str] = field(default_factory=set)
     detectors: set[str] = field(default_factory=set)
     parts: set[str] = field(default_factory=set)
+    _at: dict[tuple[str, int], str] = field(default_factory=dict)
+
+    def put(self, source: Document, element: Element, mark: Mark) -> None:
+        """Put an element in its place, where another one may stand already for it.
+
+        Raises:
+            BadInput: track goes on behind one of the two and not behind the other.
+        """
+        first = self.of[mark.name] = self._at.setdefault((mark.track, mark.at_mm), mark.name)
+        if first == mark.name:
+            self.marks[mark.name] = mark
+        elif self.marks[first].cuts != mark.cuts:
+            what = f"lies at the same place as '{first}' ('{mark.track}', {mark.at_mm} mm)"
+            raise source.bad(element, what, "move or remove one of the two")
 
 
 def read_marks(source: Document, topology: Topology, signals: Mapping[str, Element], findings: Findings) -> Marks:
@@ -43,7 +57,6 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
         BadInput: one lies nowhere.
     """
     found = Marks()
-    at: dict[tuple[str, int], str] = {}
     for kind, cuts in CUTS.items():
         for element in source.all(kind):
             name = element.get("id")
@@ -55,13 +68,7 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out")
                 continue
-            mark = _mark(source, topology, name, spot, cuts)
-            found.of[name] = at.setdefault((mark.track, mark.at_mm), name)
-            if found.of[name] == name:
-                found.marks[name] = mark
-            elif found.marks[found.of[name]].cuts != cuts:
-                what = f"lies at the same place as '{found.of[name]}' (net element '{mark.track}', {mark.at_mm} mm)"
-                raise source.bad(element, what, "move or remove one of the two")
+            found.put(source, element, _mark(source, topology, name, spot, cuts))
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 from itertools import islice
 
 from models.layouts.findings import Findings
-from models.layouts.following import Wanted
 from models.layouts.railml.document import Document, Element
 from models.layouts.railml.marks import Marks, signal_of
+from models.layouts.told import Wanted
 from models.layouts.track import Cut, Heading, Joint, Segments, Stop
 
 MOST_WAYS = 64
 """So many ways from a signal are looked at; a station has fewer."""
 MOST_STEPS = 20_000
-NOT_READ = ("overlap", "conflictingRoute", "routeRelation", "combinedRoute")
+NOT_READ = ("routeRelation", "combinedRoute")
+POSITIONS = ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition", "requiresSwitchInPosition")
 
 Ends = tuple[Element, Element, Element]
 """A route, and the elements on the track that it begins and ends at."""
@@ -70,7 +71,9 @@ def follow(
     for kind in NOT_READ:
         names = [each.get("id", "?") for each in source.all(kind)]
         if names:
-            findings.remark(names, f"{len(names)} of {kind} are not read: they are derived from the track")
+            findings.remark(
+                names, f"{len(names)} of {kind} are not read: what they say is derived from the track, or not kept"
+            )
     if routes:
         return [_followed(source, segments, marks, ends, findings) for ends in routes.values()]
     derived = list(_derived(segments, marks))
@@ -83,7 +86,7 @@ def follow(
 
 def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, findings: Findings) -> Followed:
     route, (first, last) = ends[0], (source.attribute(each, "id") for each in ends[1:])
-    name, given = source.attribute(route, "id"), dict(_facing(source, route, segments))
+    name, given = source.attribute(route, "id"), dict(given_positions(source, route, segments))
     side = _side(source, segments, marks, ends[1])
     goal = marks.of.get(last)
     if goal is None:
@@ -123,10 +126,14 @@ def _side(source: Document, segments: Segments, marks: Marks, entry: Element) ->
     return sides[0]
 
 
-def _facing(source: Document, route: Element, segments: Segments) -> Iterator[tuple[str, str]]:
-    """The positions that a route names for points."""
-    for kind in ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition"):
-        for item in source.all(kind, route):
+def given_positions(source: Document, told: Element, segments: Segments) -> Iterator[tuple[str, str]]:
+    """The positions that a route or an overlap names for points.
+
+    Raises:
+        BadInput: it is no point, or has no such position.
+    """
+    for kind in POSITIONS:
+        for item in source.all(kind, told):
             refers = source.first("refersToSwitch", item)
             if refers is None:
                 raise source.bad(item, "refers to no switch", "add its refersToSwitch")

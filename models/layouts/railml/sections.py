@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import networkx
 
@@ -15,22 +16,49 @@ from models.layouts.track import Cut, Segments, Stop
 DEMARCATING = ("hasDemarcatingTraindetector", "hasDemarcatingBufferstop", "hasDemarcatingBorder")
 
 
-def note_parts(source: Document, marks: Marks) -> None:
+def note_parts(source: Document, marks: Marks, findings: Findings) -> None:
     """Note the detectors of sections that say after what delay a part of a route is released.
 
     Raises:
         BadInput: a section is demarcated by what is not there.
     """
-    for section, bounds in _told(source, marks).items():
+    delayed = []
+    for section, bounds in demarcated(source, marks).items():
         if source.by_id[section].get("partialRouteReleaseDelay") is not None:
             marks.parts |= bounds & marks.detectors
+            delayed.append(section)
+    if delayed:
+        text = f"{len(delayed)} sections say after what delay they are released: it is by the tail's tags, not by time"
+        findings.remark(delayed, text)
+
+
+def with_groups(source: Document, marks: Marks, routes: Sequence[Followed]) -> list[Followed]:
+    """The routes, those that name release groups released up to the end of each of these.
+
+    Raises:
+        BadInput: a group or a section that is named is not there.
+    """
+    told = demarcated(source, marks)
+    found = []
+    for route in routes:
+        groups = []
+        if route.wanted.name in source.by_id:
+            groups = [source.referred(each) for each in source.all("hasReleaseGroup", source.by_id[route.wanted.name])]
+        ends = []
+        for group in groups:
+            listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", group)]
+            once = [mark for section in listed for mark in told.get(section, ())]
+            ends += [mark for mark in route.way.passed if once.count(mark) == 1][-1:]
+        release = tuple(dict.fromkeys(ends)) if groups else route.wanted.release
+        found.append(replace(route, wanted=replace(route.wanted, release=release)))
+    return found
 
 
 def compare_sections(
     source: Document, segments: Segments, marks: Marks, routes: Sequence[Followed], findings: Findings
 ) -> None:
     """Remark on sections that no piece of track is, and on routes that name others than they run through."""
-    told = _told(source, marks)
+    told = demarcated(source, marks)
     of: dict[int, frozenset[str]] = {}
     matched: set[str] = set()
     for inside, around in _regions(segments, marks):
@@ -61,8 +89,12 @@ def _listed(names: Collection[str]) -> str:
     return ", ".join(sorted(names)) or "none"
 
 
-def _told(source: Document, marks: Marks) -> Mapping[str, frozenset[str]]:
-    """For each section the marks that demarcate it, as far as they have a place."""
+def demarcated(source: Document, marks: Marks) -> Mapping[str, frozenset[str]]:
+    """For each section the marks that demarcate it, as far as they have a place.
+
+    Raises:
+        BadInput: it is demarcated by what is not there.
+    """
     found = {}
     for section in source.all("tvdSection"):
         bounds = [source.referred(each) for kind in DEMARCATING for each in source.all(kind, section)]

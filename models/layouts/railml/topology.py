@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import hypot
+from string import digits
 
 import networkx
 
@@ -179,7 +180,7 @@ def _named(source: Document) -> Iterator[tuple[str, Named]]:
                 raise source.bad(element, "has no branch that refers to a net relation", "add its branches")
             for branch, relation in branches.items():
                 if relation not in source.by_id:
-                    what = f"its {branch[:-1]} branch refers to '{relation}', which is not there"
+                    what = f"its {branch.rstrip(digits)} branch refers to '{relation}', which is not there"
                     raise source.bad(element, what, "correct the reference or add the relation")
                 yield relation, Named(element, branches)
 
@@ -236,5 +237,5 @@ def _sides(
         pair = [port_of[end] for end in ends if end in port_of]
         way = next((each for each in ways if set(each) == set(pair)), None)
         if way is not None:
-            found[branch[:-1]] = way
+            found[branch.rstrip(digits)] = way
     return found
