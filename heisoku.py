@@ -24,6 +24,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from evidence.manifest.command import manifest, verify
 from evidence.report.command import report
 from fuzz.campaign.command import fuzz
+from fuzz.simulation.command import simulate
 from models.layouts.export.command import export
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
@@ -359,7 +360,7 @@ def handset(
     print_line(console(), f"{output}: {minutes} minutes of day {day} with seed {seed}")
 
 
-for elsewhere in (certify, export, fuzz, mutate, manifest, report, verify):
+for elsewhere in (certify, export, fuzz, mutate, manifest, report, simulate, verify):
     app.command()(elsewhere)
 
 

@@ -1,0 +1,61 @@
+"""A driver who keeps to what the cab shows, and the train that does as he asks, within its powers.
+
+The cab shows how fast the train may be where it is, so that the brake control would not yet come on; the driver stays
+a little below it.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.odometry import Motion
+from models.rides.plan import PLAN
+
+LINE_MM_S = 27_800.0
+"""100 km/h."""
+ACCELERATES_MM_S2, BRAKES_MM_S2, EMERGENCY_MM_S2 = 700.0, 900.0, 1_100.0
+COMFORT_MM_S2 = 450.0
+"""How the driver brakes towards where he wants to stop."""
+JERK_MM_S3 = 1_000.0
+EMERGENCY_JERK_MM_S3 = 1_500.0
+BELOW_MM_S = 1_500.0
+"""So much below what the cab shows."""
+NEAR_MM = 400.0
+CYCLE_S = CYCLE_MS / 1_000
+
+
+def shown_mm_s(bounds: BrakeBounds, motion: Motion, end_mm: int) -> float:
+    """The speed that the cab shows: above it the brake control would come on."""
+    left_mm = end_mm - motion.front_most_mm
+    if left_mm <= 0:
+        return 0.0
+    time_s = (bounds.response_cycles + 2) * CYCLE_S
+    worst = bounds.slows_mm_s2 * (sqrt(time_s * time_s + 2 * left_mm / bounds.slows_mm_s2) - time_s)
+    return max(0.0, worst - (bounds.response_cycles + 1) * CYCLE_S * bounds.gains_mm_s2)
+
+
+def asked_mm_s2(speed_mm_s: float, to_stop_mm: float, shown: float) -> float:
+    """What the driver asks of the train: so far it is to where he wants to stop."""
+    curve = sqrt(2 * COMFORT_MM_S2 * max(0.0, to_stop_mm))
+    limit = min(LINE_MM_S, max(0.0, shown - BELOW_MM_S), curve)
+    if to_stop_mm <= NEAR_MM or limit <= 0.0:
+        return -BRAKES_MM_S2
+    falls = COMFORT_MM_S2 if limit < LINE_MM_S and speed_mm_s > limit - 500 else 0.0
+    return max(-BRAKES_MM_S2, min(ACCELERATES_MM_S2, limit - speed_mm_s - falls))
+
+
+def gained_mm_s2(before: float, asked: float, emergency: bool) -> float:
+    """What the train does in the next cycle: what is asked, as fast as a jerk allows."""
+    if emergency:
+        return max(-EMERGENCY_MM_S2, before - EMERGENCY_JERK_MM_S3 * CYCLE_S)
+    step = JERK_MM_S3 * CYCLE_S
+    return max(before - step, min(before + step, asked))
+
+
+def margin_mm(motion: Motion) -> float:
+    """How far before an end of authority a train comes to rest that its brake control lets run there at all."""
+    reserve = (PLAN.brake.response_cycles + 1) * CYCLE_S * PLAN.brake.gains_mm_s2 + BELOW_MM_S
+    way = (PLAN.brake.response_cycles + 2) * CYCLE_S * reserve + reserve * reserve / (2 * PLAN.brake.slows_mm_s2)
+    return way + (motion.front_most_mm - motion.front_least_mm) / 2

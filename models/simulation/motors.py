@@ -1,0 +1,49 @@
+"""Point machines: an unlocked point is thrown for some seconds, and locked where it lies as wanted (T10)."""
+
+from __future__ import annotations
+
+from random import Random
+
+from kernel.names import Point, Run, TerminalLife
+from models.simulation.agenda import Agenda
+from models.simulator.play import Play
+
+LEAST_MS, MOST_MS = 3_000, 6_000
+"""From one position to the other (ours)."""
+
+
+class Motors:
+    """Every point's motor and terminal."""
+
+    def __init__(self, play: Play, agenda: Agenda, random: Random) -> None:
+        self.play = play
+        self.agenda = agenda
+        self.random = random
+        self._thrown: set[Point] = set()
+        self._stuck_until_ms: dict[Point, int] = {}
+
+    def stick(self, point: Point, ms: int) -> None:
+        """A point does not move for so long."""
+        self._stuck_until_ms[point] = self.agenda.now_ms + ms
+
+    def obey(self, run: Run, point: Point, life: TerminalLife) -> None:
+        """An order arrives at the terminal; it throws the point if it has to."""
+        self.play.take("obey_order", run=run, point=point, life=life, detected=self.play.system.track.lies[point])
+        self._throw(point)
+
+    def _throw(self, point: Point) -> None:
+        terminal = self.play.system.terminals[point]
+        if not terminal.unlocked or terminal.wanted is None or point in self._thrown:
+            return
+        stuck_ms = max(0, self._stuck_until_ms.get(point, 0) - self.agenda.now_ms)
+        self._thrown.add(point)
+        self.agenda.after(stuck_ms + self.random.randint(LEAST_MS, MOST_MS), lambda: self._arrives(point))
+
+    def _arrives(self, point: Point) -> None:
+        """The motor has run: the point lies as wanted, if anything still is."""
+        self._thrown.discard(point)
+        wanted = self.play.system.terminals[point].wanted
+        if wanted is None or not self.play.system.terminals[point].unlocked:
+            return
+        self.play.take("drift", point=point, position=wanted)
+        self.play.take("lock", point=point, detected=self.play.system.track.lies[point])

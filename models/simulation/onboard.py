@@ -1,0 +1,176 @@
+"""The machines on board of one train, a cycle at a time: where it is, the next tag, wholeness, the brake.
+
+Each decision is a function of ``kernel.onboard``; here they are only fed, and their answers passed on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from kernel.layout import Layout
+from kernel.names import Run, Tag
+from kernel.onboard import antenna_spacing, authority_end, brake_watch, braking, odometry, split, tag_window
+from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.odometry import Readings
+from kernel.onboard.split import Readings as TailReadings
+from kernel.onboard.way import UNKNOWN, Way, between
+from kernel.unit import Unit
+from models.concrete.rails import ANTENNA_MM
+from models.rides.plan import PLAN, TAG_ERROR_MM
+from models.simulation.ahead import Ahead
+
+LOCATED_WITHIN_MM = 2_000
+"""To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
+
+
+@dataclass
+class OnBoard:
+    """What the machines on board remember.
+
+    ``from_mm``: between these places, by the plan, the head antenna was when the way to the next tag began.
+    ``lists``: the lists of the runs that the unit was permitted.
+    """
+
+    length_mm: int
+    motion: odometry.Motion
+    brake: braking.Brake
+    watch: brake_watch.BrakeWatch
+    spacing: antenna_spacing.Spacing
+    split: split.Split
+    from_mm: tuple[int, int] = (0, 0)
+    from_at: Way = UNKNOWN
+    awaited: Tag | None = None
+    window: tag_window.Window = tag_window.NONE_AWAITED
+    lists: dict[Run, Ahead] = field(default_factory=dict)
+
+    @property
+    def place(self) -> Way:
+        """Where the front is, as the machines tell one another."""
+        return Way(odometry.is_located(self.motion), self.motion.front_least_mm, self.motion.front_most_mm)
+
+    @property
+    def run_on_mm(self) -> int:
+        """How far it may have run since something was read within the cycle."""
+        return self.motion.speed_most_mm_s * CYCLE_MS // 1_000 + 1
+
+    @property
+    def place_of_read(self) -> Way:
+        """Where the front was when an antenna read something within the cycle."""
+        here = self.place
+        return replace(here, least_mm=here.least_mm - self.run_on_mm)
+
+    @property
+    def intact(self) -> bool:
+        """Whether the train is known to be whole."""
+        return split.is_intact(PLAN.split, self.split)
+
+    @property
+    def sure(self) -> bool:
+        """Whether neither the position nor the train itself is lost."""
+        return odometry.is_located(self.motion) and not split.demands_emergency_brake(self.split)
+
+    # ---- a cycle
+
+    def cycle(self, readings: Readings, tail: TailReadings, demanded: bool) -> None:
+        """Take what the sensors say at the end of a cycle; decide whether to brake in the next."""
+        applied = self.brake.applied
+        self.motion = odometry.note_cycle(PLAN.sensors, self.motion, readings)
+        self.split = split.note_cycle(PLAN.split, self.split, tail)
+        self.window = tag_window.note_cycle(PLAN.window, self.window, between(self.from_at, self.place))
+        fastest = self.motion.speed_most_mm_s
+        self.watch = brake_watch.note_cycle(PLAN.brake, self.watch, applied, self.motion.speed_least_mm_s, fastest)
+        self.supervise(demanded or not self.sure, False)
+
+    def supervise(self, demanded: bool, acknowledged: bool) -> None:
+        """Decide on the brake (T12)."""
+        motion = self.motion
+        self.brake = braking.supervise(
+            PLAN.brake, self.brake, motion.front_most_mm, motion.speed_most_mm_s, demanded, acknowledged
+        )
+
+    # ---- tags
+
+    def head_reads(self, number: int, place_mm: int | None) -> bool:
+        """The head reads a tag: is it in its window; a fix where the list has it (T5, P7, T13)."""
+        fits = tag_window.in_window(PLAN.window, self.window, between(self.from_at, self.place_of_read))
+        if place_mm is None or not fits:
+            return False
+        front_mm = place_mm + ANTENNA_MM
+        self.motion = odometry.note_fix(self.motion, front_mm - TAG_ERROR_MM, front_mm + TAG_ERROR_MM + self.run_on_mm)
+        self.spacing = antenna_spacing.note_head_read(self.spacing, number, self.place_of_read)
+        self.from_mm, self.from_at = (place_mm, place_mm), self.place_of_read
+        return odometry.is_located(self.motion)
+
+    def tail_reads(self, number: int, through: bool) -> bool:
+        """The tail reads a tag: is it the train's last antenna, by line, spacing and wholeness (T13, P5)."""
+        self.spacing = antenna_spacing.note_tail_read(PLAN.spacing, self.spacing, number, self.place_of_read)
+        return through and self.intact and antenna_spacing.is_healthy(self.spacing)
+
+    # ---- what the unit was told
+
+    def follow(self, layout: Layout, unit: Unit) -> None:
+        """Take the end of authority and the next tag from the orders of the unit (T4, T5)."""
+        runs = [run for run in self.lists if run in unit.orders]
+        ends = [
+            end_mm
+            for run in runs
+            for end_mm in authority_end.ends_mm(layout, unit, run, self.lists[run].ends_mm, self.motion.front_least_mm)
+        ]
+        if ends:
+            self.brake = braking.take_end(
+                PLAN.brake, self.brake, self.motion.front_most_mm, self.motion.speed_most_mm_s, max(ends)
+            )
+        tags_mm: dict[Tag, int] = {}
+        for run in runs:
+            order = unit.orders[run]
+            if order.permitted and not order.given_back and order.expected in self.lists[run].tags_mm:
+                assert order.expected is not None
+                tags_mm[order.expected] = self.lists[run].tags_mm[order.expected]
+        self._await(tags_mm)
+
+    def _await(self, tags_mm: Mapping[Tag, int]) -> None:
+        """Await the nearest of these tags; the way to it is from the last one, or from where the train stood."""
+        awaited = min(tags_mm, key=lambda tag: tags_mm[tag], default=None)
+        if awaited is None:
+            self.awaited, self.window = None, tag_window.NONE_AWAITED
+            return
+        if awaited == self.awaited and self.window.expected:
+            return
+        least_mm, most_mm = tags_mm[awaited] - self.from_mm[1], tags_mm[awaited] - self.from_mm[0]
+        self.awaited, self.window = awaited, tag_window.await_tag(max(0, least_mm), max(0, most_mm))
+
+    # ---- at rest
+
+    def locate(self, least_mm: int, most_mm: int) -> None:
+        """Begin anew at a standstill, with the front in a range (P7, T8)."""
+        self.motion = odometry.located(least_mm, most_mm, self.motion.way_mm)
+        self.watch = brake_watch.watching(0)
+        self.brake = braking.Brake(applied=True, end_mm=least_mm)
+        self.spacing = antenna_spacing.preset(self.length_mm - 2 * ANTENNA_MM)
+        self.awaited, self.window, self.lists = None, tag_window.NONE_AWAITED, {}
+        self.begin_way()
+
+    def begin_way(self) -> None:
+        """The way to the next tag begins here, wherever the train stands within its range."""
+        self.from_mm = (self.motion.front_least_mm - ANTENNA_MM, self.motion.front_most_mm - ANTENNA_MM)
+        here = (self.motion.front_least_mm + self.motion.front_most_mm) // 2
+        self.from_at = Way(odometry.is_located(self.motion), here, here)
+
+    def made_up(self) -> None:
+        """Staff has found the train whole (P5)."""
+        self.split = split.made_up(PLAN.split)
+
+
+def on_board(length_mm: int, front_mm: int) -> OnBoard:
+    """The machines of a train that stands, located and found whole."""
+    made = OnBoard(
+        length_mm=length_mm,
+        motion=odometry.located(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM, 0),
+        brake=braking.Brake(applied=True, end_mm=front_mm - LOCATED_WITHIN_MM),
+        watch=brake_watch.watching(0),
+        spacing=antenna_spacing.preset(length_mm - 2 * ANTENNA_MM),
+        split=split.made_up(PLAN.split),
+    )
+    made.begin_way()
+    return made

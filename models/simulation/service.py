@@ -1,0 +1,453 @@
+"""What becomes of a train, second by second: it tells where it stands, asks for its routes, runs, arrives, and goes on.
+
+The timetable asks and the kernel decides.  Here is also what staff does, lawfully, when a train has stopped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from random import Random
+
+from kernel.authority import may_proceed
+from kernel.names import Block, Route, Run, Stage, UnitLife
+from kernel.route_setting import request_refusal
+from models.simulation.ahead import ahead
+from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
+from models.simulation.driver import margin_mm
+from models.simulation.facing import Orders, exits, leads_back, leads_forward
+from models.simulation.foresight import Board, Foresight, Standing, far
+from models.simulation.onboard import LOCATED_WITHIN_MM
+from models.simulation.talking import Talk
+from models.simulation.timetable import Trip, Ways
+from models.simulation.vehicle import SETTLES_CYCLES, Line, Vehicle
+from models.simulation.waiting import Barred, barred
+from models.simulator import messages
+
+ASKS_AHEAD_MM = 3_000_000
+STAYS_S, AGAIN_S, PATIENCE_S, STAFF_S = (30, 90), 10, 240, (300, 900)
+DIVERTED_S = 180
+"""A train of random traffic that cannot make for its goal for so long gets another."""
+WIDE_MM = 3 * LOCATED_WITHIN_MM
+HELD_TOO_LONG_S = 60
+"""A train at rest for which the centre still holds what it has left tells anew where it stands."""
+
+
+class Phase(Enum):
+    """What a train is doing."""
+
+    LOST = "is to tell where it stands"
+    STANDS = "stands"
+    WAITS = "waits for its route to be set"
+    RUNS = "runs"
+    PARTED = "has parted, and waits for staff"
+    GONE = "has parted, and stays where two persons have stated it"
+
+
+@dataclass
+class Office:
+    """What the trains' services share: the diary, the dispatcher's foresight, and where all the trains are.
+
+    ``diverts``: a train that cannot make for its goal for long gets another one; else its timetable stands.
+    ``orders``: which end of a train leads in each run.
+    """
+
+    diary: Diary
+    foresight: Foresight
+    board: Callable[[], Board]
+    diverts: bool
+    orders: Orders
+
+
+class Service:
+    """One train and what it is about.
+
+    ``base``: the run it stands or moves under.  ``run``: the one asked for, or being run.
+    ``onward``: the one set ahead.
+    ``done``: trips at their end; ``begun``: it makes for the next goal.
+    ``waits``: the ways on that were refused when it asked last.
+    """
+
+    def __init__(self, vehicle: Vehicle, trips: list[Trip], line: Line, talk: Talk, ways: Ways, office: Office) -> None:
+        self.office = office
+        self.vehicle = vehicle
+        self.train = vehicle.on_rails.name
+        self.trips = trips
+        self.line = line
+        self.play = line.play
+        self.talk = talk
+        self.ways = ways
+        self.diary = office.diary
+        self.random = Random(f"{line.random.random()} {self.train}")
+        self.phase = Phase.LOST
+        self.base: Run | None = None
+        self.run: Run | None = None
+        self.onward: Run | None = None
+        self.done = 0
+        self.begun = False
+        self.ready_s = 0
+        self.since_s = 0
+        self.now_s = 0
+        self.stopped_until_s = 0
+        self.waits: tuple[Barred, ...] = ()
+        self.no_way = False
+        self.life_before = self.play.system.units[self.train].life
+
+    # ---- a second
+
+    def second(self, now_s: int) -> None:
+        """A second has passed."""
+        self.now_s = now_s
+        vehicle = self.vehicle
+        vehicle.holds = self.phase is not Phase.RUNS or now_s < self.stopped_until_s or self._is_challenged()
+        if vehicle.stands and self._stopped_for_good():
+            return
+        {
+            Phase.LOST: self._tells,
+            Phase.STANDS: self._stands,
+            Phase.WAITS: self._waits,
+            Phase.RUNS: self._runs,
+            Phase.PARTED: self._is_attended,
+            Phase.GONE: self._is_stated,
+        }[self.phase]()
+
+    def become(self, phase: Phase, ready_s: int = 0) -> None:
+        """Do something else from now on, not before so many seconds."""
+        self.phase, self.since_s, self.ready_s = phase, self.now_s, self.now_s + ready_s
+        self.waits = ()
+
+    def _is_challenged(self) -> bool:
+        """Whether the centre has restarted, and the train does not stand to answer yet."""
+        return self.play.system.units[self.train].answered != self.play.system.centre.epoch
+
+    def _stopped_for_good(self) -> bool:
+        """A train at rest whose machines have lost something: staff sets them right first."""
+        vehicle, board = self.vehicle, self.vehicle.board
+        if vehicle.on_rails.standing and self.phase not in (Phase.PARTED, Phase.GONE):
+            self._rests()
+            self.become(Phase.PARTED, self.random.randint(*STAFF_S))
+            return True
+        if board.split.split and not vehicle.on_rails.standing:
+            board.made_up()
+            self.diary.note(STAFF, self.train, "is found whole by its staff")
+        if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):
+            self._is_located("is located anew at a standstill")
+        return False
+
+    def _is_located(self, told: str) -> None:
+        front_mm = round(self.vehicle.front_mm)
+        self.vehicle.board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
+        self.vehicle.at_rest_cycles = 0
+        self._survey(*(run for run in (self.run, self.onward) if run is not None))
+        self.diary.note(STAFF, self.train, told)
+
+    def _rests(self) -> None:
+        for run in [run for run in self.play.system.track.rolling if run.train == self.train]:
+            self.play.take("come_to_rest", run=run)
+
+    # ---- telling where it stands
+
+    def lose_way(self, why: str) -> None:
+        """Its authority is gone: it brakes, and tells at rest, in a new life, where it stands."""
+        self.diary.note(BRAKE, self.train, why)
+        self.base = self.run = self.onward = None
+        self.life_before = self.play.system.units[self.train].life
+        self.vehicle.look_again()
+        self.become(Phase.LOST, 10)
+
+    def may_answer(self) -> bool:
+        """Whether it stands, whole, with nothing that it still could run under."""
+        vehicle = self.vehicle
+        whole = not vehicle.on_rails.standing and self.line.now_ms >= vehicle.line_broken_until_ms
+        return vehicle.stands and whole and self.phase is Phase.LOST
+
+    def _tells(self) -> None:
+        vehicle = self.vehicle
+        if not vehicle.stands or self.now_s < self.ready_s:
+            return
+        self._rests()
+        unit, told = self.play.system.units[self.train], self.talk.standing_run(self.train)
+        if told is not None and told in unit.orders and unit.life > self.life_before:
+            vehicle.restarted = False
+            self.base, self.run, self.onward = told, None, None
+            messages.retire_what_is_over(self.play, self.train)
+            self._is_located("is told under which run it stands")
+            self.become(Phase.STANDS, 5)
+        elif unit.answered == self.play.system.centre.epoch and unit.life == self.life_before:
+            self.play.take("restart_unit", train=self.train, life=UnitLife(unit.life + 1))
+
+    # ---- standing, asking
+
+    def _stands(self) -> None:
+        if self._is_challenged():
+            self.lose_way("is asked by the restarted centre where it stands")
+            return
+        if self.begun and self.trips[self.done].goal in self.under:
+            self.done, self.begun = self.done + 1, False
+            self.diary.note(TRAIN, self.train, f"has arrived at {self.trips[self.done - 1].goal}")
+        if self.now_s < self.ready_s:
+            return
+        self.ready_s = self.now_s + AGAIN_S
+        if self.now_s - self.since_s > HELD_TOO_LONG_S and self._holds_what_it_left():
+            self.lose_way("is held in blocks that it has left, and tells anew where it stands")
+            return
+        if self.finished or self.now_s < self.trips[self.done].begins_s:
+            return
+        self.begun = self.begun or self._begins()
+        if self.begun:
+            self._ask(self.base, self._routes(), "run")
+
+    def _begins(self) -> bool:
+        """Make for the next goal, as soon as that bars nobody's way."""
+        goal = self.trips[self.done].goal
+        if goal in self.under:
+            return True
+        board, foresight = self.office.board(), self.office.foresight
+        if not foresight.lets_begin(board, self.train, goal):
+            bar = foresight.barring(board, self.train, goal)
+            self.waits = () if bar is None else (bar,)
+            if not self.office.diverts or self.now_s - max(self.since_s, self.trips[self.done].begins_s) < DIVERTED_S:
+                return False
+            other = far(foresight, board, self.train, self.ways.places, self.random)
+            if other is None:
+                return False
+            self.diary.note(TRAIN, self.train, f"cannot make for {goal}, and is diverted")
+            self.trips[self.done], goal = Trip(other, self.now_s), other
+        self.waits = ()
+        self.diary.note(TRAIN, self.train, f"makes for {goal}")
+        return True
+
+    @property
+    def under(self) -> frozenset[Block]:
+        """The blocks it is in."""
+        at, rails = self.play.system.track.at, self.vehicle.on_rails
+        return frozenset(block for car in (*rails.cars, *rails.standing) for block in at[car])
+
+    @property
+    def standing(self) -> Standing:
+        """Where it is, or will be when it has run what it was granted, and where it makes for."""
+        run = self.onward or self.run
+        blocks = self.under if run is None else frozenset({self.play.site.layout.destination[run.route]})
+        stays = not self.begun or self.phase in (Phase.PARTED, Phase.GONE)
+        return Standing(blocks, None if stays else self.trips[self.done].goal)
+
+    @property
+    def finished(self) -> bool:
+        """Whether all its trips are at their end."""
+        return self.done >= len(self.trips)
+
+    def _holds_what_it_left(self) -> bool:
+        """Whether the centre holds blocks for it in which it is not, beside those of a route ahead."""
+        at = self.under
+        return any(
+            block not in at and any(run.train == self.train for run in runs)
+            for block, runs in self.play.system.centre.claimed.items()
+        )
+
+    def _routes(self) -> list[Route]:
+        """The routes from where it stands that lead towards its goal, and not back over it."""
+        assert self.base is not None
+        layout, under = self.play.site.layout, self.under
+        return [
+            route
+            for start in sorted(under)
+            for route in self.ways.towards(start, self.trips[self.done].goal)
+            if under & layout.claims[route] == {start} and (self._leads(route) or self._leads(route, back=True))
+        ]
+
+    def _leads(self, route: Route, back: bool = False) -> bool:
+        """Whether the train leads into a route as it stands, or once it has changed ends."""
+        train, tag = self.vehicle.on_rails, self.play.site.layout.first_tag[route]
+        front, rear = (self.play.system.track.at[train.cars[end]] for end in (0, -1))
+        if self.play.site.layout.start[route] not in (rear if back else front) or (back and train.standing):
+            return False
+        return (leads_back if back else leads_forward)(self.line.rails, train, tag)
+
+    def _ask(self, base: Run | None, routes: list[Route], what: str) -> None:
+        """Ask for the first of some routes that the kernel grants; remember who bars the others."""
+        assert base is not None
+        layout, refused = self.play.site.layout, list[Barred]()
+        self.no_way = not routes and what == "run"
+        for route in routes:
+            run = messages.next_run(self.play, self.train, route)
+            refusal = request_refusal(layout, self.play.system.centre, run, base)
+            if refusal is None and not self.office.foresight.lets(self.office.board(), self.train, route):
+                continue
+            if refusal is None and self.play.take("request", run=run, base=base):
+                forward = what == "onward" or self._leads(route)
+                self.office.orders.note(run, self.vehicle.on_rails, forward)
+                setattr(self, what, run)
+                if what == "run":
+                    self.become(Phase.WAITS)
+                self.talk.with_train(self.train)
+                return
+            if refusal is not None:
+                refused.append(barred(layout, self.play.system.centre, run, refusal))
+        if what == "run":
+            if refused and not self.waits:
+                self.diary.note(TRAIN, self.train, f"waits: {refused[0].refusal.value}")
+            self.waits = tuple(refused)
+
+    # ---- waiting for its route
+
+    def _waits(self) -> None:
+        assert self.run is not None
+        order = self.play.system.units[self.train].orders.get(self.run)
+        grant = self.play.system.centre.runs.get(self.run)
+        if self._is_challenged():
+            self.lose_way("is asked by the restarted centre where it stands")
+        elif grant is None or grant.stage == Stage.OVER:
+            self.run = None
+            self.become(Phase.STANDS, AGAIN_S)
+        elif order is not None and order.permitted and not order.given_back:
+            if not grant.cancelling:
+                self._departs(self.run)
+        elif self.now_s - self.since_s > PATIENCE_S:
+            self._gives_up(self.run, grant.stage)
+
+    def _gives_up(self, run: Run, stage: Stage) -> None:
+        """The signaller takes a route back that does not come about."""
+        self.since_s = self.now_s
+        if stage == Stage.RESERVED:
+            self.play.take("withdraw", run=run)
+        else:
+            self.play.take("cancel", run=run)
+
+    def _departs(self, run: Run) -> None:
+        vehicle, board = self.vehicle, self.vehicle.board
+        if not vehicle.settled:
+            return
+        if not self._leads(run.route):
+            self._turns()
+        board.lists = {}
+        self._survey(run)
+        board.begin_way()
+        vehicle.run = run
+        vehicle.demanded(self.play)
+        board.supervise(vehicle.demanded(self.play), True)
+        self.play.take("start_rolling", run=run)
+        vehicle.advance(self.line)
+        self.become(Phase.RUNS)
+        self._aims()
+
+    def _turns(self) -> None:
+        """Change ends: the range of the rear becomes that of the front."""
+        train, board = self.vehicle.on_rails, self.vehicle.board
+        rear_mm, motion = train.rear_mm, board.motion
+        self.vehicle.pending_mm = 0.0
+        train.turn()
+        top_mm = train.front_mm + rear_mm
+        least_mm = top_mm - motion.front_most_mm + board.length_mm
+        board.locate(least_mm, top_mm - motion.front_least_mm + board.length_mm)
+
+    def _survey(self, *runs: Run) -> None:
+        """Take the lists of runs that the unit is permitted."""
+        unit, board = self.play.system.units[self.train], self.vehicle.board
+        for run in runs:
+            if run.route in self.play.site.layout.routes and may_proceed(unit, run) and run not in board.lists:
+                lies = self.play.system.track.lies
+                board.lists[run] = ahead(self.play.site.layout, self.line.rails, self.vehicle.on_rails, run, lies)
+        self.vehicle.look_again()
+
+    # ---- running
+
+    def _aims(self) -> None:
+        board = self.vehicle.board
+        self.vehicle.target_mm = board.brake.end_mm - margin_mm(board.motion)
+
+    def _runs(self) -> None:
+        vehicle, run = self.vehicle, self.run
+        assert run is not None
+        self._prolongs()
+        self._aims()
+        if not vehicle.stands:
+            if self.onward is None and vehicle.target_mm - vehicle.front_mm < ASKS_AHEAD_MM:
+                self._asks_ahead()
+            return
+        if not may_proceed(self.play.system.units[self.train], vehicle.run or run):
+            self._rests()
+            self.lose_way("stands with an open loop")
+        elif self._is_challenged():
+            self._rests()
+            self.lose_way("stops where the restarted centre asks where it stands")
+        elif vehicle.settled and not vehicle.holds:
+            self._goes_on(run)
+
+    def _goes_on(self, run: Run) -> None:
+        """At rest under authority: it goes on, or has arrived, or its range is too wide to go on with."""
+        vehicle, board = self.vehicle, self.vehicle.board
+        if board.brake.applied:
+            board.supervise(vehicle.demanded(self.play), True)
+        wide = board.motion.front_most_mm - board.motion.front_least_mm > WIDE_MM
+        if wide and (board.brake.applied or vehicle.is_barred):
+            self._is_located("cannot go on with so wide a range, and is located anew")
+        elif self.onward is None and (vehicle.is_there or vehicle.is_barred):
+            self._arrives(run)
+
+    def _asks_ahead(self) -> None:
+        """Ask for a route on in the same direction while still moving."""
+        if self.run is None or self.finished or self._is_challenged() or self.now_s < self.ready_s:
+            return
+        layout, end = self.play.site.layout, self.play.site.layout.destination[self.run.route]
+        if end == self.trips[self.done].goal or self.play.system.centre.runs.get(self.run) is None:
+            return
+        if self.run not in self.vehicle.board.lists:
+            return
+        ahead_of_it = exits(self.line.rails, self.vehicle.board.lists[self.run].arrives)
+        routes = [
+            route
+            for route in self.ways.towards(end, self.trips[self.done].goal)
+            if layout.first_tag[route] in ahead_of_it
+            and not layout.covers[route] & (self.under | {layout.start[self.run.route]})
+        ]
+        self.ready_s = self.now_s + AGAIN_S
+        self._ask(self.run, routes, "onward")
+
+    def _prolongs(self) -> None:
+        """The run set ahead goes on from this one once it is permitted; or it is given up."""
+        if self.onward is None:
+            return
+        unit, grant = self.play.system.units[self.train], self.play.system.centre.runs.get(self.onward)
+        if may_proceed(unit, self.onward) and grant is not None and not grant.cancelling:
+            self._survey(self.onward)
+            self.vehicle.run = self.onward
+            self.play.take("start_rolling", run=self.onward)
+            self.base, self.run, self.onward = self.run, self.onward, None
+            self.since_s = self.now_s
+        elif grant is None or grant.stage == Stage.OVER:
+            self.onward = None
+        elif self.vehicle.stands and self.now_s - self.since_s > PATIENCE_S:
+            self._gives_up(self.onward, grant.stage)
+
+    def _arrives(self, run: Run) -> None:
+        """It stands in its destination: told, and what was left is reported."""
+        self._rests()
+        inside = self._is_inside(self.play.site.layout.destination[run.route])
+        self.play.take("note_stopped", run=run, within_destination=inside)
+        self.base, self.run = run, None
+        messages.retire_what_is_over(self.play, self.train)
+        self.become(Phase.STANDS, self.random.randint(*STAYS_S))
+
+    def _is_inside(self, block: Block) -> bool:
+        """Whether the odometry has the front before the end of the destination."""
+        ends = [each.ends_mm[block] for each in self.vehicle.board.lists.values() if block in each.ends_mm]
+        return bool(ends) and self.vehicle.board.motion.front_most_mm <= max(ends)
+
+    # ---- a train that has parted
+
+    def _is_attended(self) -> None:
+        """Two persons come and state where all of it stands (T8)."""
+        if self.now_s >= self.ready_s and self.vehicle.stands:
+            self._rests()
+            unit = self.play.system.units[self.train]
+            self.play.take("send_challenge", epoch=self.play.system.centre.epoch)
+            messages.state(self.play, self.train, UnitLife(unit.life + 1))
+            messages.retire_what_is_over(self.play, self.train)
+            self.base = self.run = self.onward = None
+            self.become(Phase.GONE, self.random.randint(*STAFF_S))
+
+    def _is_stated(self) -> None:
+        """After a restart of the centre they state it again."""
+        if self.train not in self.play.system.centre.accounted:
+            self.become(Phase.PARTED, self.random.randint(*STAFF_S))

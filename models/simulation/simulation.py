@@ -1,0 +1,245 @@
+"""A line with its trains, second by second: the agenda, the conversations, the trains, and what goes wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+from kernel.names import Block, Car, Epoch, Point, Run, Stage, TerminalLife, Train, UnitLife
+from kernel.onboard.arithmetic import CYCLE_MS
+from models.concrete.drive import NatureRefusedError
+from models.concrete.rails import Piece
+from models.concrete.train import CAR_MM, OnRails
+from models.simulation.agenda import Agenda
+from models.simulation.air import Air
+from models.simulation.beginning import CARS, Plan, begun, rails_of
+from models.simulation.diary import Diary
+from models.simulation.facing import Orders
+from models.simulation.faults import BY_NAME
+from models.simulation.foresight import Board, Foresight
+from models.simulation.motors import Motors
+from models.simulation.occurrences import Occurrence, occurrences
+from models.simulation.onboard import on_board
+from models.simulation.oracles import Oracles
+from models.simulation.sensors import sensors
+from models.simulation.service import Office, Phase, Service
+from models.simulation.talking import Talk
+from models.simulation.timetable import Ways
+from models.simulation.vehicle import Line, Vehicle
+from models.simulation.waiting import Waits
+from models.simulator import messages
+from models.simulator.play import Watcher, begin, site_of
+from models.world.state import System
+
+SECOND_MS, CYCLES = 1_000, 1_000 // CYCLE_MS
+TALKS_S = 2
+"""What is not heard is said again after so long."""
+
+
+class Simulation:
+    """The line, its trains, and everything that is written down of them."""
+
+    def __init__(self, plan: Plan, watch: Watcher | None = None) -> None:
+        self.plan = plan
+        self.random = Random(f"{plan.seed} line")
+        self.rails = rails_of(plan.imported)
+        self.diary = Diary()
+        self.agenda = Agenda()
+        self.now_s = 0
+        names = [Train(f"T{number:02}") for number in range(1, plan.trains + 1)]
+        cars = {train: tuple(Car(f"{train}.{number}") for number in range(1, CARS + 1)) for train in names}
+        orders = Orders(cars)
+        made = site_of(plan.imported.layout, plan.imported.ground, plan.imported.records, cars)
+        site = replace(made, formation=orders.formation())
+        self.ways = Ways(site.layout, self.rails)
+        foresight = Foresight(site.layout, self.ways)
+        where, trips = begun(plan, names, self.rails, foresight)
+        self.oracles = Oracles(site)
+        self.watchers: list[Watcher] = [self.oracles.after, self.diary.after, *([watch] if watch else [])]
+        self.play = begin(site, cars, where, self._watch)
+        self.air = Air(self.agenda, Random(f"{plan.seed} radio"), plan.chosen)
+        self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
+        self.talk = Talk(self.play, self.air, self.motors, self._may_answer, self._stands_short)
+        self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
+        self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
+        office = Office(self.diary, foresight, self._board, plan.trips is None, orders)
+        self.services = {
+            train: Service(self.vehicles[train], trips[train], self.line, self.talk, self.ways, office)
+            for train in names
+        }
+        self.coming = occurrences(plan.chosen, plan.seed, plan.hours, names, sorted(site.layout.points))
+
+    # ---- the beginning
+
+    def _vehicle(self, train: Train, cars: Sequence[Car], block: Block) -> Vehicle:
+        """A train in the middle of a block."""
+        heading = self.rails.start_of(block)
+        length_mm = self.rails.length_mm(heading)
+        front_mm = (length_mm + CAR_MM * len(cars)) // 2
+        on_rails = OnRails(train, list(cars), [Piece(heading, 0, length_mm)], front_mm, self.random)
+        made = sensors(Random(f"{self.plan.seed} sensors of {train}"))
+        return Vehicle(on_rails, on_board(CAR_MM * len(cars), front_mm), made)
+
+    def _board(self) -> Board:
+        return {train: service.standing for train, service in self.services.items()}
+
+    def _watch(self, step: str, event: Mapping[str, Any], system: System) -> None:
+        for watcher in self.watchers:
+            watcher(step, event, system)
+
+    def _may_answer(self, train: Train) -> bool:
+        return self.services[train].may_answer()
+
+    def _stands_short(self, run: Run) -> bool:
+        """Whether a train stands, and has not begun a run."""
+        order = self.play.system.units[run.train].orders.get(run)
+        track = self.play.system.track
+        begun = run in track.run_into or run in track.rolling
+        return self.vehicles[run.train].stands and not begun and order is not None
+
+    # ---- a second
+
+    def run(self, each_second: Callable[[Simulation], object] = lambda now: None) -> None:
+        """Let all the time pass, or until every trip is at its end, or something is broken."""
+        try:
+            while self.now_s < self.plan.hours * 3_600 and not self.oracles.found and not self.ended:
+                self.second()
+                each_second(self)
+        except NatureRefusedError as refused:
+            self.oracles.violated("the_world_allows_what_happens", str(refused))
+
+    def second(self) -> None:
+        """A second passes."""
+        begins_ms, self.now_s = self.now_s * SECOND_MS, self.now_s + 1
+        self._set_clock(begins_ms)
+        self.agenda.go_to(begins_ms)
+        self._goes_wrong(begins_ms)
+        self._recovers()
+        for place, (train, service) in enumerate(self.services.items()):
+            service.second(self.now_s)
+            if (self.now_s + place) % TALKS_S == 0:
+                self.talk.with_train(train)
+        for vehicle in self.vehicles.values():
+            self._second_of(vehicle)
+
+    def _set_clock(self, now_ms: int) -> None:
+        self.diary.now_ms = self.oracles.now_ms = self.line.now_ms = now_ms
+
+    def _second_of(self, vehicle: Vehicle) -> None:
+        for _ in range(CYCLES):
+            if vehicle.settled and (vehicle.holds or vehicle.is_there):
+                return
+            vehicle.cycle(self.line)
+            self.oracles.on_board(vehicle.on_rails.name, vehicle)
+
+    def _recovers(self) -> None:
+        """What is lost and can be found again is; runs that hold nothing are forgotten."""
+        centre = self.play.system.centre
+        lost = centre.lost_blocks or centre.lost_points
+        if lost and all(train in centre.accounted for train in self.play.site.layout.fleet):
+            messages.recover(self.play)
+
+    # ---- what goes wrong
+
+    def _goes_wrong(self, now_ms: int) -> None:
+        while self.coming and self.coming[0].at_ms <= now_ms:
+            each = self.coming.pop(0)
+            says = BY_NAME[each.fault].says
+            lasts = f", for {each.lasts_ms // 1_000} s" if each.lasts_ms else ""
+            if getattr(self, f"_{each.fault}")(each):
+                self.diary.fault(each.fault, each.who or "centre", f"{says}{lasts}")
+
+    def _radio_outage(self, each: Occurrence) -> bool:
+        self.air.silence(Train(each.who), each.lasts_ms)
+        return True
+
+    def _wheel_slip(self, each: Occurrence) -> bool:
+        vehicle = self.vehicles[Train(each.who)]
+        return vehicle.sensors.slip(each.lasts_ms, vehicle.speed_mm_s, vehicle.gained_mm_s2 < 0)
+
+    def _tachometer_silent(self, each: Occurrence) -> bool:
+        vehicle = self.vehicles[Train(each.who)]
+        vehicle.sensors.tachometer_silent_cycles = 0 if vehicle.stands else each.lasts_ms // CYCLE_MS
+        return not vehicle.stands
+
+    def _inertial_silent(self, each: Occurrence) -> bool:
+        vehicle = self.vehicles[Train(each.who)]
+        vehicle.sensors.inertial_silent_cycles = 0 if vehicle.stands else each.lasts_ms // CYCLE_MS
+        return not vehicle.stands
+
+    def _line_broken(self, each: Occurrence) -> bool:
+        vehicle = self.vehicles[Train(each.who)]
+        vehicle.line_broken_until_ms = self.line.now_ms + each.lasts_ms
+        return True
+
+    def _unit_restart(self, each: Occurrence) -> bool:
+        train = Train(each.who)
+        service = self.services[train]
+        if service.phase in (Phase.PARTED, Phase.GONE):
+            return False
+        self.play.take("restart_unit", train=train, life=UnitLife(self.play.system.units[train].life + 1))
+        self.vehicles[train].restarted = True
+        service.lose_way("has lost its authority and brakes")
+        return True
+
+    def _centre_restart(self, each: Occurrence) -> bool:
+        self.play.take("restart_centre", epoch=Epoch(self.play.system.centre.epoch + 1))
+        return True
+
+    def _terminal_restart(self, each: Occurrence) -> bool:
+        point = Point(each.who)
+        life = TerminalLife(self.play.system.terminals[point].life + 1)
+        return self.play.take("restart_terminal", point=point, life=life)
+
+    def _point_stuck(self, each: Occurrence) -> bool:
+        self.motors.stick(Point(each.who), each.lasts_ms)
+        return True
+
+    def _train_parts(self, each: Occurrence) -> bool:
+        """Only a train that moves parts; where it stands, its couplings bear nothing."""
+        vehicle, train = self.vehicles[Train(each.who)], Train(each.who)
+        if vehicle.stands or vehicle.on_rails.standing:
+            return False
+        vehicle.advance(self.line)
+        self.play.take("part", train=train)
+        vehicle.on_rails.part(self.rails, self.random.randint(1, CARS - 1))
+        vehicle.advance(self.line)
+        return True
+
+    def _stop_on_line(self, each: Occurrence) -> bool:
+        service = self.services[Train(each.who)]
+        service.stopped_until_s = self.now_s + each.lasts_ms // SECOND_MS
+        return service.phase is Phase.RUNS
+
+    def _route_cancelled(self, each: Occurrence) -> bool:
+        service = self.services[Train(each.who)]
+        run = service.onward or service.run
+        grant = None if run is None else self.play.system.centre.runs.get(run)
+        if run is None or grant is None or grant.stage not in (Stage.OFFERED, Stage.SET):
+            return False
+        return self.play.take("cancel", run=run)
+
+    # ---- what it has come to
+
+    @property
+    def ended(self) -> bool:
+        """Whether a timetable of so many trips is at its end."""
+        return self.plan.trips is not None and all(
+            each.finished or each.phase is Phase.GONE for each in self.services.values()
+        )
+
+    @property
+    def waits(self) -> Waits:
+        """The ways on of each train that waits for one."""
+        return {train: each.waits for train, each in self.services.items() if each.waits}
+
+    @property
+    def gone(self) -> frozenset[Train]:
+        """Trains that will not move any more: parted, at the end of their trips, or without any way on."""
+        return frozenset(
+            train
+            for train, each in self.services.items()
+            if each.phase in (Phase.PARTED, Phase.GONE) or (each.phase is Phase.STANDS and each.finished) or each.no_way
+        )

@@ -1,0 +1,225 @@
+"""A train as it is, and the machines on board beside it: sample by sample over rails, tags and boundaries.
+
+A train that stands, and whose odometry is sure of it, is left alone until it goes on: nothing changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from random import Random
+
+from kernel.authority import may_proceed
+from kernel.names import Antenna, Read, Run, Tag, Train
+from kernel.unit import Unit
+from models.concrete.drive import Drive
+from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
+from models.concrete.train import Happening, OnRails
+from models.rides.plan import PLAN
+from models.simulation.driver import BELOW_MM_S, CYCLE_S, asked_mm_s2, gained_mm_s2, shown_mm_s
+from models.simulation.faults import Chosen
+from models.simulation.onboard import OnBoard
+from models.simulation.sensors import Sensors
+from models.simulator.play import Play
+from models.world.assumptions import a_healthy_line_reaches_the_tail, a_pair_read_in_order_proves_the_exit
+
+NEAR_END_MM = 12_000
+SETTLES_CYCLES = 100
+"""If the odometry is not sure by then that the train stands, it is located anew."""
+
+
+class Vehicle:
+    """One train.
+
+    ``run``: the newest one it may run under.  ``target_mm``: where the driver wants to stop, on the train's path.
+    ``holds``: the driver keeps it where it is, or stops it.  ``restarted``: the unit has just begun a new life.
+    """
+
+    def __init__(self, on_rails: OnRails, board: OnBoard, sensors: Sensors) -> None:
+        self.on_rails = on_rails
+        self.board = board
+        self.sensors = sensors
+        self.run: Run | None = None
+        self.target_mm = 0.0
+        self.holds = True
+        self.restarted = False
+        self.line_broken_until_ms = 0
+        self.speed_mm_s = 0.0
+        self.gained_mm_s2 = 0.0
+        self.pending_mm = 0.0
+        self.next_mm = 0.0
+        self.at_rest_cycles = 0
+        self.way_mm = 0.0
+        self._unit: Unit | None = None
+        self._demanded = True
+
+    @property
+    def front_mm(self) -> float:
+        """Where its front is, on its path."""
+        return self.on_rails.front_mm + self.pending_mm
+
+    @property
+    def stands(self) -> bool:
+        """Whether it is at rest."""
+        return self.speed_mm_s == 0.0
+
+    @property
+    def settled(self) -> bool:
+        """Whether it is at rest and its odometry sure of that."""
+        motion = self.board.motion
+        return self.stands and motion.trusted and motion.speed_most_mm_s <= PLAN.brake.standstill_mm_s
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it is so near to where its driver wants to stop that it goes no nearer."""
+        return self.target_mm - self.front_mm < NEAR_END_MM
+
+    @property
+    def is_barred(self) -> bool:
+        """Whether the cab shows it that it may not go on."""
+        return shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm) <= BELOW_MM_S
+
+    # ---- a cycle of 100 ms
+
+    def cycle(self, line: Line) -> None:
+        """Let the train move, its sensors read and its machines decide."""
+        before = self.speed_mm_s
+        self._drive()
+        moved_mm = (before + self.speed_mm_s) / 2 * CYCLE_S
+        gained_mm_s2 = (self.speed_mm_s - before) / CYCLE_S
+        self.pending_mm += moved_mm
+        self.way_mm += moved_mm
+        readings = self.sensors.read(self.speed_mm_s, gained_mm_s2)
+        tail_mm_s2 = -before / CYCLE_S if self.on_rails.standing and before else gained_mm_s2
+        self.board.cycle(readings, self.sensors.tail(readings, tail_mm_s2), self.demanded(line.play))
+        if self.pending_mm >= self.next_mm or (self.stands and self.pending_mm >= 1):
+            self.advance(line)
+        if self.board.window.passed and not self.restarted:
+            line.play.take("window_passes", train=self.on_rails.name)
+        self.at_rest_cycles = self.at_rest_cycles + 1 if self.stands else 0
+
+    def _drive(self) -> None:
+        """The speed at the end of the cycle: the driver's, or the emergency brake's."""
+        board = self.board
+        if board.brake.applied:
+            self.gained_mm_s2 = gained_mm_s2(self.gained_mm_s2, 0.0, True)
+        else:
+            shown = shown_mm_s(PLAN.brake, board.motion, board.brake.end_mm)
+            to_stop_mm = 0.0 if self.holds else self.target_mm - self.front_mm
+            asked = asked_mm_s2(self.speed_mm_s, to_stop_mm, shown)
+            self.gained_mm_s2 = gained_mm_s2(self.gained_mm_s2, asked, False)
+        self.speed_mm_s = max(0.0, self.speed_mm_s + self.gained_mm_s2 * CYCLE_S)
+        if self.speed_mm_s == 0.0:
+            self.gained_mm_s2 = 0.0
+
+    def demanded(self, play: Play) -> bool:
+        """Whether the unit wants the emergency brake: no run, or an open loop (T5)."""
+        unit = play.system.units[self.on_rails.name]
+        if unit is not self._unit:
+            self._unit = unit
+            self._demanded = self.run is None or not may_proceed(unit, self.run)
+            self.board.follow(play.site.layout, unit)
+        return self._demanded
+
+    def look_again(self) -> None:
+        """The orders are to be read anew in the next cycle."""
+        self._unit = None
+
+    def advance(self, line: Line) -> None:
+        """Let happen what lies on the way that was run."""
+        train, whole_mm = self.on_rails, int(self.pending_mm)
+        if whole_mm > 0 and self.run is not None:
+            before_mm = train.front_mm
+            line.move(train, self.run, whole_mm)
+            run_mm = train.front_mm - before_mm
+            self.pending_mm = self.pending_mm - run_mm if run_mm == whole_mm else 0.0
+        train.look()
+        self._forget()
+        here = train.happenings(line.rails, train.path[-1].to_mm - train.front_mm)
+        ends_mm = train.path[-1].to_mm - train.front_mm
+        self.next_mm = float(min([ends_mm, *(each.after_mm for each in here[:1])]))
+
+    def _forget(self) -> None:
+        """What lies far behind the train is of no use any more."""
+        train = self.on_rails
+        behind = sum(piece.to_mm < train.rear_mm - TAG_MM - WINDOW_MM for piece in train.path)
+        if behind:
+            del train.path[:behind]
+            train.offsets = {
+                (tag, at - behind, head): mm for (tag, at, head), mm in train.offsets.items() if at >= behind
+            }
+
+
+class Line(Drive):
+    """Trains on the rails whose antennas feed machines on board; what happens must be a step of the world."""
+
+    def __init__(
+        self, play: Play, rails: Rails, vehicles: Mapping[Train, Vehicle], random: Random, chosen: Chosen
+    ) -> None:
+        self.only: OnRails | None = None
+        self.vehicles = vehicles
+        self.chosen = chosen
+        self.now_ms = 0
+        self.numbers = {tag: number for number, tag in enumerate(sorted(play.site.layout.tag_in), start=1)}
+        super().__init__(play, rails, [each.on_rails for each in vehicles.values()], random)
+
+    def compare(self) -> None:
+        """Every car of the train that moves is in just the blocks that the abstract track says."""
+        everybody = self.trains
+        self.trains = everybody if self.only is None else [self.only]
+        try:
+            super().compare()
+        finally:
+            self.trains = everybody
+        self.seen["compared"] += 1
+
+    def move(self, train: OnRails, run: Run, mm: int) -> None:
+        """A train moves so far between two samples; only it can have changed its blocks."""
+        self.only = train
+        super().move(train, run, mm)
+
+    def happens(self, train: OnRails, run: Run, what: Happening) -> None:
+        """One thing happens; what an antenna passes goes through the machines on board first."""
+        if what.kind in ("enters", "leaves"):
+            super().happens(train, run, what)
+        elif what.kind == "head reads":
+            self._head_passes(self.vehicles[train.name], what)
+        elif self._happens("tag_missed_tail"):
+            self.seen["tag_missed_tail"] += 1
+        else:
+            self.tail_reads(train, run, what)
+
+    def _head_passes(self, vehicle: Vehicle, what: Happening) -> None:
+        """The head's antenna passes a tag; now and then another lies there, or it reads nothing."""
+        assert what.tag is not None
+        if self._happens("tag_foreign"):
+            self.seen["tag_foreign"] += 1
+            self._head_reads(vehicle, what, Tag("foreign"), None)
+        if self._happens("tag_missed_head"):
+            self.seen["tag_missed_head"] += 1
+            return
+        places = (ahead.tags_mm[what.tag] for ahead in vehicle.board.lists.values() if what.tag in ahead.tags_mm)
+        self._head_reads(vehicle, what, what.tag, next(places, None))
+
+    def _head_reads(self, vehicle: Vehicle, what: Happening, tag: Tag, place_mm: int | None) -> None:
+        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm)
+        cab, train = self.play.site.formation.cab[what.car], vehicle.on_rails.name
+        self.play.take("head_reads", train=train, cab=cab, tag=tag, in_window=in_window)
+        vehicle.demanded(self.play)
+
+    def tail_reads(self, train: OnRails, run: Run, what: Happening) -> None:
+        """The antenna of the last car reads a tag; the machines on board say whether it is the train's tail."""
+        assert what.tag is not None
+        site, system, vehicle = self.play.site, self.play.system, self.vehicles[train.name]
+        through = not train.standing and self.now_ms >= vehicle.line_broken_until_ms
+        healthy = vehicle.board.tail_reads(self.numbers[what.tag], through)
+        read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
+        unit = system.units[run.train]
+        true = a_healthy_line_reaches_the_tail(site, system, run, Antenna.TAIL, cab, healthy)
+        if unit.tail_read is not None and unit.tail_cab == cab:
+            true = true and a_pair_read_in_order_proves_the_exit(site, system, run, what.car, unit.tail_read, read)
+        self.must(true, what)
+        event = {"antenna": Antenna.TAIL, "cab": cab, "healthy": healthy, "read": read}
+        self.play.take("tail_reads", run=run, car=what.car, **event)
+
+    def _happens(self, fault: str) -> bool:
+        return fault in self.chosen and self.random.random() < self.chosen[fault].rate

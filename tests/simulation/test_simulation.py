@@ -1,0 +1,149 @@
+"""A simulated line: the same seed gives the same record, nothing is broken, and every train is accounted for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kernel.names import Run
+from models.layouts import BadInput, load
+from models.simulation.beginning import Plan
+from models.simulation.each_fault import each, left_locked
+from models.simulation.faults import BY_NAME, NO_FAULT, Setting
+from models.simulation.oracles import ORACLES
+from models.simulation.service import Phase
+from models.simulation.simulation import Simulation
+from models.simulator.play import WORLD
+from models.world.state import Site, System
+from tests.layouts.stations import SHARED, needs_shared
+from tests.simulation.lines import HARD, SAMPLES, plan, simulated
+
+
+def text(given: Plan) -> str:
+    return json.dumps(simulated(given).record())
+
+
+def test_the_same_seed_gives_the_same_record_to_the_byte() -> None:
+    assert text(plan("passing_station")) == text(plan("passing_station"))
+    assert text(plan("passing_station")) != text(plan("passing_station", seed=2))
+
+
+@settings(max_examples=6, deadline=None)
+@given(place=st.sampled_from(SAMPLES), seed=st.integers(0, 2**31 - 1))
+def test_nothing_is_broken_by_many_faults_and_every_train_is_accounted_for(place: str, seed: int) -> None:
+    found = simulated(plan(place, seed, hours=0.15, chosen=HARD))
+    assert found.holds, found.broken
+    assert [account.train for account in found.accounts] == ["T01", "T02", "T03"]
+    for account in found.accounts:
+        assert account.blocks
+        assert account.text
+        assert account.trips_done <= account.trips
+    for name in set(ORACLES) - {"no_point_moves_under_a_train", "the_world_allows_what_happens"}:
+        assert name in found.sim.oracles.checked
+    assert len(found.judged) > 50
+    assert min(found.judged.values()) > 10
+
+
+def test_a_timetable_comes_to_its_end_without_faults() -> None:
+    found = simulated(plan("junction", trains=2, hours=2.0, chosen=NO_FAULT, trips=1))
+    assert found.holds
+    assert found.sim.ended
+    assert not found.deadlocks
+    assert {account.ended for account in found.accounts if account.trips} == {"arrived"}
+    assert found.sim.now_s < 2 * 3_600
+    assert found.sim.diary.steps["release_block"] > 0
+    assert not list(left_locked(found.sim))
+
+
+def test_a_timetable_that_does_not_end_in_time_does_not_hold() -> None:
+    found = simulated(plan("junction", trains=2, hours=0.02, chosen=NO_FAULT, trips=1))
+    assert not found.broken
+    assert not found.sim.ended
+    assert not found.holds
+
+
+def releases_too_much(site: Site, system: System, run: Run, **event: Any) -> System:
+    """A planted fault of the centre: when a car gets on, every block of its run is freed."""
+    after = WORLD["car_moves"](site, system, run=run, **event)
+    if after is system:
+        return after
+    freed = {block: runs - {run} for block, runs in after.centre.claimed.items()}
+    return replace(after, centre=replace(after.centre, claimed=freed))
+
+
+def test_the_oracles_see_a_centre_that_releases_too_much() -> None:
+    sim = Simulation(plan("passing_station", chosen=NO_FAULT))
+    steps: Mapping[str, Any] = {**WORLD, "car_moves": releases_too_much}
+    sim.play.steps = steps
+    sim.run()
+    assert sim.now_s < 360
+    broken = {each.oracle for each in sim.oracles.found}
+    assert broken & {"trains_stay_in_what_is_secured", "nothing_is_released_around_a_train"}
+
+
+def test_a_train_that_parts_stops_and_is_stated_by_two_persons() -> None:
+    parts = {"train_parts": Setting(0.0, 0, 0, tuple(range(60, 400, 5)))}
+    sim = Simulation(plan("passing_station", trains=1, hours=0.6, chosen=parts))
+    sim.run()
+    assert not sim.oracles.found
+    assert sim.diary.faults["train_parts"] == 1
+    assert sim.services[next(iter(sim.services))].phase is Phase.GONE
+    assert sim.diary.steps["note_statement_confirmed"] == 1
+
+
+def test_a_centre_that_restarts_finds_everything_again() -> None:
+    sim = Simulation(
+        plan("passing_station", trains=2, hours=0.2, chosen={"centre_restart": Setting(0.0, 0, 0, (120.0,))})
+    )
+    sim.run()
+    assert not sim.oracles.found
+    assert sim.play.system.centre.epoch == 2
+    assert not sim.play.system.centre.lost_blocks
+    assert not sim.play.system.centre.lost_points
+
+
+def test_each_fault_alone_leaves_a_lawful_way_out() -> None:
+    chosen = {name: Setting(1.0, BY_NAME[name].least, BY_NAME[name].most) for name in ("line_broken", "train_parts")}
+    rows = each(plan("passing_station", trains=2, hours=0.5, chosen=chosen))
+    assert [row.fault for row in rows] == ["none", "line_broken", "train_parts"]
+    assert all(row.holds and not row.broken for row in rows)
+    assert rows[0].came == 0
+    assert rows[0].held == "nothing"
+    assert rows[1].came > 0
+    assert rows[1].longest_s > 0
+    assert rows[2].came > 0
+    assert "stopped" in rows[2].at_the_end
+    assert all(row.way_out for row in rows)
+
+
+@pytest.mark.parametrize("trains", [30])
+def test_more_trains_than_have_room_are_refused(trains: int) -> None:
+    with pytest.raises(BadInput, match="can stand apart"):
+        Simulation(plan("terminus", trains=trains))
+
+
+@needs_shared
+def test_twenty_trains_run_on_a_real_network() -> None:
+    found = simulated(Plan(load(SHARED / "osrd-small_infra.json"), 2, 20, 0.1, HARD))
+    assert found.holds, found.broken
+    assert len(found.accounts) == 20
+    assert sum(account.way_mm for account in found.accounts) > 5_000_000
+
+
+@needs_shared
+def test_a_layout_without_track_is_refused() -> None:
+    with pytest.raises(BadInput, match="no track"):
+        Simulation(Plan(load(SHARED / "swtbahn-lite.yml"), 1, 1, 0.1, NO_FAULT))
+
+
+@needs_shared
+def test_a_timetable_that_locks_itself_is_told_as_such() -> None:
+    found = simulated(Plan(load(SHARED / "osrd-one_line.json"), 3, 6, 1.5, NO_FAULT, 2))
+    assert not found.broken
+    assert found.sim.ended or (found.deadlocks and found.timetable_to_blame)
