@@ -276,7 +276,7 @@ def ride(
     Examples:
 
     * `heisoku ride --rides 64 --json out/ride.json`
-    * `heisoku ride --rides 8 --beyond diameter_ppm --beyond approach_slows_m_s2`
+    * `heisoku ride --rides 8 --beyond diameter_ppm`
     """
     from models.rides.campaign import ride_all
     from models.rides.report import print_beyond, print_outcome, record
@@ -321,7 +321,7 @@ def days(
 
     Examples:
 
-    * `heisoku days crossing --days 20 --keep out/crossing.days`
+    * `heisoku days crossing --days 20`
     """
     from models.days.campaign import live_all, outcome
     from models.days.kept import KeptDays
@@ -351,7 +351,7 @@ def handset(
     """Write a track worker's handset as one page, fed by a simulated day: tones, trains, both views.
 
     Examples:
-    * `heisoku handset -o out/handset.html --minutes 20`
+    * `heisoku handset -o out/handset.html --minutes 10`
     """
     from models.alarm.page.writing import write
 
