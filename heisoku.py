@@ -7,36 +7,45 @@ Findings go to standard output; progress and complaints to standard error.
 from __future__ import annotations
 
 import os
-import re
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from enum import StrEnum
 from io import TextIOWrapper
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TextIO
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from evidence.manifest.command import manifest, verify
 from evidence.report.command import report
 from fuzz.campaign.command import fuzz
 from fuzz.simulation.command import simulate
+from models.commands import (
+    EVERY_CORE,
+    Jobs,
+    Json,
+    Seed,
+    bad_input_refused,
+    complain,
+    console,
+    pattern,
+    print_line,
+    progress,
+    refuse,
+    writable,
+)
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.layouts.export.command import export
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json, write_whole
+from proofs.records import commit, versions, write_json, write_whole
 
 if TYPE_CHECKING:
     from models.layouts import CheckResult, Imported
 
-COLUMNS_OF_A_FILE = 120
-"""Columns to write where the output is not a terminal."""
 INTERRUPTED = 130
-CHECKED = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", BAD_INPUT: "bad input"}
 
 app = typer.Typer(
     add_completion=False,
@@ -44,10 +53,6 @@ app = typer.Typer(
     help="A railway safety kernel without track circuits, proved once for every layout.\n\n"
     "Exit codes: 0 holds, 1 does not hold, 2 bad input or usage, 3 undecided.",
 )
-
-
-class Refused(Exception):
-    """Input that cannot be used: one line for whoever gave it."""
 
 
 class Solvers(StrEnum):
@@ -78,7 +83,6 @@ class Day(StrEnum):
 
 Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
-Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
 JUnit = Annotated[Path | None, typer.Option("--junit", metavar="F", help="Write JUnit XML there.", show_default=False)]
 
 
@@ -87,7 +91,7 @@ def prove(
     json: Json = None,
     junit: JUnit = None,
     solver: Annotated[Solvers, typer.Option(help="Which solver to ask.")] = Solvers.z3,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    jobs: Jobs = EVERY_CORE,
     seeds: Annotated[int, typer.Option(metavar="N", min=1, help="Seeds to repeat every obligation with.")] = 1,
     only: Annotated[
         str | None,
@@ -111,14 +115,11 @@ def prove(
     from proofs.run import prove_all
 
     writable(json, junit)
-    try:
-        re.compile(only or "")
-    except re.error as error:
-        raise Refused(f"--only {only}: not a pattern ({error}); give a part of a name") from error
+    pattern(only)
     with progress("proving") as step:
         report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step, keep=keep)
     if not report.obligations:
-        raise Refused(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
+        refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
     print_matrix(console(), report)
     if json:
         write_json(json, report.record())
@@ -165,9 +166,9 @@ def check(layouts: Layouts, json: Json = None) -> None:
         print_check(out, path, one[1])
     unread = sum(isinstance(one, BadInput) for one in found)
     aside = f", {unread} not read" if unread else ""
-    print_line(out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {CHECKED[worst]}")
+    print_line(out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {WORDS[worst]}")
     if json:
-        record = {"verdict": CHECKED[worst], "layouts": entries, "versions": versions(), "commit": commit()}
+        record = {"verdict": WORDS[worst], "layouts": entries, "versions": versions(), "commit": commit()}
         write_json(json, record)
     raise typer.Exit(worst)
 
@@ -210,7 +211,7 @@ def reproduce(
         Path | None,
         typer.Option("--output", "-o", metavar="DIR", help="Put pictures and tables there.", show_default=False),
     ] = None,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+    seed: Seed = 1,
     runs: Annotated[
         int | None,
         typer.Option(
@@ -232,7 +233,7 @@ def reproduce(
     from models.reproduce.tables import show, table_as_text
 
     if output is not None and output.exists() and not output.is_dir():
-        raise Refused(f"{output}: is not a folder; name another")
+        refuse(f"{output}: is not a folder; name another")
     writable(json, output / "tables.txt" if output else None)
     described = PAPERS[paper.value]
     runs = runs or described.runs
@@ -249,14 +250,14 @@ def reproduce(
         write_json(json, {**found.record(), "runs": runs, "versions": versions(), "commit": commit()})
     counts = ", ".join(f"{count:,} {what}" for what, count in found.counts.items())
     print_line(out, f"{counts}: {found.verdict}")
-    raise typer.Exit(HOLDS if found.verdict == CHECKED[HOLDS] else DOES_NOT_HOLD)
+    raise typer.Exit(HOLDS if found.verdict == WORDS[HOLDS] else DOES_NOT_HOLD)
 
 
 @app.command()
 def ride(
     rides: Annotated[int, typer.Option(metavar="N", min=1, help="Trains to run over 10 km each.")] = 1_024,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    seed: Seed = 1,
+    jobs: Jobs = EVERY_CORE,
     beyond: Annotated[
         list[str] | None,
         typer.Option(
@@ -287,7 +288,7 @@ def ride(
     asked = list(names()) if beyond == ["each"] else list(beyond or ())
     unknown = [name for name in asked if name not in names()]
     if unknown:
-        raise Refused(f"--beyond {unknown[0]}: there is no such fault; one of {', '.join(names())}, or each")
+        refuse(f"--beyond {unknown[0]}: there is no such fault; one of {', '.join(names())}, or each")
     out = console()
     with progress("rides") as step:
         rows = ride_all(seed, rides, jobs, asked or [""], step)
@@ -300,7 +301,7 @@ def ride(
         write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
     holds = all(one.holds(bool(fault)) for fault, one in found.items())
     ridden = sum(one.rides for one in found.values())
-    print_line(out, f"{ridden:,} rides with seed {seed}: {CHECKED[HOLDS if holds else DOES_NOT_HOLD]}")
+    print_line(out, f"{ridden:,} rides with seed {seed}: {WORDS[HOLDS if holds else DOES_NOT_HOLD]}")
     raise typer.Exit(HOLDS if holds else DOES_NOT_HOLD)
 
 
@@ -308,8 +309,8 @@ def ride(
 def days(
     system: Annotated[Day, typer.Argument(help="Whose days.", show_default=False)],
     days: Annotated[int, typer.Option(metavar="N", min=1, help="Days to simulate.")] = 200,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
+    seed: Seed = 1,
+    jobs: Jobs = EVERY_CORE,
     json: Json = None,
     keep: Annotated[
         Path | None, typer.Option(metavar="F", help="Keep days there, and go on from it.", show_default=False)
@@ -337,7 +338,7 @@ def days(
     if json:
         write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
     verdict = HOLDS if found.holds else DOES_NOT_HOLD
-    print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {CHECKED[verdict]}")
+    print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {WORDS[verdict]}")
     raise typer.Exit(verdict)
 
 
@@ -346,7 +347,7 @@ def handset(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="F.html", help="The page.", show_default=False)],
     day: Annotated[int, typer.Option(metavar="N", min=0, help="Of which day.")] = 0,
     minutes: Annotated[int, typer.Option(metavar="N", min=1, max=240, help="So many minutes of it.")] = 60,
-    seed: Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")] = 1,
+    seed: Seed = 1,
 ) -> None:
     """Write a track worker's handset as one page, fed by a simulated day: tones, trains, both views.
 
@@ -401,69 +402,6 @@ def print_check(out: Console, path: Path, result: CheckResult) -> None:
         print_line(out, f"  remark: {remark.text} [{', '.join(remark.elements)}]")
 
 
-def print_line(out: Console, line: str) -> None:
-    """One line, whatever stands in the names of a layout file: no markup, nothing that moves a cursor."""
-    out.print(printable(line), markup=False, highlight=False, soft_wrap=True)
-
-
-def printable(text: str) -> str:
-    """The text on one line, without control characters."""
-    return "".join(char if char.isprintable() else " " for char in text)
-
-
-def console(file: TextIO | None = None) -> Console:
-    """Standard output, or another stream; 120 columns wide where it is not a terminal."""
-    stream = file or sys.stdout
-    return Console(file=stream, width=None if stream.isatty() else COLUMNS_OF_A_FILE)
-
-
-def complain(line: str) -> None:
-    """One line on standard error."""
-    print(printable(line), file=sys.stderr)
-
-
-@contextmanager
-def bad_input_refused() -> Iterator[None]:
-    """Tell of a file that cannot be used in one line."""
-    from models.layouts import BadInput
-
-    try:
-        yield
-    except BadInput as bad:
-        raise Refused(str(bad)) from bad
-
-
-def writable(*paths: Path | None) -> None:
-    """Find out before the work, not after it, that a record cannot be written."""
-    for path in paths:
-        if path is None:
-            continue
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise Refused(f"{path}: cannot make the folder ({error.strerror}); name another file") from error
-        if path.is_dir() or not os.access(path.parent, os.W_OK):
-            raise Refused(f"{path}: cannot be written; name another file")
-
-
-@contextmanager
-def progress(what: str) -> Iterator[Callable[[int, int, str], None]]:
-    """Give a function (done, total, name) that moves a bar on standard error; none unless it is a terminal."""
-    bar = Progress(
-        TextColumn(what),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("{task.fields[name]}", markup=False),
-        console=console(sys.stderr),
-        disable=not sys.stderr.isatty(),
-        transient=True,
-    )
-    with bar:
-        task = bar.add_task(what, total=None, name="")
-        yield lambda done, total, name: bar.update(task, completed=done, total=total, name=name)
-
-
 def main() -> None:
     """Run the command line; whatever happens, the exit code is one of the four."""
     for stream in (sys.stdout, sys.stderr):
@@ -478,9 +416,6 @@ def run(arguments: Sequence[str]) -> int:
         code = app(list(arguments), prog_name="heisoku", standalone_mode=False)
     except typer.TyperException as usage:
         complain(f"heisoku: {usage.format_message().rstrip('.')}; see heisoku --help")
-        return BAD_INPUT
-    except Refused as bad:
-        complain(f"{bad}")
         return BAD_INPUT
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

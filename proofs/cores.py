@@ -23,10 +23,11 @@ from unittest.mock import patch
 
 import z3
 
+from models.exit_codes import HOLDS, UNDECIDED
 from proofs import scripts
 from proofs.lift import expressions, statements
 from proofs.lift.frames import Frame
-from proofs.records import HOLDS, UNDECIDED, commit, versions, write_json
+from proofs.records import commit, versions, write_json
 from proofs.run import bench
 from proofs.search import NARROW, core
 from proofs.theories import ROWS, is_transition, theory_of

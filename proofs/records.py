@@ -15,10 +15,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Literal, NotRequired, TypedDict
 
-Verdict = Literal["proved", "refuted", "undecided"]
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 
-HOLDS, DOES_NOT_HOLD, BAD_INPUT, UNDECIDED = 0, 1, 2, 3
-"""The exit codes of every command."""
+Verdict = Literal["proved", "refuted", "undecided"]
 
 EXIT_CODE: Mapping[Verdict, int] = {"proved": HOLDS, "refuted": DOES_NOT_HOLD, "undecided": UNDECIDED}
 

@@ -11,8 +11,8 @@ import pytest
 
 import heisoku
 from fuzz.failures.trace import text_of
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from proofs import usage
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from proofs.theories import THEORIES
 from tests.fuzz.failures.samples import LAYOUTS, failing
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import secrets
-import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
-from rich.console import Console
 
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, write_whole
+from models.commands import refuse, tell
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
+from proofs.records import write_whole
 
 SAMPLE = 30
 
@@ -30,9 +30,9 @@ def manifest(folder: Folder) -> None:
     found = made(folder)
     missing = [name for name in ALWAYS if name not in found.records]
     if missing:
-        _refuse(f"{folder}: has no {missing[0]}; make assure makes it")
+        refuse(f"{folder}: has no {missing[0]}; make assure makes it")
     write_whole(folder / NAME, found.text().encode())
-    _line(f"{folder / NAME}: {len(found.records):,} files of commit {found.commit or 'unknown'}")
+    tell(f"{folder / NAME}: {len(found.records):,} files of commit {found.commit or 'unknown'}")
 
 
 def verify(
@@ -57,17 +57,18 @@ def verify(
     try:
         known = read_manifest(folder)
     except ManifestError as error:
-        _refuse(str(error))
+        refuse(str(error))
     findings = [each.line for each in compared(folder, known)]
     for line in findings:
-        _line(line)
-    _line(f"{len(known.records):,} files of commit {known.commit or 'unknown'}: {len(findings)} findings")
+        tell(line)
+    tell(f"{len(known.records):,} files of commit {known.commit or 'unknown'}: {len(findings)} findings")
     chosen = secrets.randbelow(2**31) if seed is None else seed
     again = list(_again(folder, chosen, sample)) if sample else []
     wrong = len(findings) + sum(not same for same in again)
-    _line(f"{len(again)} figures made again with seed {chosen}, {again.count(False)} otherwise than recorded")
-    _line("holds" if not wrong else "does not hold")
-    raise typer.Exit(DOES_NOT_HOLD if wrong else HOLDS)
+    tell(f"{len(again)} figures made again with seed {chosen}, {again.count(False)} otherwise than recorded")
+    verdict = DOES_NOT_HOLD if wrong else HOLDS
+    tell(WORDS[verdict])
+    raise typer.Exit(verdict)
 
 
 def _again(folder: Path, seed: int, sample: int) -> Iterator[bool]:
@@ -79,29 +80,15 @@ def _again(folder: Path, seed: int, sample: int) -> Iterator[bool]:
 
     for each in seen(("z3", "cvc5")):
         if not each["noticed"]:
-            _line(f"solver: {each['solver']} answers {each['answer']} to what does not hold, {each['canary']}")
+            tell(f"solver: {each['solver']} answers {each['answer']} to what does not hold, {each['canary']}")
             yield False
     records = read(folder, frozenset(each.record for each in catalogue().values()))
     for figure in drawn(list(figures(folder, records)), seed, sample):
         result = made_again(figure)
-        _line(f"{'again' if result.same else 'DIFFERS'}: {figure.kind}: {figure.what}: {result.says}")
+        tell(f"{'again' if result.same else 'DIFFERS'}: {figure.kind}: {figure.what}: {result.says}")
         yield result.same
 
 
 def _there(folder: Path) -> None:
     if not folder.is_dir():
-        _refuse(f"{folder}: is no folder; name that of the records, out")
-
-
-def _refuse(line: str) -> NoReturn:
-    print(_printable(line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)
-
-
-def _line(text: str) -> None:
-    width = None if sys.stdout.isatty() else 120
-    Console(width=width).print(_printable(text), markup=False, highlight=False, soft_wrap=True)
-
-
-def _printable(text: str) -> str:
-    return "".join(char if char.isprintable() else " " for char in text)
+        refuse(f"{folder}: is no folder; name that of the records, out")

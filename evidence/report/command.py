@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, write_whole
+from models.commands import refuse, tell, writable
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
+from proofs.records import write_whole
 
 if TYPE_CHECKING:
     from evidence.records.showing import Came
@@ -44,37 +44,30 @@ def report(
     for target in output:
         _check(target)
     if not records.is_dir():
-        _refuse(f"--records {records}: is no folder; make assure makes it")
+        refuse(f"--records {records}: is no folder; make assure makes it")
     try:
         book = gathered(records)
     except CaseError as error:
-        _refuse(f"SAFETY_CASE.md: {error}")
+        refuse(f"SAFETY_CASE.md: {error}")
     try:
         page = page_of(book)
     except Unread as error:
-        _refuse(f"the report cannot say an invariant as logic: {error}")
+        refuse(f"the report cannot say an invariant as logic: {error}")
     except (UndefinedError, KeyError, TypeError, ValueError) as error:
-        _refuse(f"{records}: a record does not have the form of such a record ({error}); make it anew")
+        refuse(f"{records}: a record does not have the form of such a record ({error}); make it anew")
     for target in output:
         _write(target, page)
     counts = ", ".join(f"{count} {verdict}" for verdict, count in book.counted.items())
     told = f"{len(book.shown)} pieces of evidence: {counts}; {len(book.case.limits)} open points"
-    line = f"{', '.join(map(str, output))}: {told}"
-    Console(width=None if sys.stdout.isatty() else 120).print(line, markup=False, highlight=False, soft_wrap=True)
+    tell(f"{', '.join(map(str, output))}: {told}")
     raise typer.Exit(judged(book.counted) if strict else HOLDS)
 
 
 def _check(target: Path) -> None:
     """Refuse what cannot be written, before anything is gathered."""
     if target.suffix not in (".html", ".pdf"):
-        _refuse(f"{target}: is neither a page nor a PDF; name it report.html or report.pdf")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        writable = os.access(target.parent, os.W_OK) and not target.is_dir()
-    except OSError:
-        writable = False
-    if not writable:
-        _refuse(f"{target}: cannot be written; name another file")
+        refuse(f"{target}: is neither a page nor a PDF; name it report.html or report.pdf")
+    writable(target)
 
 
 def _write(target: Path, page: str) -> None:
@@ -88,7 +81,7 @@ def _write(target: Path, page: str) -> None:
         with Console(stderr=True).status(f"printing {target}"):
             write_whole(target, printed(page))
     except CannotPrint as error:
-        _refuse(f"{target}: {error}; or write the report as .html")
+        refuse(f"{target}: {error}; or write the report as .html")
 
 
 def judged(counted: Mapping[Came, int]) -> int:
@@ -96,8 +89,3 @@ def judged(counted: Mapping[Came, int]) -> int:
     if counted["does not hold"]:
         return DOES_NOT_HOLD
     return UNDECIDED if counted["not shown"] else HOLDS
-
-
-def _refuse(line: str) -> NoReturn:
-    print("".join(char if char.isprintable() else " " for char in line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)

@@ -13,7 +13,7 @@ from fuzz.campaign.pool import Workers
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.store import Store
 from fuzz.targets.target import Batch, Target
-from proofs.records import UNDECIDED
+from models.exit_codes import UNDECIDED
 
 TOLD_EVERY_S = 0.5
 BATCHES_AT_ONCE = 256

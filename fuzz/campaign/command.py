@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from fuzz.campaign.problems import CampaignError
+from models.commands import EVERY_CORE, Jobs, Json, complain
 
-PROCESSES = os.cpu_count() or 1
 BATCH_SECONDS = 600.0
 """Far more than any batch takes, compilation of its target included."""
 
@@ -25,7 +23,6 @@ Hours = Annotated[float | None, typer.Option(metavar="H", help="So long at most.
 Batches = Annotated[
     int | None, typer.Option(metavar="N", min=1, help="So many batches of each target.", show_default=False)
 ]
-Workers = Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")]
 Seed = Annotated[
     int | None,
     typer.Option(
@@ -40,7 +37,6 @@ Scheduler = Annotated[
 ]
 BatchSeconds = Annotated[float, typer.Option(metavar="S", min=0.1, help="A batch that takes longer hangs.")]
 Merge = Annotated[bool, typer.Option("--merge", help="Put campaigns together in a new folder.")]
-Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
 
 
 def fuzz(
@@ -48,7 +44,7 @@ def fuzz(
     out: Folder = None,
     hours: Hours = None,
     batches: Batches = None,
-    workers: Workers = PROCESSES,
+    workers: Jobs = EVERY_CORE,
     seed: Seed = None,
     target: Targets = None,
     scheduler: Scheduler = None,
@@ -88,7 +84,6 @@ def fuzz(
                 )
             )
     except CampaignError as error:
-        line = "".join(char if char.isprintable() else " " for char in str(error))
-        print(line, file=sys.stderr)
+        complain(str(error))
         code = error.code
     raise typer.Exit(code)

@@ -19,7 +19,7 @@ from fuzz.campaign.pool import TRIES
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.worker import Answer, Work, answered_in_time
 from fuzz.targets.target import Batch
-from proofs.records import UNDECIDED
+from models.exit_codes import UNDECIDED
 
 REACHED_WITHIN_S = 10
 COUNTED_EVERY_S = 2.0

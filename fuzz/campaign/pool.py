@@ -17,7 +17,7 @@ from fuzz.campaign.outcome import DIED, DONE, FAILED, HUNG, Outcome
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.worker import Answer, Work, serve
 from fuzz.targets.target import Batch
-from proofs.records import UNDECIDED
+from models.exit_codes import UNDECIDED
 
 TRIES = {HUNG: 2, FAILED: 2, DIED: 3}
 """How often a batch may end so before that is what it came to; a process may be killed by someone else."""

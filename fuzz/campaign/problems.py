@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from proofs.records import BAD_INPUT
+from models.exit_codes import BAD_INPUT
 
 
 class CampaignError(Exception):

@@ -35,7 +35,8 @@ from fuzz.targets.rides import Rides
 from fuzz.targets.target import Target
 from fuzz.targets.walks import Walks
 from models.days.systems import NAMES
-from proofs.records import UNDECIDED, commit, versions, write_json
+from models.exit_codes import UNDECIDED
+from proofs.records import commit, versions, write_json
 
 COLUMNS_OF_A_FILE = 120
 SECONDS_AN_HOUR = 3600

@@ -13,7 +13,7 @@ from fuzz.campaign.growth import draw, growing, in_words
 from fuzz.campaign.sought import in_words as in_words_of_canaries
 from fuzz.campaign.store import Store
 from fuzz.campaign.view import table_of
-from proofs.records import DOES_NOT_HOLD, HOLDS, UNDECIDED
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 
 STOOD = "standstill seconds: "
 """How a target's counts of standstill begin; the cause follows."""

@@ -17,9 +17,10 @@ from fuzz.failures.replaying import Outcome, Replay, replay
 from fuzz.failures.rides import Ridden, ride_again, unknown_faults
 from fuzz.failures.trace import TRAFFIC, BatchTrace, LinkTrace, RideTrace, Trace, event_as_json, layout_of, load_trace
 from fuzz.failures.words import claim, comes_to, otherwise, told, verdict
+from models.exit_codes import DOES_NOT_HOLD, HOLDS
 from models.layouts import BadInput
 from proofs.catalogue import INVARIANTS
-from proofs.records import DOES_NOT_HOLD, HOLDS, commit, versions, write_json, write_whole
+from proofs.records import commit, versions, write_json, write_whole
 
 Progress = Callable[[int, int, str], object]
 

@@ -17,10 +17,10 @@ from pathlib import Path
 from random import Random
 
 from fuzz.planted.killed import killed, module_of, rows
+from models.exit_codes import BAD_INPUT, HOLDS
 from proofs.lift.sources import Code, definition_of, file_of
 from proofs.mutants.edits import Mutant, mutants_of
 from proofs.mutated import Sources
-from proofs.records import BAD_INPUT, HOLDS
 from proofs.theories import THEORIES, theory_of
 
 ROOT = Path(__file__).resolve().parents[2]

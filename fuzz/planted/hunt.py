@@ -24,7 +24,8 @@ from fuzz.targets.jolted import Jolted
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.target import Batch, Target
 from fuzz.targets.walks import Walks
-from proofs.records import DOES_NOT_HOLD, HOLDS, write_json
+from models.exit_codes import DOES_NOT_HOLD, HOLDS
+from proofs.records import write_json
 
 LAYOUTS = (TINY, *sorted((ROOT / "layouts").glob("*.toml")))
 PROCESSES = 2

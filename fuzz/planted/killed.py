@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 
-from proofs.records import BAD_INPUT, HOLDS
+from models.exit_codes import BAD_INPUT, HOLDS
 
 FILE = Path(__file__).with_name("killed.toml")
 TRIALS = Path("out/mutants.json")

@@ -26,9 +26,9 @@ from fuzz.machines.places import TINY
 from fuzz.machines.watched import Broken
 from fuzz.planted.draw import ROOT, Planted, described, planted
 from fuzz.planted.killed import rows
+from models.exit_codes import HOLDS
 from proofs.catalogue import INTERLOCKING
 from proofs.mutated import Sources
-from proofs.records import HOLDS
 
 FILE = Path(__file__).with_name("reachable.toml")
 HEAD = """# Planted faults that a walk in CPython comes upon, by theory: the number of the walk, what it broke.

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import os
-import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, commit, versions, write_json, write_whole
+from models.commands import Json, Seed, bad_input_refused, console, print_line, progress, refuse, writable
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
+from proofs.records import commit, versions, write_json, write_whole
 
 if TYPE_CHECKING:
     from models.simulation.beginning import Plan
@@ -32,15 +31,12 @@ Trips = Annotated[
         metavar="N", min=1, max=100, help="So many trips a train, to their end: without it 1.", show_default=False
     ),
 ]
-Seed = Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")]
 Faults = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Which faults come, and how often (TOML).", show_default="every fault"),
 ]
 EachFault = Annotated[bool, typer.Option("--each-fault", help="Try one fault after the other, and tell the way out.")]
 Html = Annotated[Path | None, typer.Option("--html", metavar="F", help="Write the page there.", show_default=False)]
-Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
-WORDS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold"}
 
 
 def simulate(
@@ -63,28 +59,24 @@ def simulate(
     * `heisoku simulate layouts/passing_station.toml --hours 0.1 --html out/line.html`
     * `heisoku simulate layouts/passing_station.toml --trains 1 --trips 1 --json out/line.json`
     """
-    from models.layouts import BadInput, load
+    from models.layouts import load
     from models.simulation.beginning import Plan, usual_trains
     from models.simulation.each_fault import each
     from models.simulation.faults import EVERY_FAULT, read_faults
 
-    for path in (html, json):
-        if path is None:
-            continue
-        if path.is_dir() or not _there(path).is_dir() or not os.access(_there(path), os.W_OK):
-            _refuse(f"{path}: cannot be written; name another file")
-    try:
+    writable(html, json)
+    with bad_input_refused():
         imported = load(layout)
         chosen = EVERY_FAULT if faults is None else read_faults(faults)
         plan = Plan(imported, seed, trains or usual_trains(imported), hours, chosen, trips)
         if each_fault:
             if html is not None:
-                _refuse("--html: --each-fault has no page; leave one of them out")
-            code = _told_each(each(plan, _progress("faults")), json)
+                refuse("--html: --each-fault has no page; leave one of them out")
+            with progress("faults") as step:
+                rows = each(plan, step)
+            code = _told_each(rows, json)
         else:
             code = _told(plan, html, json)
-    except BadInput as bad:
-        _refuse(str(bad))
     raise typer.Exit(code)
 
 
@@ -97,29 +89,31 @@ def _told(plan: Plan, html: Path | None, json: Path | None) -> int:
     from models.simulation.page.writing import page_of
     from models.simulation.simulation import Simulation
 
-    began, step = time.perf_counter(), _progress("simulated s")
+    began = time.perf_counter()
     sim, judge = Simulation(plan), Judge()
     history = History(Kilometres(sim.rails))
 
-    def look(now: Simulation) -> None:
-        history.look(now)
-        judge.look(now)
-        step(now.now_s, round(plan.hours * 3_600), "")
+    with progress("simulated s") as step:
 
-    sim.run(look)
+        def look(now: Simulation) -> None:
+            history.look(now)
+            judge.look(now)
+            step(now.now_s, round(plan.hours * 3_600), "")
+
+        sim.run(look)
     found = outcome(sim, history, judge.asked)
     seconds = time.perf_counter() - began
     if html:
         write_whole(html, page_of(found).encode())
     if json:
         write_json(json, {**found.record(), "versions": versions(), "commit": commit()})
-    _print(_console(), found, seconds)
+    _print(console(), found, seconds)
     return HOLDS if found.holds else DOES_NOT_HOLD
 
 
 def _told_each(rows: list[Row], json: Path | None) -> int:
     """Print the table of single faults."""
-    out = _console()
+    out = console()
     table = Table(title="What each fault leaves locked, and the lawful way out", title_justify="left")
     for heading in ("fault", "came", "held without a train in it", "at most", "in the end", "way out"):
         table.add_column(heading)
@@ -133,8 +127,8 @@ def _told_each(rows: list[Row], json: Path | None) -> int:
         write_json(json, {**record, "versions": versions(), "commit": commit()})
     for row in rows:
         if not row.holds:
-            _line(out, f"{row.fault}: {row.broken or 'a train does not run again, and no staff is about it'}")
-    _line(out, f"{len(rows)} faults, each in a simulation of its own: {verdict}")
+            print_line(out, f"{row.fault}: {row.broken or 'a train does not run again, and no staff is about it'}")
+    print_line(out, f"{len(rows)} faults, each in a simulation of its own: {verdict}")
     return HOLDS if holds else DOES_NOT_HOLD
 
 
@@ -151,46 +145,16 @@ def _print(out: Console, found: Outcome, seconds: float) -> None:
         )
     out.print(table)
     for violation in found.broken:
-        _line(out, f"broken at {violation.at_ms / 1_000:.1f} s: {violation.oracle}: {violation.text}")
+        print_line(out, f"broken at {violation.at_ms / 1_000:.1f} s: {violation.oracle}: {violation.text}")
     for deadlock in found.deadlocks:
         whose = ", of the timetable and not of the kernel" if found.timetable_to_blame else ""
-        _line(out, f"deadlock{whose}: {deadlock}")
+        print_line(out, f"deadlock{whose}: {deadlock}")
     came = ", ".join(f"{name} {count}" for name, count in sorted(found.came.items()) if count)
-    _line(out, f"faults: {came or 'none'}; {sim.air.sent:,} telegrams, {sim.air.lost:,} of them lost")
+    print_line(out, f"faults: {came or 'none'}; {sim.air.sent:,} telegrams, {sim.air.lost:,} of them lost")
     asked, looked = sum(found.judged.values()), sum(sim.oracles.checked.values())
-    _line(out, f"checked: {len(found.judged)} invariants {asked:,} times, {looked:,} times the truth by oracles")
+    print_line(out, f"checked: {len(found.judged)} invariants {asked:,} times, {looked:,} times the truth by oracles")
     speed = f"{found.train_seconds:,} train seconds in {seconds:.1f} s: {found.train_seconds / seconds:,.0f} a second"
     if found.plan.trips is not None:
-        _line(out, f"the timetable {'has come to its end' if sim.ended else 'has not come to its end'}")
+        print_line(out, f"the timetable {'has come to its end' if sim.ended else 'has not come to its end'}")
     verdict = WORDS[HOLDS if found.holds else DOES_NOT_HOLD]
-    _line(out, f"{found.plan.trains} trains, {sim.now_s:,} s with seed {found.plan.seed}; {speed}: {verdict}")
-
-
-def _progress(what: str) -> Callable[[int, int, str], None]:
-    """Tell on standard error how far it is, if that is a terminal."""
-
-    def told(done: int, of: int, name: str) -> None:
-        if sys.stderr.isatty() and (name or done % 60 == 0):
-            print(f"{done}/{of} {what} {name}", file=sys.stderr)
-
-    return told
-
-
-def _console() -> Console:
-    return Console(width=None if sys.stdout.isatty() else 160)
-
-
-def _line(out: Console, text: str) -> None:
-    out.print(
-        "".join(char if char.isprintable() else " " for char in text), markup=False, highlight=False, soft_wrap=True
-    )
-
-
-def _refuse(line: str) -> NoReturn:
-    print("".join(char if char.isprintable() else " " for char in line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)
-
-
-def _there(path: Path) -> Path:
-    """What is there of the way to a path."""
-    return next(folder for folder in path.absolute().parents if folder.exists())
+    print_line(out, f"{found.plan.trains} trains, {sim.now_s:,} s with seed {found.plan.seed}; {speed}: {verdict}")

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-import os
 import random
-import re
 import sys
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json
+from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, refuse, writable
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
+from proofs.records import commit, versions, write_json
 
 if TYPE_CHECKING:
     from proofs.certificates.checking import Certified
 
 DRAWN_FROM = 1
-WORDS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecided"}
 
 
 def certify(
@@ -32,10 +29,8 @@ def certify(
     sample: Annotated[
         int | None, typer.Option(metavar="N", min=1, help="Only N of them, always the same.", show_default=False)
     ] = None,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
-    json: Annotated[
-        Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)
-    ] = None,
+    jobs: Jobs = EVERY_CORE,
+    json: Json = None,
 ) -> None:
     """Have a proof of each obligation written down, and each step of it checked.
 
@@ -49,15 +44,11 @@ def certify(
     from proofs.certificates.checking import certified, controls, external
     from proofs.theories import ROWS, columns
 
-    try:
-        matches = re.compile(only or "")
-    except re.error as error:
-        _refuse(f"--only {only}: not a pattern ({error}); give a part of a name")
+    matches = pattern(only)
+    writable(json)
     asked = [(row, column) for row in ROWS for column in columns(row) if matches.search(f"{row} {column}")]
     if not asked:
-        _refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
-    if json is not None and (json.is_dir() or not json.absolute().parent.is_dir()):
-        _refuse(f"{json}: cannot be written; name another file")
+        refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
     there_are = sum(len(columns(row)) for row in ROWS)
     if sample is not None:
         chosen = set(random.Random(DRAWN_FROM).sample(asked, min(sample, len(asked))))
@@ -71,15 +62,10 @@ def certify(
     told = record(found, there_are, refused, checker and checker[0], time.perf_counter() - began)
     if json:
         write_json(json, {**told, "only": only, "sample": sample, "versions": versions(), "commit": commit()})
-    out = Console(width=None if sys.stdout.isatty() else 120)
+    out = console()
     for line in lines(told):
-        out.print(line, markup=False, highlight=False, soft_wrap=True)
+        print_line(out, line)
     raise typer.Exit(exit_code(told))
-
-
-def _refuse(line: str) -> NoReturn:
-    print("".join(char if char.isprintable() else " " for char in line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)
 
 
 def record(

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import os
-import re
 import sys
 import time
 from collections import Counter
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, commit, versions, write_json
+from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, refuse, writable
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
+from proofs.records import commit, versions, write_json
 
 KILLED, CLASSED, HOLE = "killed", "classed", "hole"
 """What a mutant may become.  There is no fourth: what is unknown kills nothing."""
-WORDS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold"}
 COUNTEREXAMPLE = "counterexample"
 
 
@@ -30,10 +28,8 @@ def mutate(
         int | None,
         typer.Option(metavar="N", min=1, help="Only N of them, always the same.", show_default=False),
     ] = None,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")] = os.cpu_count() or 1,
-    json: Annotated[
-        Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)
-    ] = None,
+    jobs: Jobs = EVERY_CORE,
+    json: Json = None,
 ) -> None:
     """Drop each guard, condition and update, one after the other: a proof or a witness must notice.
 
@@ -47,15 +43,11 @@ def mutate(
     from proofs.mutants.targets import mutants
     from proofs.mutants.trying import chosen, try_all
 
-    try:
-        re.compile(only or "")
-    except re.error as error:
-        _refuse(f"--only {only}: not a pattern ({error}); give a part of a name")
-    if json is not None and (json.is_dir() or not _there(json).is_dir() or not os.access(_there(json), os.W_OK)):
-        _refuse(f"{json}: cannot be written; name another file")
+    pattern(only)
+    writable(json)
     names = chosen(only or "", sample)
     if not names:
-        _refuse(f"--only {only}: no mutant is named so; python -m proofs.mutants --help")
+        refuse(f"--only {only}: no mutant is named so; python -m proofs.mutants --help")
     began = time.perf_counter()
 
     def progress(done: int, of: int, name: str, verdict: Mapping[str, Any]) -> None:
@@ -66,18 +58,8 @@ def mutate(
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, "only": only, "sample": sample, "versions": versions(), "commit": commit()})
-    print_record(Console(width=None if sys.stdout.isatty() else 120), found)
+    print_record(console(), found)
     raise typer.Exit(exit_code(found))
-
-
-def _refuse(line: str) -> NoReturn:
-    print("".join(char if char.isprintable() else " " for char in line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)
-
-
-def _there(path: Path) -> Path:
-    """What is there of the way to a path."""
-    return next(folder for folder in path.absolute().parents if folder.exists())
 
 
 def exit_code(found: Mapping[str, Any]) -> int:
@@ -108,7 +90,7 @@ def record(verdicts: Mapping[str, Mapping[str, Any]], of: int, seconds: float) -
         for name, verdict in verdicts.items()
     ]
     whole = {"mutants": rows, "of": of, "seconds": round(seconds, 1)}
-    return {"verdict": WORDS[exit_code(whole)] if rows else "undecided", **whole, "kills": kills(rows)}
+    return {"verdict": WORDS[exit_code(whole)], **whole, "kills": kills(rows)}
 
 
 def kills(rows: list[dict[str, Any]]) -> dict[str, dict[str, int]]:
@@ -130,18 +112,14 @@ def print_record(out: Console, found: Mapping[str, Any]) -> None:
     """Print the holes, what kills nothing, and the sum."""
     for each in found["mutants"]:
         if each["became"] == HOLE:
-            _line(out, f"hole: {each['mutant']}: {each['objection']}")
+            print_line(out, f"hole: {each['mutant']}: {each['objection']}")
     for theory, counts in found["kills"].items() if len(found["mutants"]) == found["of"] else ():
         idle = [name for name, count in counts.items() if not count]
         if idle:
-            _line(out, f"{theory}: no mutant is killed by {', '.join(idle)}")
+            print_line(out, f"{theory}: no mutant is killed by {', '.join(idle)}")
     became = Counter(each["became"] for each in found["mutants"])
     by = Counter(each["outcome"] for each in found["mutants"] if each["became"] == KILLED)
     classes = Counter(each["class"] for each in found["mutants"] if each["became"] == CLASSED)
     told = ", ".join(f"{became[word]:,} {word}" for word in (KILLED, CLASSED, HOLE))
     told += f" ({', '.join(f'{name} {count:,}' for name, count in [*by.items(), *classes.items()])})"
-    _line(out, f"{len(found['mutants']):,} of {found['of']:,} mutants: {told}: {found['verdict']}")
-
-
-def _line(out: Console, text: str) -> None:
-    out.print(text, markup=False, highlight=False, soft_wrap=True)
+    print_line(out, f"{len(found['mutants']):,} of {found['of']:,} mutants: {told}: {found['verdict']}")

@@ -32,10 +32,10 @@ from rich.progress import track
 from rich.table import Table
 
 import heisoku
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from models.layouts import check, load
 from models.layouts.generate import as_toml, network
 from models.layouts.reading import format_of
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from tests.layouts.mutations import Good, mutated
 from tests.layouts.railml_2_made import railml_2_of
 from tests.layouts.railml_made import railml_of

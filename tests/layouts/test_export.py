@@ -21,6 +21,7 @@ from kernel.centre import Centre
 from kernel.names import Epoch, Route, Run, Serial, Train, UnitLife
 from kernel.route_setting import conflict
 from kernel.tags import TagRecord, decode
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from models.layouts import BadInput, Imported, check, load, load_text
 from models.layouts.conflict_pairs import Conflicts
 from models.layouts.export import files as export_files
@@ -36,7 +37,6 @@ from models.layouts.generate import as_toml, generate, network
 from models.layouts.native import KINDS as NATIVE
 from models.layouts.railjson import KINDS as RAILJSON
 from models.layouts.track import Kind
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from tests.fuzz.failures.browser import CHROMIUM, browser
 from tests.independent.made_up import made_up
 from tests.layouts.corruptions import corruptions

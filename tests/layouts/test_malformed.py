@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import heisoku
-from proofs.records import BAD_INPUT, HOLDS, UNDECIDED
+from models.exit_codes import BAD_INPUT, HOLDS, UNDECIDED
 from tests.layouts import malformed
 from tests.layouts.malformed import bad_file, good_files, outcomes
 from tests.layouts.mutations import OF_BYTES, OF_TEXT

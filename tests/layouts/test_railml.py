@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import heisoku
+from models.exit_codes import BAD_INPUT, HOLDS
 from models.layouts import BadInput, Imported, as_json, check, load, load_text
-from proofs.records import BAD_INPUT, HOLDS
 from tests.layouts.railml_made import POSITIONS, railml_of
 from tests.layouts.stations import SHARED, needs_shared, plain_station, railjson_of
 

@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import heisoku
+from models.exit_codes import BAD_INPUT
 from models.layouts import BadInput, check, load_text
 from models.layouts.generate import network
-from proofs.records import BAD_INPUT
 from tests.layouts.railml_2_made import railml_2_of
 from tests.layouts.railml_made import railml_of
 from tests.layouts.stations import plain_station, railjson_of

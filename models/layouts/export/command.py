@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
 from rich.console import Console
 
-BAD_INPUT = 2
+from models.commands import bad_input_refused, refuse, tell
 
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="DIR", help="The folder.", show_default=False)]
@@ -25,13 +24,13 @@ def export(layout: Layout, output: Folder) -> None:
     Examples:
     * `heisoku export layouts/passing_station.toml -o out/export`
     """
-    from models.layouts import BadInput, check, load
+    from models.layouts import check, load
     from models.layouts.export.files import NAMES, written
 
     if output.exists() and not output.is_dir():
-        _refuse(f"{output}: is no folder; name another")
+        refuse(f"{output}: is no folder; name another")
     try:
-        with Console(stderr=True).status("exporting"):
+        with bad_input_refused(), Console(stderr=True).status("exporting"):
             imported = load(layout)
             result = check(imported)
             files = list(written(imported, result))
@@ -41,26 +40,10 @@ def export(layout: Layout, output: Folder) -> None:
             for each in files:
                 if each.content is not None:
                     (output / each.name).write_bytes(each.content)
-    except BadInput as bad:
-        _refuse(str(bad))
     except OSError as error:
-        _refuse(f"{output}: cannot be written ({error.strerror}); name another folder")
+        refuse(f"{output}: cannot be written ({error.strerror}); name another folder")
     for each in files:
-        _line(f"{output / each.name}: {'' if each.content is not None else 'not written: '}{each.says}")
+        tell(f"{output / each.name}: {'' if each.content is not None else 'not written: '}{each.says}")
     count = sum(each.content is not None for each in files)
-    _line(f"{layout}: {count} files written, {len(files) - count} not; the layout {result.verdict}")
+    tell(f"{layout}: {count} files written, {len(files) - count} not; the layout {result.verdict}")
     raise typer.Exit(result.exit_code)
-
-
-def _refuse(line: str) -> NoReturn:
-    print(_printable(line), file=sys.stderr)
-    raise typer.Exit(BAD_INPUT)
-
-
-def _line(text: str) -> None:
-    width = None if sys.stdout.isatty() else 120
-    Console(width=width).print(_printable(text), markup=False, highlight=False, soft_wrap=True)
-
-
-def _printable(text: str) -> str:
-    return "".join(char if char.isprintable() else " " for char in text)

@@ -16,7 +16,7 @@ import heisoku
 from fuzz.campaign import session, view
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.store import Store
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from tests.fuzz.campaign.quick import Quick
 
 ROOT = Path(__file__).resolve().parents[3]

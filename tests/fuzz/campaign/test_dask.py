@@ -16,7 +16,7 @@ import pytest
 
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.session import Options, go_on
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from tests.fuzz.campaign.quick import Quick
 from tests.fuzz.campaign.totals import everything, wait_for_batches
 

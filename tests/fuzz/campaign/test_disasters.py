@@ -17,7 +17,7 @@ from fuzz.campaign.files import DATABASE
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.session import Options, go_on
 from fuzz.campaign.store import Store
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from tests.fuzz.campaign.quick import Quick
 from tests.fuzz.campaign.totals import everything
 

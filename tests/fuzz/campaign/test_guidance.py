@@ -17,7 +17,7 @@ from fuzz.campaign.session import Options, go_on
 from fuzz.campaign.sketch import REGISTERS, estimate, merged, registers
 from fuzz.campaign.store import Kept, Store
 from fuzz.targets.target import Batch, Result
-from proofs.records import HOLDS
+from models.exit_codes import HOLDS
 from tests.fuzz.campaign.quick import FAMILIES, Quick
 
 NAMES = ("common", "rare")

@@ -21,7 +21,7 @@ from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.session import Options, go_on
 from fuzz.campaign.store import Store
 from fuzz.campaign.worker import work_on
-from proofs.records import UNDECIDED
+from models.exit_codes import UNDECIDED
 from tests.fuzz.campaign.program import main
 from tests.fuzz.campaign.quick import Quick
 from tests.fuzz.campaign.totals import batches_in, everything, wait_for_batches

@@ -15,7 +15,7 @@ from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Batch, Result, Target
 from fuzz.targets.walks import Walks
-from proofs.records import UNDECIDED
+from models.exit_codes import UNDECIDED
 from tests.fuzz.campaign.quick import Quick
 
 SEED = 1

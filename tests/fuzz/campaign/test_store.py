@@ -22,7 +22,7 @@ from fuzz.campaign.session import Options, go_on, put_together
 from fuzz.campaign.sketch import REGISTERS, estimate
 from fuzz.campaign.store import Store
 from fuzz.targets.target import Batch, Result
-from proofs.records import HOLDS
+from models.exit_codes import HOLDS
 from tests.fuzz.campaign.quick import Quick, failure
 
 IDENTITY = {"quick/watched": "nothing"}

@@ -18,7 +18,7 @@ from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.session import Options, go_on
 from fuzz.campaign.worker import work_on
 from fuzz.targets.target import Batch
-from proofs.records import DOES_NOT_HOLD, HOLDS, UNDECIDED
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from tests.fuzz.campaign.quick import FAMILIES, Quick
 from tests.fuzz.campaign.totals import everything
 

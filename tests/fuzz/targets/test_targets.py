@@ -19,7 +19,7 @@ from fuzz.targets.link import LinkRuns
 from fuzz.targets.target import Batch, Result, Target
 from fuzz.targets.walks import Walks
 from fuzz.traffic.faults import FAULTS
-from proofs.records import BAD_INPUT, DOES_NOT_HOLD, HOLDS
+from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS
 from tests.layouts.stations import ROOT
 
 STATION = ROOT / "layouts" / "passing_station.toml"
