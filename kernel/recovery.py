@@ -71,7 +71,7 @@ def account_for(layout: Layout, centre: Centre, blocks: frozenset[Block], run: R
             for point, holders in centre.locked.items()
         },
         lost_points=centre.lost_points
-        | frozenset(point for point in layout.points if layout.stands_in[point] in blocks),
+        | frozenset(point for block in blocks for point in layout.points_in.get(block, NO_POINTS)),
     )
 
 
