@@ -8,7 +8,9 @@ from models import axioms
 from models.world import premises
 from models.world.state import Site, System
 from proofs.invariants import bookkeeping, initial, messages, movement, points, safety
-from proofs.theory import Predicate, Theory, predicates
+from proofs.promise import Predicate, Promise, by_goal
+from proofs.promises import cancellation, first_loop, recovery, release
+from proofs.theory import Theory, predicates
 from proofs.transitions import TRANSITIONS, Transition
 
 AXIOMS: Mapping[str, Predicate] = predicates(axioms)
@@ -21,10 +23,14 @@ SAFETY: Mapping[str, Predicate] = predicates(safety)
 """The claims of the safety case, of site and system."""
 INVARIANTS: Mapping[str, Predicate] = predicates(safety, bookkeeping, messages, movement, points)
 """All that is proved by induction, of site and system."""
+PROMISES: Mapping[str, Promise] = by_goal(
+    promise for subject in (release, first_loop, cancellation, recovery) for promise in subject.PROMISES
+)
+"""What comes about at last, by goal."""
 STEPS: Mapping[str, Transition] = {transition.__name__: transition for transition in TRANSITIONS}
 """The transitions by name."""
 
 INTERLOCKING = Theory(
-    "interlocking", Site, System, STEPS, INITIAL, INVARIANTS, SAFETY, PREMISES, AXIOMS, quantified=True
+    "interlocking", Site, System, STEPS, INITIAL, INVARIANTS, SAFETY, PREMISES, AXIOMS, PROMISES, quantified=True
 )
 """All of it together."""

@@ -10,7 +10,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from proofs.catalogue import SAFETY
+from proofs.catalogue import INTERLOCKING
 from proofs.usage import Book, Cell, needed
 
 PHYSICAL = frozenset({"track", "ground", "formation"})
@@ -220,24 +220,24 @@ def knows_the_world(source: str) -> list[str]:
 # ---- what is proved, and what for
 
 
-def idle_invariants(found: Book, invariants: Iterable[str], safety: Collection[str]) -> list[str]:
+def idle_invariants(found: Book, invariants: Iterable[str], claimed: Collection[str]) -> list[str]:
     """Find invariants that no obligation proves, or that no claim of the safety case rests on."""
     columns = {column for _, column in found}
-    reached = needed(found, safety)
+    reached = needed(found, claimed)
     offences = []
     for name in invariants:
         if name not in columns:
             offences.append(f"{name}: no obligation proves it")
-        elif name not in safety and name not in reached:
+        elif name not in claimed and name not in reached:
             offences.append(f"{name}: no claim of the safety case rests on it")
     return offences
 
 
 def idle_axioms(
-    found: Book, assumed: Iterable[str], kept: Mapping[str, str], safety: Collection[str] = tuple(SAFETY)
+    found: Book, assumed: Iterable[str], kept: Mapping[str, str], claimed: Collection[str] = INTERLOCKING.claimed
 ) -> list[str]:
     """Find axioms and premises that no proof needs and that are not kept for a reason; and reasons that are stale."""
-    reached = needed(found, safety)
+    reached = needed(found, claimed)
     names = list(assumed)
     return [
         *(f"{name}: no proof uses it" for name in names if name not in reached and name not in kept),

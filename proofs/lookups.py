@@ -12,7 +12,7 @@ from typing import Any
 import z3
 
 from proofs.lift import Lifter
-from proofs.transitions import event_types
+from proofs.promise import fields_of
 from proofs.workbench import Part, Workbench
 
 
@@ -20,13 +20,15 @@ def lookups(bench: Workbench, name: str) -> list[Any]:
     """Give the claims that make a transition or predicate run without an error, each once."""
     lifter, theory = Lifter(bench.scope, bench.sources, collect=True), bench.theory
     if name in theory.steps:
-        kinds = event_types(theory.steps[name])
-        event = [bench.scope.constant(kind, f"event.{field}") for field, kind in kinds.items()]
-        lifter.cases(theory.steps[name], bench.site, bench.before, *event)
+        lifter.cases(theory.steps[name], bench.site, bench.before, *bench.event(name).values())
     elif name in theory.axioms:
         lifter.formula(theory.axioms[name], *bench.told)
     elif name in theory.premises:
         lifter.formula(theory.premises[name], bench.site)
+    elif name in theory.promises:
+        for predicate in theory.promises[name].predicates:
+            about = [bench.scope.constant(kind, f"about.{field}") for field, kind in fields_of([predicate]).items()]
+            lifter.formula(predicate, bench.site, bench.before, *about)
     else:
         lifter.formula(theory.read[name], bench.site, bench.before)
     claims = {claim.get_id(): claim for claim in (closed(obligation.claim) for obligation in lifter.obligations)}
@@ -53,7 +55,7 @@ def parts(bench: Workbench, name: str, hypotheses: list[str] | None) -> list[Par
     A predicate of the start is read after those before it, an axiom or premise with all of them.
     """
     available = dict(bench.assumed)
-    if name in bench.theory.steps or name in bench.theory.invariants:
+    if name in bench.theory.steps or name in bench.theory.invariants or name in bench.theory.promises:
         available |= bench.invariants
     chosen = available if hypotheses is None else {each: available[each] for each in hypotheses}
     claims = lookups(bench, name)

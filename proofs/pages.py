@@ -16,8 +16,8 @@ from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
-from proofs import assumptions
-from proofs.catalogue import STEPS
+from proofs import assumptions, promise, promises
+from proofs.catalogue import PROMISES, STEPS
 from proofs.lints import requirements_in
 from proofs.lints_on_board import OTHERS, world
 from proofs.lints_on_board import asking as asking_on_board
@@ -160,6 +160,49 @@ def trace() -> Mapping[str, Mapping[str, list[str]]]:
     }
 
 
+# ---- what comes about at last
+
+
+def promises_page() -> str:
+    """Give the page on promises."""
+    lines = [
+        "# What comes about at last",
+        "",
+        f"{WRITTEN} `proofs/promises/`; do not edit the tables.",
+        "",
+        plain(inspect.getdoc(promise) or "").split("\n\n", 1)[1].replace("\n", " "),
+        "",
+        (
+            "`heisoku prove` proves it in the columns named after the goals: over every transition of the world, for"
+            " every layout, from every state in which the invariants hold. There is no clock in it: fairness says"
+            " *at last*, and how long that takes is measured (`heisoku simulate`)."
+        ),
+    ]
+    for name, each in PROMISES.items():
+        lines += [
+            "",
+            f"## {name}",
+            "",
+            sentences(each.goal),
+            "",
+            "| while | this leads on | provided |",
+            "|---|---|---|",
+        ]
+        for link in each.links:
+            event = ", ".join(event_types(link.by))
+            if_so = sentences(link.provided) if link.provided else ""
+            lines.append(f"| {sentences(link.holds)} | `{link.by.__name__}({event})` | {if_so} |")
+    return "\n".join([*lines, "", plain(inspect.getdoc(promises) or "").split("\n\n", 1)[1], ""])
+
+
+def sentences(function: Callable[..., object]) -> str:
+    """Give a docstring on one line, as Markdown."""
+    return " ".join(plain(inspect.getdoc(function) or "").split())
+
+
+# ---- from requirements to code
+
+
 def traceability_page() -> str:
     """Give the page that leads from requirements to code and proof."""
     lines = [
@@ -180,6 +223,7 @@ def traceability_page() -> str:
 
 PAGES: Mapping[Path, Callable[[], str]] = {
     assumptions.PAGE: assumptions.page,
+    DOCS / "liveness.md": promises_page,
     DOCS / "persistence.md": persistence_page,
     DOCS / "traceability.md": traceability_page,
     DOCS / "world.md": world_page,

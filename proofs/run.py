@@ -14,7 +14,7 @@ from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
 
-from proofs import canaries, lookups, scripts, smtlib, solvers
+from proofs import canaries, lookups, promised, scripts, smtlib, solvers
 from proofs.records import Obligation, Report, Source, Verdict, write_whole
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
@@ -48,6 +48,8 @@ def laid_out(row: str, column: str, names: list[str] | None) -> list[Part]:
         return lookups.parts(bench(theory.name), column, names)
     if column == EVERY_LOOKUP_IS_DEFINED:
         return lookups.parts(bench(theory.name), name, names)
+    if column in theory.promises:
+        return promised.parts(bench(theory.name), name, column, names)
     return bench(theory.name).parts(name, column, names)
 
 
@@ -60,7 +62,7 @@ def parts(row: str, column: str) -> list[Part]:
 def source(row: str, column: str) -> Source:
     """Tell where the claim of an obligation stands: the predicate's lines, or the transition's."""
     theory, name = theory_of(row)
-    function = theory.steps[name] if column == EVERY_LOOKUP_IS_DEFINED else theory.read[column]
+    function = theory.steps[name] if column == EVERY_LOOKUP_IS_DEFINED else theory.said(column)
     lines, first = inspect.getsourcelines(function)
     path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
     return {"file": str(path), "lines": (first, first + len(lines) - 1)}

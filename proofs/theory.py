@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any
 
-Predicate = Callable[..., bool]
+from proofs.promise import Predicate, Promise
 
 START = "init"
 """The name of the first row of a theory's matrix."""
@@ -32,6 +32,7 @@ class Theory:
     ``safety``: those of them that the safety case claims.  All of site and system.
     ``premises``: what is assumed of the site.
     ``axioms``: what is assumed of ``site.layout`` and ``site.ground``.
+    ``promises``: what comes about at last, by name.
     ``quantified``: it speaks of any number of things; then a transition is stated by the fields it
     defines anew.  Plain arithmetic is easier where new values stand in place of those fields.
     """
@@ -45,12 +46,22 @@ class Theory:
     safety: Mapping[str, Predicate]
     premises: Mapping[str, Predicate] = field(default_factory=dict)
     axioms: Mapping[str, Predicate] = field(default_factory=dict)
+    promises: Mapping[str, Promise] = field(default_factory=dict)
     quantified: bool = False
 
     @property
     def read(self) -> dict[str, Predicate]:
         """Every predicate that is read, by name."""
         return {**self.axioms, **self.premises, **self.initial, **self.invariants}
+
+    @property
+    def claimed(self) -> tuple[str, ...]:
+        """The columns that the safety case names: claims that always hold, and promises."""
+        return (*self.safety, *self.promises)
+
+    def said(self, column: str) -> Predicate:
+        """Give the predicate that a column is named after."""
+        return self.promises[column].goal if column in self.promises else self.read[column]
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -60,8 +71,8 @@ class Theory:
     def columns(self, row: str) -> list[str]:
         """Give the columns of one of its rows, in order."""
         if row == READING:
-            return list(self.read)
-        return [*self.invariants, EVERY_LOOKUP_IS_DEFINED] if row in self.steps else list(self.invariants)
+            return [*self.read, *self.promises]
+        return [*self.invariants, EVERY_LOOKUP_IS_DEFINED, *self.promises] if row in self.steps else [*self.invariants]
 
 
 def by_name(functions: Iterable[Callable[..., Any]]) -> dict[str, Callable[..., Any]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 from proofs import scripts
-from proofs.catalogue import INTERLOCKING, SAFETY
+from proofs.catalogue import INTERLOCKING
 from proofs.theories import columns, row_of, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING, Theory
 
@@ -43,7 +43,7 @@ def users(found: Book) -> Mapping[str, list[Cell]]:
     return using
 
 
-def needed(found: Book, safety: Collection[str] = tuple(SAFETY)) -> frozenset[str]:
+def needed(found: Book, claimed: Collection[str] = INTERLOCKING.claimed) -> frozenset[str]:
     """Give every name that a claim of the safety case, or a lookup in a transition, rests on at last.
 
     A lemma that only serves a lemma that serves nothing is not needed; nor is one that is only
@@ -54,7 +54,7 @@ def needed(found: Book, safety: Collection[str] = tuple(SAFETY)) -> frozenset[st
         if not is_reading(row):
             below.setdefault(column, set()).update(names)
     reached: set[str] = set()
-    todo = [*safety, EVERY_LOOKUP_IS_DEFINED]
+    todo = [*claimed, EVERY_LOOKUP_IS_DEFINED]
     while todo:
         name = todo.pop()
         if name not in reached:
@@ -64,5 +64,5 @@ def needed(found: Book, safety: Collection[str] = tuple(SAFETY)) -> frozenset[st
 
 
 def claims(theory: Theory = INTERLOCKING) -> Mapping[str, Callable[..., bool]]:
-    """Give every claim about a state: invariants and what holds at the start."""
-    return {**theory.initial, **theory.invariants}
+    """Give every claim about a state: invariants, what holds at the start, and what is promised."""
+    return {**theory.initial, **theory.invariants, **{name: each.goal for name, each in theory.promises.items()}}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,7 +11,8 @@ from typing import Any
 
 from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
-from proofs.theory import START, Predicate, Theory
+from proofs.promise import Predicate
+from proofs.theory import START, Theory
 from proofs.transitions import event_types
 
 
@@ -52,10 +54,17 @@ class Workbench:
         self.lifter = Lifter(self.scope, self.sources)
         self.site = self.scope.fresh(self.theory.site, "site")
         self.before = self.scope.fresh(self.theory.system, "pre")
-        self._ways: dict[str, list[Way]] = {}
+        self._ways: dict[str, tuple[list[Way], list[Any]]] = {}
         self._claims: dict[tuple[int, str], list[Any]] = {}
         self._conjuncts: dict[str, Sequence[Any]] = {}
         self.seconds += time.perf_counter() - began
+
+    def replacing(self, sources: Mapping[Callable[..., Any], Any]) -> Workbench:
+        """The same, with other functions in its steps; what holds before them is not lifted again."""
+        other = copy.copy(self)
+        other.lifter, other.sources = Lifter(self.scope, sources), sources
+        other._ways, other._claims = {}, {}
+        return other
 
     @cached_property
     def assumed(self) -> Mapping[str, Any]:
@@ -92,22 +101,33 @@ class Workbench:
         self.seconds += time.perf_counter() - began
         return formulas
 
+    def event(self, transition: str) -> Mapping[str, Any]:
+        """An arbitrary event of a transition, by its fields."""
+        kinds = event_types(self.theory.steps[transition])
+        return {name: self.scope.constant(kind, f"event.{name}") for name, kind in kinds.items()}
+
     def ways(self, transition: str) -> list[Way]:
         """Every way that a transition changes the state; refusals leave it as it is and prove themselves."""
+        return self._lifted(transition)[0]
+
+    def refusals(self, transition: str) -> list[Any]:
+        """The condition of every way that a transition leaves the state as it is."""
+        return self._lifted(transition)[1]
+
+    def _lifted(self, transition: str) -> tuple[list[Way], list[Any]]:
         if transition not in self._ways:
             began = time.perf_counter()
-            step = self.theory.steps[transition]
-            event = [self.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()]
-            found = []
-            for condition, after in self.lifter.cases(step, self.site, self.before, *event):
+            ways, refusals = list[Way](), list[Any]()
+            event = self.event(transition).values()
+            for condition, after in self.lifter.cases(self.theory.steps[transition], self.site, self.before, *event):
                 if after is self.before:
-                    continue
-                if self.named:
+                    refusals.append(condition)
+                elif self.named:
                     state, definitions = self.scope.name(after, "post", relative_to=self.before)
-                    found.append(Way(condition, [named.formula for named in definitions], state))
+                    ways.append(Way(condition, [named.formula for named in definitions], state))
                 else:
-                    found.append(Way(condition, [], after))
-            self._ways[transition] = found
+                    ways.append(Way(condition, [], after))
+            self._ways[transition] = ways, refusals
             self.seconds += time.perf_counter() - began
         return self._ways[transition]
 

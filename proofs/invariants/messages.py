@@ -62,6 +62,28 @@ def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
     )
 
 
+def an_echo_is_of_a_known_run(site: Site, system: System) -> bool:
+    """A unit forgets no run in the life in which it has echoed its tags (T4)."""
+    return all(
+        run.train in system.units
+        and (run.life != system.units[run.train].life or run in system.units[run.train].orders)
+        for run in system.radio.echoes
+    )
+
+
+def only_a_permitted_run_leaves_blocks(site: Site, system: System) -> bool:
+    """A run begins only once permitted, or it stands; a tail leaves blocks only under a run that began (T4, T6)."""
+    return all(
+        (not order.begun or run in system.radio.permits or run in system.radio.standing_runs)
+        and (order.begun or all(False for _block in order.left))
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+    ) and all(
+        run in system.radio.permits or run in system.radio.standing_runs
+        for run, _block, _left, _entered in system.radio.tail_reports
+    )
+
+
 def no_life_is_named_before_it_begins(site: Site, system: System) -> bool:
     """Every life in the books or in the air has begun (T8)."""
     return (

@@ -21,6 +21,7 @@ from proofs.witnesses.running import (
 )
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import (
+    ask_back,
     at_stage,
     close_first_loop,
     echo,
@@ -30,6 +31,7 @@ from proofs.witnesses.setting import (
     locks,
     note_proved,
     offer,
+    open_first_loop,
     order,
     permit,
     prove,
@@ -38,7 +40,9 @@ from proofs.witnesses.setting import (
     reserve,
     retire,
     return_it,
+    send_list,
     set_route,
+    want_back,
 )
 from proofs.witnesses.stations import (
     A1,
@@ -218,6 +222,21 @@ def a_run_is_cancelled_before_its_permit(steps: Steps) -> Scenario:
     at_stage(scenario, run, Stage.OVER)
     scenario.refuses("take_permit", run=run)
     scenario.refuses("start_rolling", run=run)
+    retire(scenario, run)
+    return scenario
+
+
+def a_run_is_wanted_back_before_its_tags_came(steps: Steps) -> Scenario:
+    """A train can give back only what it knows: the list still goes to it, and then the recall (T9)."""
+    scenario, runs = recovered(steps, FACING_EAST)
+    run = reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    prove_all(scenario, run)
+    open_first_loop(scenario, run)
+    want_back(scenario, run)
+    ask_back(scenario, run)
+    scenario.refuses("give_back", run=run, stands_short=True)
+    send_list(scenario, run)
+    return_it(scenario, run)
     retire(scenario, run)
     return scenario
 

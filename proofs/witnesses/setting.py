@@ -92,8 +92,18 @@ def close_first_loop(scenario: Scenario, run: Run) -> None:
 
 
 def offer(scenario: Scenario, run: Run) -> None:
-    """The list comes to the train."""
+    """The points are proved, and the list comes to the train."""
+    open_first_loop(scenario, run)
+    send_list(scenario, run)
+
+
+def open_first_loop(scenario: Scenario, run: Run) -> None:
+    """The centre finds every point proved."""
     scenario.does("open_first_loop", {"centre": {"runs": {run: {"stage": Stage.OFFERED}}}}, run=run)
+
+
+def send_list(scenario: Scenario, run: Run) -> None:
+    """The list comes to the train."""
     scenario.does("send_offer", {"radio": {"offers": came(run)}}, run=run)
     taken = Order(
         permitted=False,
@@ -121,7 +131,17 @@ def permit(scenario: Scenario, run: Run) -> None:
 
 def recall(scenario: Scenario, run: Run) -> None:
     """The centre asks the train to give a run back."""
+    want_back(scenario, run)
+    ask_back(scenario, run)
+
+
+def want_back(scenario: Scenario, run: Run) -> None:
+    """The signaller wants a run back."""
     scenario.does("cancel", {"centre": {"runs": {run: {"cancelling": True}}}}, run=run)
+
+
+def ask_back(scenario: Scenario, run: Run) -> None:
+    """The train is asked for it."""
     scenario.does("send_recall", {"radio": {"recalls": came(run)}}, run=run)
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from kernel import persistence
 from proofs import lints, restarts, scripts, usage
-from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES, SAFETY, STEPS
+from proofs.catalogue import AXIOMS, INITIAL, INTERLOCKING, INVARIANTS, PREMISES, STEPS
 from proofs.scripts import FOLDER
 from proofs.theories import ROWS, THEORIES, theory_of
 from proofs.theories import columns as columns_of
@@ -109,19 +109,20 @@ def test_a_kernel_that_knows_the_world_is_seen(line: str) -> None:
 
 
 def test_every_invariant_is_proved_and_serves_a_claim() -> None:
-    assert lints.idle_invariants(usage.book(), INVARIANTS, SAFETY) == []
+    assert lints.idle_invariants(usage.book(), INVARIANTS, INTERLOCKING.claimed) == []
 
 
 def test_an_invariant_that_nobody_proves_is_seen() -> None:
     without = {cell: names for cell, names in usage.book().items() if cell[1] != "locks_agree"}
-    assert lints.idle_invariants(without, ["locks_agree"], SAFETY) == ["locks_agree: no obligation proves it"]
+    found = lints.idle_invariants(without, ["locks_agree"], INTERLOCKING.claimed)
+    assert found == ["locks_agree: no obligation proves it"]
 
 
 def test_an_invariant_that_serves_nothing_is_seen_even_if_another_such_uses_it() -> None:
     book = {**usage.book(), ("request", "idle_one"): ["idle_one", "idle_two"], ("request", "idle_two"): ["idle_one"]}
-    assert len(lints.idle_invariants(book, ["idle_one", "idle_two"], SAFETY)) == 2
+    assert len(lints.idle_invariants(book, ["idle_one", "idle_two"], INTERLOCKING.claimed)) == 2
     claims = {**book, ("request", "no_open_flank"): ["idle_one"]}
-    assert lints.idle_invariants(claims, ["idle_one", "idle_two"], SAFETY) == []
+    assert lints.idle_invariants(claims, ["idle_one", "idle_two"], INTERLOCKING.claimed) == []
 
 
 def test_every_axiom_and_premise_is_used_or_kept_for_a_reason() -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Generic, TypeVar
 
-from proofs.theory import Predicate, Theory
+from proofs.promise import Predicate
+from proofs.theory import Theory
 
 Site = TypeVar("Site")
 System = TypeVar("System")

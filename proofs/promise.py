@@ -1,0 +1,85 @@
+"""A promise: what comes about at last, if a few named steps are taken again and again (liveness).
+
+An invariant says that nothing bad ever happens; a promise says that something good does.  It is a row of
+links that ends in a goal.  Each link holds until a later one does, or the goal; and one step, with the event that
+it is about, takes it there.  The number of links still to go is a rank: no step of the world makes it greater, each
+link's own step makes it smaller, and at none the goal is reached.  Fairness is all that is asked beside: each
+link's step is taken at last, and not put off for ever.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, get_type_hints
+
+Predicate = Callable[..., bool]
+STATE = ("site", "system")
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """One stretch of the way to the goal.
+
+    ``holds``: where the system is, a predicate of site, system and what the promise is about.
+    ``by``: the transition that takes it further; its event's fields are what the promise is about, where they have
+    the same names, and otherwise anything that ``provided`` allows, a predicate of all of them.
+    """
+
+    holds: Predicate
+    by: Callable[..., Any]
+    provided: Predicate | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Promise:
+    """From any of the ``links``, in their order, comes the ``goal``; the goal names what may come in between."""
+
+    links: tuple[Link, ...]
+    goal: Predicate
+
+    @property
+    def name(self) -> str:
+        """The goal's."""
+        return self.goal.__name__
+
+    @property
+    def about(self) -> Mapping[str, Any]:
+        """What it is about, by name and type."""
+        return fields_of([self.goal, *(link.holds for link in self.links)])
+
+    @property
+    def predicates(self) -> tuple[Predicate, ...]:
+        """Everything that is read in it."""
+        return (self.goal, *(link.holds for link in self.links))
+
+
+def fields_of(predicates: Iterable[Callable[..., Any]]) -> dict[str, Any]:
+    """What predicates, or a transition, are about beside site and system, by name and type."""
+    return {name: kind for predicate in predicates for name, kind in _fields(predicate).items()}
+
+
+@cache
+def _fields(predicate: Callable[..., Any]) -> Mapping[str, Any]:
+    return {name: kind for name, kind in get_type_hints(predicate).items() if name not in (*STATE, "return")}
+
+
+def by_goal(promises: Iterable[Promise]) -> dict[str, Promise]:
+    """List promises by the names of their goals."""
+    return {promise.name: promise for promise in promises}
+
+
+def still_to_go(promise: Promise, site: Any, system: Any, about: Mapping[str, Any]) -> int | None:
+    """Say how many links are still to go, none at the goal; ``None`` where the promise says nothing of this state."""
+    if told(promise.goal, site, system, about):
+        return 0
+    going = [
+        len(promise.links) - place for place, link in enumerate(promise.links) if told(link.holds, site, system, about)
+    ]
+    return min(going, default=None)
+
+
+def told(predicate: Predicate, site: Any, system: Any, given: Mapping[str, Any]) -> bool:
+    """Ask a predicate, in CPython, for those of the values that it is about."""
+    return predicate(site, system, **{name: given[name] for name in fields_of([predicate])})

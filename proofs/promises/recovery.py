@@ -1,0 +1,124 @@
+"""After a restart everything is found again at last: trains are accounted for, lost blocks and points found (T8)."""
+
+from __future__ import annotations
+
+from kernel.names import Block, Epoch, Point, Run, Train, UnitLife
+from kernel.recovery import train_missing
+from models.world import at_the_centre, on_board, radio
+from models.world.assumptions import stands_exactly
+from models.world.state import Site, System
+from proofs.promise import Link, Promise
+from proofs.promises.vocabulary import lives
+
+
+def a_train_answers(site: Site, system: System, train: Train, epoch: Epoch) -> bool:
+    """A unit answers the challenge of an epoch; or the centre restarts (T8)."""
+    unit = system.units.get(train)
+    return unit is None or unit.answered == epoch or system.centre.epoch != epoch
+
+
+def the_centre_asks(site: Site, system: System, train: Train, epoch: Epoch) -> bool:
+    """The centre is in this epoch, and challenges every train."""
+    return system.centre.epoch == epoch
+
+
+def the_challenge_is_in_the_air(site: Site, system: System, train: Train, epoch: Epoch) -> bool:
+    """The challenge was sent."""
+    return epoch in system.radio.challenges
+
+
+def it_can_answer(
+    site: Site,
+    system: System,
+    train: Train,
+    life: UnitLife,
+    blocks: frozenset[Block],
+    at_rest: bool,
+    healthy: bool,
+) -> bool:
+    """The train is at rest and whole, knows where it is, and begins a new life."""
+    unit = system.units.get(train)
+    return at_rest and healthy and unit is not None and unit.life < life and stands_exactly(site, system, train, blocks)
+
+
+def a_train_that_answered_is_accounted_for(
+    site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch
+) -> bool:
+    """The centre knows where a train stands that has answered in this life.
+
+    Or in a later one; or the centre restarts, or the unit before its answer is sent (T8).
+    """
+    known = system.centre.accounted.get(train)
+    return (
+        (known is not None and life <= known)
+        or system.centre.epoch != epoch
+        or ((train, life, epoch) not in system.radio.standings and not lives(system, train, life))
+    )
+
+
+def it_has_answered(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
+    """The unit has answered in this life, and tells it."""
+    unit = system.units.get(train)
+    return train in site.layout.fleet and unit is not None and unit.life == life and unit.answered == epoch
+
+
+def its_answer_is_in_the_air(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
+    """The answer was sent."""
+    return train in site.layout.fleet and (train, life, epoch) in system.radio.standings
+
+
+def a_number_is_left(site: Site, system: System, train: Train, life: UnitLife, run: Run) -> bool:
+    """The run that will stand for it has a new number, and no route."""
+    return (
+        run.train == train
+        and run.life == life
+        and run.route not in site.layout.routes
+        and system.centre.newest < run.serial
+        and run.serial < site.layout.last_serial
+    )
+
+
+def a_lost_block_is_found(site: Site, system: System, block: Block) -> bool:
+    """A block is lost no more; or a train is missing, since the centre restarted again (T8)."""
+    return block not in system.centre.lost_blocks or train_missing(site.layout, system.centre)
+
+
+def no_train_is_missing(site: Site, system: System, block: Block) -> bool:
+    """Every train of the register has told where it stands."""
+    return not train_missing(site.layout, system.centre)
+
+
+def a_lost_point_is_found(site: Site, system: System, point: Point) -> bool:
+    """A point is lost no more; or its block is held, or a train is missing (T8, T10)."""
+    return (
+        point not in system.centre.lost_points
+        or train_missing(site.layout, system.centre)
+        or point not in site.layout.stands_in
+        or any(True for _ in system.centre.claimed.get(site.layout.stands_in[point], frozenset()))
+    )
+
+
+def nobody_stands_over_it(site: Site, system: System, point: Point) -> bool:
+    """Every train has told where it stands, and nobody holds the block of the point."""
+    return not a_lost_point_is_found(site, system, point)
+
+
+PROMISES = (
+    Promise(
+        (
+            Link(the_centre_asks, radio.send_challenge),
+            Link(the_challenge_is_in_the_air, on_board.answer, it_can_answer),
+        ),
+        a_train_answers,
+    ),
+    Promise(
+        (
+            Link(it_has_answered, radio.send_standing),
+            Link(its_answer_is_in_the_air, at_the_centre.note_standing, a_number_is_left),
+        ),
+        a_train_that_answered_is_accounted_for,
+    ),
+    Promise((Link(no_train_is_missing, at_the_centre.recover_block),), a_lost_block_is_found),
+    Promise((Link(nobody_stands_over_it, at_the_centre.recover_point),), a_lost_point_is_found),
+)
+"""In the order in which a restart comes to them."""
