@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import hashlib
-import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cached_property
@@ -14,6 +13,8 @@ from typing import Any
 import llvmlite
 import numba
 from numba.core import config as settings
+
+from models.kept_folder import kept_folder
 
 config: Any = settings
 
@@ -34,12 +35,7 @@ class Kept:
         digest = hashlib.sha256(f"{self._name} {numba.__version__} {llvmlite.__version__}".encode())
         for source in self._sources:
             digest.update(source.read_bytes())
-        kept = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "heisoku" / digest.hexdigest()[:24]
-        try:
-            kept.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            return None
-        return kept if os.access(kept, os.W_OK) else None
+        return kept_folder(digest.hexdigest()[:24])
 
     @contextmanager
     def kept_in(self) -> Iterator[bool]:
