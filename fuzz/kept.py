@@ -15,6 +15,7 @@ import numba
 from numba.core import config as settings
 
 from models.kept_folder import kept_folder
+from models.names_apart import name_apart
 
 config: Any = settings
 
@@ -61,3 +62,6 @@ class Kept:
         """Compile a function by numba, when it is first called."""
         with self.kept_in() as kept:
             return numba.njit(cache=kept)(function)
+
+
+name_apart()

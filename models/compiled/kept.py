@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import io
-import itertools
 import os
 import pickle
 import secrets
@@ -27,6 +26,7 @@ from numba.core.serialize import NumbaPickler
 
 from models.compiled.contents import Unknown, digest_of, digest_of_types
 from models.kept_folder import kept_folder
+from models.names_apart import name_apart
 
 Code = TypeVar("Code", bound=Callable[..., Any])
 core: Any = numba_core
@@ -171,14 +171,4 @@ class _Unpickler(pickle.Unpickler):
         return self._arguments[place]
 
 
-def _name_apart() -> None:
-    """Let numba number functions from anywhere on.
-
-    It names them by module, name, types, and a number that begins with 1 in every process: code that was kept by
-    one would have names that another function has here, and the linker would take one for the other.
-    """
-    core.bytecode.FunctionIdentity._unique_ids = itertools.count(secrets.randbits(60))
-
-
-_name_apart()
-os.register_at_fork(after_in_child=_name_apart)
+name_apart()
