@@ -43,7 +43,13 @@ def tuple_class(cls: type) -> Any:
 def __getattr__(name: str) -> Any:
     """Find the named tuple that stands for a dataclass by its qualified name, as unpickling does."""
     module, _, record = name.replace(BETWEEN, ".").rpartition(".")
-    if BETWEEN not in name or (found := import_module(module)).__spec__ is None:
+    if BETWEEN not in name:
+        raise AttributeError(name)
+    try:
+        found = import_module(module)
+    except ImportError as error:
+        raise AttributeError(name) from error
+    if found.__spec__ is None or not is_record(getattr(found, record, None)):
         raise AttributeError(name)
     return tuple_class(getattr(found, record))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -18,7 +19,8 @@ import numpy as np
 import pytest
 from numba import types as known_types
 
-from models.compiled import compiled
+from kernel.onboard.brake_watch import BrakeWatch
+from models.compiled import compiled, packed, records
 from models.compiled.contents import Unknown, digest_of, digest_of_types
 from models.compiled.kept import UNUSED_S
 
@@ -147,7 +149,8 @@ def test_where_nothing_can_be_kept_it_is_compiled(tmp_path: Path) -> None:
 
 NAMED_ALIKE = """
 import json
-from models.compiled import compiled
+from kernel.onboard.brake_watch import BrakeWatch
+from models.compiled import compiled, packed, records
 found = []
 for by in BY:
     names = {"__name__": "models.compiled.machines"}
@@ -226,6 +229,14 @@ def test_a_function_as_an_argument_is_told_by_what_it_is() -> None:
 def test_what_is_not_known_is_refused(around: dict[str, Any]) -> None:
     with pytest.raises(Unknown):
         digest(made(**around))
+
+
+def test_a_record_is_found_by_the_name_of_what_it_stands_for() -> None:
+    stands = records.tuple_class(BrakeWatch)
+    assert pickle.loads(pickle.dumps(stands)) is stands
+    assert type(pickle.loads(pickle.dumps(packed(BrakeWatch(1, 2, False))))) is stands
+    for name in ("nothing", "no:such:Record", "kernel:onboard:brake_watch:note_cycle", "kernel:onboard:brake_watch:No"):
+        assert not hasattr(records, name)
 
 
 # ---- within a process
