@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import fcntl
 import hashlib
-import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cached_property
@@ -14,6 +13,9 @@ from typing import Any
 import llvmlite
 import numba
 from numba.core import config as settings
+
+from models.kept_folder import kept_folder
+from models.names_apart import name_apart
 
 config: Any = settings
 
@@ -34,12 +36,7 @@ class Kept:
         digest = hashlib.sha256(f"{self._name} {numba.__version__} {llvmlite.__version__}".encode())
         for source in self._sources:
             digest.update(source.read_bytes())
-        kept = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "heisoku" / digest.hexdigest()[:24]
-        try:
-            kept.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            return None
-        return kept if os.access(kept, os.W_OK) else None
+        return kept_folder(digest.hexdigest()[:24])
 
     @contextmanager
     def kept_in(self) -> Iterator[bool]:
@@ -65,3 +62,6 @@ class Kept:
         """Compile a function by numba, when it is first called."""
         with self.kept_in() as kept:
             return numba.njit(cache=kept)(function)
+
+
+name_apart()

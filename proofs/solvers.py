@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import time
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Literal
@@ -72,25 +73,36 @@ def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
     answer, spent = _ask_cvc5_once(text, seed)
     if answer != "unknown":
         return answer, spent
-    answer, more = _ask_cvc5_once(text, seed, "full-saturate-quant" if QUANTIFIER.search(text) else "nl-cov")
+    answer, more = _ask_cvc5_once(text, seed, at_a_loss(text))
     return answer, spent + more
 
 
-def _ask_cvc5_once(text: str, seed: int, *more: str) -> tuple[Answer, int]:
+def at_a_loss(text: str) -> str:
+    """The option by which cvc5 tries again: instances of quantifiers enumerated, or the reals covered by cells."""
+    return "full-saturate-quant" if QUANTIFIER.search(text) else "nl-cov"
+
+
+def commanded(text: str, budget: int, seed: int, options: Mapping[str, str]) -> tuple[cvc5.Solver, Iterator[str]]:
+    """A fresh cvc5 with a budget, and what it says to each command of a text, as it is asked for one after another."""
     solver = cvc5.Solver()
-    solver.setOption("rlimit", str(max(1, BUDGET["cvc5"] // 2)))
-    solver.setOption("seed", str(seed))
-    for option in more:
-        solver.setOption(option, "true")
+    for name, value in {"rlimit": str(budget), "seed": str(seed), **options}.items():
+        solver.setOption(name, value)
+    return solver, _said(solver, text)
+
+
+def _said(solver: cvc5.Solver, text: str) -> Iterator[str]:
     parser = cvc5.InputParser(solver)
     parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, text, "obligation")
     symbols = parser.getSymbolManager()
+    while not (command := parser.nextCommand()).isNull():
+        yield command.invoke(solver, symbols).strip()
+
+
+def _ask_cvc5_once(text: str, seed: int, *more: str) -> tuple[Answer, int]:
+    solver, says = commanded(text, max(1, BUDGET["cvc5"] // 2), seed, dict.fromkeys(more, "true"))
     said = ""
-    while True:
-        command = parser.nextCommand()
-        if command.isNull():
-            break
-        said = command.invoke(solver, symbols).strip() or said
+    for each in says:
+        said = each or said
     spent = next(value["value"] for name, value in solver.getStatistics() if name == "resource::resourceUnitsUsed")
     if said == "unsat":
         return "unsat", int(spent)

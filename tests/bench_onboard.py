@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterable
+from tempfile import TemporaryDirectory
 from typing import Any
+from unittest.mock import patch
 
 import numba
 import numpy as np
@@ -78,7 +81,8 @@ def _compared(
     """Run both from the same state through the same readings; the states at the end must be equal."""
     listed, taken = rows.tolist(), (packed(parameters), packed(state), rows)
     expected, slow = _taken(plain, (parameters, state, listed))
-    first, cold = _taken(compiled, taken)
+    with TemporaryDirectory() as empty, patch.dict(os.environ, XDG_CACHE_HOME=empty):
+        first, cold = _taken(compiled, taken)
     assert unpacked(first, type(state)) == expected
     assert expected != state
     fast = sorted(CYCLES / _taken(compiled, taken)[1] for _ in range(PASSES))

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from evidence.report.gathering import PAIRS_AT_MOST, Book
 from evidence.report.tracing import GROUPS, Proved, Requirement
 from evidence.report.words import markdown, number
+from models.whole_page import template_of
 
 SECTIONS = (
     ("not-shown", "Not shown"),
@@ -38,14 +37,7 @@ MEASURED = ("days:", "reproduce:", "ride", "beyond", "fuzz")
 
 def page_of(book: Book) -> str:
     """The report as HTML."""
-    environment = Environment(
-        loader=PackageLoader("evidence.report", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {"markdown": markdown, "number": number, "kills": kills, "those": those}
+    template = template_of("evidence.report", markdown=markdown, number=number, kills=kills, those=those)
 
     def measured(requirement: Requirement) -> Sequence[str]:
         """The measured evidence that the claims of a requirement rest on, but for claims that all of them serve."""
@@ -53,7 +45,7 @@ def page_of(book: Book) -> str:
         found = (name for claim in own for name in claim.evidence if name.startswith(MEASURED) and name in book.shown)
         return list(dict.fromkeys(found))
 
-    return environment.get_template("page.html.jinja").render(
+    return template.render(
         book=book,
         sections=SECTIONS,
         groups=GROUPS,

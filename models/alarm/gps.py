@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from models.alarm.faults import KIND
 from models.alarm.line import STABLED, STATION_MM, STATIONS_MM, TUNNELS_MM
 from models.alarm.moving import noise
 from models.alarm.network import is_of
+from models.compiled import compiled
 
 OUT, JUMP, DRIFT, BACKWARDS = (KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards"))
 KEEPS, TRAIN_M, TRAIN_MOST_M, WORKER_M, WORKER_MOST_M = 0.95, 6.0, 19.9, 5.0, 14.9
@@ -19,7 +19,7 @@ VALID_M_S = 5 / 3.6
 """Below 5 km/h a receiver tells no direction (engineering practice)."""
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def in_tunnel(place_m: float) -> bool:
     """Tell whether there is no sky."""
     for from_mm, to_mm in TUNNELS_MM:  # noqa: SIM110
@@ -28,7 +28,7 @@ def in_tunnel(place_m: float) -> bool:
     return False
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def wanders(error_m: float, key: int, second: int, who: int, deviation_m: float, most_m: float) -> float:
     """Give the next error of a receiver."""
     bits, drawn = noise(key, second, 3_000 + who), 0.0
@@ -38,13 +38,13 @@ def wanders(error_m: float, key: int, second: int, who: int, deviation_m: float,
     return float(min(most_m, max(-most_m, KEEPS * error_m + spread * drawn)))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def sees(day: Any, train: int, place_m: float, second: int) -> bool:
     """Tell whether a train's GPS gives a fix: engine on, sky above, no fault (A4, A6)."""
     return train != STABLED and not in_tunnel(place_m) and not is_of(day, OUT, train, second)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -> int:
     """Give where GPS puts a train."""
     off_m = error_m
@@ -54,7 +54,7 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
     return int(np.floor(1_000 * (place_m + off_m) + 0.5))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def stretch_mm(place_m: float) -> Any:
     """Give the stretch that the display shows: a station, or all between two."""
     place_mm = 1_000 * place_m

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
 from models.alarm.line import LENGTH_MM, REGULAR, SHUNTER, STATIONS_MM, TRAINS, YARD_MM
+from models.compiled import compiled
 
 STATIONS_M = tuple(place / 1_000 for place in STATIONS_MM)
 LENGTH_M = LENGTH_MM / 1_000
@@ -41,7 +41,7 @@ ON_AFTER_S = 16
 """Its unit is on for so long after it has left: the list has dropped it by then."""
 
 
-@numba.njit
+@compiled
 def at_the_beginning(day: Any) -> Any:
     """Give every train where it will begin."""
     place = np.zeros(TRAINS)
@@ -54,7 +54,7 @@ def at_the_beginning(day: Any) -> Any:
     )  # fmt: skip
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def noise(key: int, one: int, other: int) -> int:
     """Draw 62 bits that follow from three numbers alone."""
     mixed = np.uint64(key) ^ (np.uint64(one) * np.uint64(0x9E3779B97F4A7C15))
@@ -64,7 +64,7 @@ def noise(key: int, one: int, other: int) -> int:
     return int(np.int64((mixed ^ (mixed >> np.uint64(31))) >> np.uint64(2)))
 
 
-@numba.njit
+@compiled
 def switch_on(trains: Any, second: int) -> None:
     """Note whose units are on."""
     count = 0
@@ -75,7 +75,7 @@ def switch_on(trains: Any, second: int) -> None:
     trains.switched_on[TRAINS] = count
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def next_station(place_m: float, heading: int) -> float:
     """Give the next station ahead, or where it is the last."""
     if heading > 0:
@@ -89,7 +89,7 @@ def next_station(place_m: float, heading: int) -> float:
     return place_m
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def target(trains: Any, train: int) -> float:
     """Give where a train will stop next."""
     heading = trains.heading[train]
@@ -100,7 +100,7 @@ def target(trains: Any, train: int) -> float:
     return stop if ahead else station
 
 
-@numba.njit
+@compiled
 def arrive(day: Any, trains: Any, train: int, second: int) -> None:
     """A train has stopped: it stays some time, and may turn, or its journey ends."""
     place = trains.place_m[train]
@@ -119,7 +119,7 @@ def arrive(day: Any, trains: Any, train: int, second: int) -> None:
         trains.waits_until_s[train] = second + day.dwell_s[train] + drawn % 15
 
 
-@numba.njit
+@compiled
 def move(day: Any, trains: Any, second: int) -> None:
     """A second passes for every train."""
     for index in range(trains.switched_on[TRAINS]):
@@ -144,14 +144,14 @@ def move(day: Any, trains: Any, second: int) -> None:
             trains.speed_m_s[train] = speed
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def gap_m(day: Any, trains: Any, train: int, worker_m: float) -> float:
     """Give how far a train's nearer end is from the worker; below 0 where it stands over him."""
     place = trains.place_m[train]
     return float(max(place - day.below_m[train] - worker_m, worker_m - place - day.above_m[train]))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def has_departed(trains: Any, train: int, gap: float, worker_m: float) -> bool:
     """Tell whether a train is past the worker by 100 m, from end to end, and ran last away from him (A3)."""
     return gap >= 100.0 and (trains.heading[train] > 0) == (trains.place_m[train] > worker_m)

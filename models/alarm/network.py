@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
-
 from models.alarm.faults import KIND
 from models.alarm.moving import noise
+from models.compiled import compiled
 
 LATEST_S = 14
 """No message arrives later."""
@@ -18,25 +17,25 @@ FIX, SHOWN, LISTED = 0, 100, 200
 """What a message is of; trains' numbers are added to the first two."""
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def is_on(day: Any, kind: int, second: int) -> bool:
     """Tell whether a fault of the handset, the display or the network is there."""
     return bool(0 <= day.begin_s[kind] <= second < day.end_s[kind])
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def is_of(day: Any, kind: int, train: int, second: int) -> bool:
     """Tell whether a fault of this train is there."""
     return day.train[kind] == train and is_on(day, kind, second)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def is_late(day: Any, second: int) -> bool:
     """Tell whether messages may be late that are sent now."""
     return is_on(day, SLOW, second) or is_on(day, REPEATS, second)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def takes_s(day: Any, sent_s: int, what: int) -> int:
     """Give how many seconds a message takes until the second in which the handset sounds with it."""
     drawn = noise(day.key, sent_s, 1_000 + what)
@@ -45,7 +44,7 @@ def takes_s(day: Any, sent_s: int, what: int) -> int:
     return 1 if drawn & 15 else 3
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def send(day: Any, second: int, what: int, arrives_s: Any) -> None:
     """Send a message: write down in which seconds it arrives, first and again, in the row of this second."""
     row = second % arrives_s.shape[0]

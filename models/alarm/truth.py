@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
 from kernel.alarm.distance import Direction
@@ -13,7 +12,7 @@ from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.line import BOUNDS, REGISTER, TRAINS
 from models.alarm.moving import gap_m, has_departed
-from models.compiled import packed
+from models.compiled import compiled, packed
 
 KERNEL = MADE.tone
 has_fix, has_display, agree, is_matched = KERNEL.has_fix, KERNEL.has_display, KERNEL.agree, KERNEL.is_matched
@@ -51,7 +50,7 @@ WITHIN_1500, WITHIN_3000, PASSED = (NUMBER["within_1500_s"], NUMBER["within_3000
 NEAREST_M = 10_000_000
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def in_section(worker_m: float) -> bool:
     """Tell whether the worker is where the handset is not to be used (A4, A5, A6)."""
     for from_mm, to_mm in SECTIONS:  # noqa: SIM110
@@ -60,7 +59,7 @@ def in_section(worker_m: float) -> bool:
     return False
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def nearest(day: Any, trains: Any, worker_m: float, second: int, departed_too: bool) -> Any:
     """Give the least distance of a train on the line to the worker, and which it is; -1 where there is none."""
     least, which = float(NEAREST_M), -1
@@ -74,7 +73,7 @@ def nearest(day: Any, trains: Any, worker_m: float, second: int, departed_too: b
     return least, which
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hold_claims(heard: int, least_m: float, any_m: float, unknown: bool, no_use: bool, out: Any) -> None:
     """Hold the claims against the truth (A2 to A6, A8)."""
     mild = heard in (NORMAL, CAUTION)
@@ -90,7 +89,7 @@ def hold_claims(heard: int, least_m: float, any_m: float, unknown: bool, no_use:
         out[MILD_IN_SECTION] += 1
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hold_train(register: Any, trains: Any, train: int, known: Any, out: Any) -> None:
     """Hold the assumptions on what is known of a train against where it is (A2, A3)."""
     fix = known.fix
@@ -106,7 +105,7 @@ def hold_train(register: Any, trains: Any, train: int, known: Any, out: Any) -> 
             out[TURNING_BROKEN] += 1
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hold_trains(register: Any, day: Any, trains: Any, handset: Any, second: int, out: Any) -> bool:
     """Go through all trains; tell whether one on the line is unknown to the handset (A2)."""
     unknown, named = False, 0
@@ -131,7 +130,7 @@ def hold_trains(register: Any, day: Any, trains: Any, handset: Any, second: int,
     return unknown or named < there
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: Any) -> bool:
     """Hold what the handset knows of itself against the truth; tell whether something is missing (A8)."""
     fix = handset.worker
@@ -148,7 +147,7 @@ def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: An
     return not handset.battery_well or not has_worker(register, handset)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def price(heard: int, before: int, least_m: float, no_use: bool, out: Any) -> None:
     """Count what it costs to be on the safe side."""
     out[NEEDLESS_ALARM] += heard == ALARM and least_m > 1_500
@@ -165,7 +164,7 @@ def price(heard: int, before: int, least_m: float, no_use: bool, out: Any) -> No
     out[WITHIN_3000] += least_m <= 3_000
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hold(
     register: Any, day: Any, trains: Any, sides: Any, handset: Any, heard: int, before: int,
     worker_m: float, second: int, out: Any, seconds: Any,

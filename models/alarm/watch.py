@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
 from kernel.alarm.distance import GREATEST_AGE_MS, NO_WORKER_FIX, Direction
@@ -33,7 +32,7 @@ from models.alarm.line import BOUNDS, REGISTER, SHUNTER, TRAINS
 from models.alarm.moving import COMES_AFTER_S, NAMED_AFTER_S, at_the_beginning, move, noise, switch_on
 from models.alarm.network import FIX, LATEST_S, LISTED, SHOWN, SOON_S, is_late, is_of, is_on, send
 from models.alarm.truth import hold
-from models.compiled import packed
+from models.compiled import compiled, packed
 
 ALARM_TONE, REGISTERED = MADE.tone.tone, packed(REGISTER)
 NOTHING = packed(Handset(NO_WORKER_FIX, GREATEST_AGE_MS + 1, True, True, {}))
@@ -88,7 +87,7 @@ def trace(places: bool = False, first_s: int = 0, told_s: int = 0) -> Trace:
     )
 
 
-@numba.njit
+@compiled
 def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
     """Write down a second, as far as it is asked for."""
     if kept.places.shape[0] > 0:
@@ -124,7 +123,7 @@ class Sent(NamedTuple):
     list_s: Any
 
 
-@numba.njit
+@compiled
 def nothing_sent() -> Sent:
     """Give what was told before the day began."""
     return Sent(
@@ -140,14 +139,14 @@ def nothing_sent() -> Sent:
     )
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def is_named(day: Any, trains: Any, train: int, second: int) -> bool:
     """Tell whether the server's list has a train (A2)."""
     on_s = trains.came_s[train] - COMES_AFTER_S + NAMED_AFTER_S
     return on_s <= second < trains.left_s[train] + 10 and not is_of(day, UNLISTED, train, second)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
     """Every unit takes a fix; it is sent every 2 s, the display every 3 s, the list every 2 s (A1)."""
     now = second % RING
@@ -169,7 +168,7 @@ def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
         sent.direction[train, now] = (DOWN if heading > 0 else UP) if speed >= VALID_M_S else UNKNOWN
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a fix as it arrives; a wrong clock makes it younger (A1)."""
     at = sent_s % RING
@@ -179,7 +178,7 @@ def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     return TrainFix(sent.told_mm[train, at], age_ms, sent.direction[train, at], sent.runs[train, at])
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a record of the display as it arrives: it follows a train within 2 s (A1)."""
     behind_s = noise(day.key, sent_s, 4_000 + train) % 3
@@ -189,7 +188,7 @@ def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second:
     return Display(from_mm, to_mm, 1_000 * (second - sent_s))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any) -> Any:
     """A fix reaches the handset (A1)."""
     if not sent.has_fix[train, sent_s % RING] or is_of(day, TRAIN_SILENT, train, sent_s):
@@ -211,7 +210,7 @@ def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s
     return note_fix(handset, train, fix)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def take_display(
     day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
 ) -> Any:
@@ -226,7 +225,7 @@ def take_display(
     return note_display(handset, train, display)
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def has(handset: Any, train: int) -> bool:
     """Tell whether the handset's list has a train."""
     for number, _known in handset.trains:  # noqa: SIM110
@@ -235,7 +234,7 @@ def has(handset: Any, train: int) -> bool:
     return False
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def take_list(day: Any, trains: Any, handset: Any, sent: Sent, sent_s: int, second: int, out: Any) -> Any:
     """A list of the server reaches the handset; what it names for the first time comes with its reports (A1, A2)."""
     named = 0
@@ -258,7 +257,7 @@ def take_list(day: Any, trains: Any, handset: Any, sent: Sent, sent_s: int, seco
     return note_list(handset, 1_000 * (second - sent_s), not is_on(day, ILL, sent_s))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def hear(day: Any, trains: Any, handset: Any, sent: Sent, last_list_s: int, second: int, out: Any) -> Any:
     """Take everything that arrives in this second, the oldest first; a list older than the last is let go (A1)."""
     late = is_late(day, second) or is_late(day, max(0, second - LATEST_S))
@@ -277,7 +276,7 @@ def hear(day: Any, trains: Any, handset: Any, sent: Sent, last_list_s: int, seco
     return handset, last_list_s
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int) -> Any:
     """The handset takes its own fix, where it can, and looks at its battery (A1, A8)."""
     handset = note_battery(handset, not is_on(day, BATTERY, second))
@@ -287,7 +286,7 @@ def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int
     return note_worker(handset, WorkerFix(int(np.floor(1_000 * (worker_m + off_m) + 0.5)), 0))
 
 
-@numba.njit(forceinline=True)
+@compiled(forceinline=True)
 def walked(day: Any, second: int) -> float:
     """Give where the worker is: he walks to and fro."""
     if day.walk_m == 0.0:
@@ -296,7 +295,7 @@ def walked(day: Any, second: int) -> float:
     return float(day.worker_m - day.walk_m + (way if way <= 2.0 * day.walk_m else 4.0 * day.walk_m - way))
 
 
-@numba.njit
+@compiled
 def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out: Any, kept: Trace) -> None:
     """Let a day pass.
 

@@ -17,7 +17,8 @@ A ``Map[K, V]`` is a ``numba.typed.List`` of pairs (K, V), a ``frozenset[T]`` on
 maps are never compared: their order would count.
 """
 
+from models.compiled.kept import compiled
 from models.compiled.machines import NotCompilable, compile_machines
 from models.compiled.records import compiled_type, packed, tuple_class, unpacked
 
-__all__ = ["NotCompilable", "compile_machines", "compiled_type", "packed", "tuple_class", "unpacked"]
+__all__ = ["NotCompilable", "compile_machines", "compiled", "compiled_type", "packed", "tuple_class", "unpacked"]

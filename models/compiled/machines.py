@@ -11,7 +11,7 @@ What is rewritten, and nothing else:
 
 ``//`` and ``%`` round down as in Python, and a divisor of 0 raises. Integers have 64 bits, see
 :data:`models.compiled.records.LEAST`. Each function is compiled when it is first called with new types.
-Nothing is cached on disk: numba's cache does not notice that a function called from another file has changed.
+What was compiled is kept for the next process (``kept.py``).
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numba
 from numba.extending import overload
 
 from models.compiled import loops, maps
+from models.compiled.kept import compiled
 from models.compiled.records import (
     LEAST,
     MOST,
@@ -91,7 +91,7 @@ class _Program:
         """Return what the global names of a module stand for."""
         if module.__name__ in self._names:
             return self._names[module.__name__]
-        names = self._names[module.__name__] = {}
+        names = self._names[module.__name__] = {"__name__": __name__}
         for name, value in vars(module).items():
             if _is_machines(value):
                 if value.__module__ != module.__name__:
@@ -102,7 +102,7 @@ class _Program:
                 names[name] = packed(value)
         for tree in _parsed(module).body:
             if isinstance(tree, ast.FunctionDef):
-                names[tree.name] = numba.njit(Rewriting(module, tree, self.names).function(names))
+                names[tree.name] = compiled(Rewriting(module, tree, self.names).function(names))
             elif isinstance(tree, ast.ClassDef):
                 _check_class(module, tree)
             elif not isinstance(tree, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.Expr):
@@ -234,7 +234,7 @@ class Rewriting(ast.NodeTransformer):
         whole = ast.fix_missing_locations(ast.Module([ast.copy_location(loop.function(name, free), node)], []))
         made: dict[str, Any] = {}
         exec(compile(whole, _path(self._module), "exec"), self._names_of(self._module), made)
-        self._made |= {name: numba.njit(made[name]), loops.LIST: loops.TypedList}
+        self._made |= {name: compiled(made[name]), loops.LIST: loops.TypedList}
         given = [self.visit(source), *(ast.Name(each, ast.Load()) for each in free)]
         return ast.copy_location(ast.Call(ast.Name(name, ast.Load()), given, []), node)
 
@@ -308,7 +308,7 @@ def replacement(fields: tuple[str, ...]) -> Code:
 
 def _made(source: str, **names: Any) -> Code:
     made: dict[str, Any] = {}
-    exec(source, names, made)
+    exec(source, {"__name__": __name__, **names}, made)
     (function,) = made.values()
     return typing.cast(Code, function)
 

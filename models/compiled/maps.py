@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 from numba import types as known_types
 from numba.core.errors import TypingError
 from numba.extending import overload
+
+from models.compiled.kept import compiled
 
 types: Any = known_types
 
@@ -26,7 +27,7 @@ def value_at(container: Any, key: Any) -> Any:
     raise NotImplementedError
 
 
-@numba.njit
+@compiled
 def with_entry(container, key, value):  # type: ignore[no-untyped-def]
     """Give a new map with an entry put in place of the one of this key, or added at the end."""
     made = container.copy()

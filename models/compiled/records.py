@@ -12,6 +12,7 @@ from collections import namedtuple
 from collections.abc import Mapping
 from enum import Enum
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 from numba import types as known_types
@@ -23,6 +24,8 @@ types: Any = known_types
 LEAST, MOST = -(2**63), 2**63 - 1
 """The integers that compiled code can hold. A sum or product beyond them wraps round without a word:
 that none arises from inputs within the declared ranges is the machine's duty, and tests watch it."""
+BETWEEN = ":"
+"""In place of a point in a named tuple's qualified name, which is one attribute here, and none of an attribute."""
 
 
 @cache
@@ -32,7 +35,23 @@ def tuple_class(cls: type) -> Any:
     fields = dataclasses.fields(cls)
     given = [packed(field.default) for field in fields if field.default is not dataclasses.MISSING]
     maker: Any = namedtuple
-    return maker(cls.__name__, [field.name for field in fields], defaults=given)
+    made = maker(cls.__name__, [field.name for field in fields], defaults=given, module=__name__)
+    made.__qualname__ = f"{cls.__module__}.{cls.__qualname__}".replace(".", BETWEEN)
+    return made
+
+
+def __getattr__(name: str) -> Any:
+    """Find the named tuple that stands for a dataclass by its qualified name, as unpickling does."""
+    module, _, record = name.replace(BETWEEN, ".").rpartition(".")
+    if BETWEEN not in name:
+        raise AttributeError(name)
+    try:
+        found = import_module(module)
+    except ImportError as error:
+        raise AttributeError(name) from error
+    if found.__spec__ is None or not is_record(getattr(found, record, None)):
+        raise AttributeError(name)
+    return tuple_class(getattr(found, record))
 
 
 @cache

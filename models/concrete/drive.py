@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from random import Random
 
-from kernel.names import Antenna, Read, Run
+from kernel.names import Antenna, Read, Run, Tag
 from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
 from models.simulator.play import Play
@@ -86,11 +86,16 @@ class Drive:
         self.seen["follows"] += followed
         self.must(followed, what)
 
+    def reads_as_tail(self, train: OnRails, tag: Tag) -> bool:
+        """Take a read by the last car's antenna, and tell whether that is the tail: over a broken line not."""
+        del tag
+        return not train.standing
+
     def tail_reads(self, train: OnRails, run: Run, what: Happening) -> None:
-        """The antenna of the last car reads a tag; over a line that broke it is no healthy tail."""
+        """The antenna of the last car reads a tag; it need not be the train's tail."""
         assert what.tag is not None
+        healthy = self.reads_as_tail(train, what.tag)
         site, system = self.play.site, self.play.system
-        healthy = not train.standing
         read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
         unit = system.units[run.train]
         true = a_healthy_line_reaches_the_tail(site, system, run, Antenna.TAIL, cab, healthy)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
+from models.compiled import compiled
 from models.crossing.faults import KIND
 
 COMES_UM = 2_600_000_000
@@ -31,20 +31,20 @@ BEFORE, BETWEEN, BEYOND = 0, 1, 2
 """The stage of a run: before the first station, between both, beyond the second."""
 
 
-@numba.njit
+@compiled
 def allowed(way_m: Any, target_m: Any) -> Any:
     """Give the greatest speed from which a train stops at a target."""
     left_m = way_m - target_m
     return 0.0 if left_m < 1.0 else np.sqrt(2 * BRAKES_M_S2 * (left_m - 0.5))
 
 
-@numba.njit
+@compiled
 def signal_m(block_m: Any, rear_um: Any) -> Any:
     """Give the place of the signal before the block in which the rear of the train ahead is."""
     return np.ceil(rear_um / 1e6 / block_m) * block_m + SIGNAL_M
 
 
-@numba.njit
+@compiled
 def aim(day: Any, run: Any, line: Any, train: int, ahead: int) -> Any:
     """Give the speed that a driver may have at most."""
     way_m, kind = run[train].way_um / 1e6, day.trains[train].local
@@ -65,7 +65,7 @@ def aim(day: Any, run: Any, line: Any, train: int, ahead: int) -> Any:
     return aim_m_s
 
 
-@numba.njit
+@compiled
 def stand(day: Any, run: Any, line: Any, train: int) -> None:
     """Count how long a train stands, and let it go on."""
     way_m, stage = run[train].way_um / 1e6, run[train].stage
@@ -83,14 +83,14 @@ def stand(day: Any, run: Any, line: Any, train: int) -> None:
             run[train].dwelt_s = 0
 
 
-@numba.njit
+@compiled
 def sprints(day: Any, run: Any, train: int) -> bool:
     """Tell whether a train now gains all that it can, up to the greatest pace of its kind."""
     trick = day.trains[train].trick
     return trick in (SPRINTS, STRONG) and run[train].way_um <= day.trains[train].trick_um
 
 
-@numba.njit
+@compiled
 def move(day: Any, run: Any, line: Any, train: int, ahead: int) -> None:
     """Move a train for a second."""
     kind, pace_um = day.trains[train].local, run[train].pace_um
@@ -118,7 +118,7 @@ def move(day: Any, run: Any, line: Any, train: int, ahead: int) -> None:
         stand(day, run, line, train)
 
 
-@numba.njit
+@compiled
 def arrives_by_likely_reckoning(line: Any, kind: int, way_m: float, speed_m_s: float, seconds: int) -> Any:
     """Tell whether a train at full traction arrives within so many seconds: by position, speed and acceleration (2.4).
 

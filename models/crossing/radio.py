@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
+from models.compiled import compiled
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE, NOTHING
@@ -28,19 +28,19 @@ STRIDE = 7_919
 """Each train's noise begins so far from the one's before."""
 
 
-@numba.njit
+@compiled
 def is_on(day: Any, fault: int, now: int) -> Any:
     """Tell whether a fault is there now."""
     return day.faults[fault].begin_s >= 0 and day.faults[fault].begin_s <= now < day.faults[fault].end_s
 
 
-@numba.njit
+@compiled
 def cut(value: float) -> float:
     """Cut noise."""
     return max(-NOISE_MOST, min(NOISE_MOST, value))
 
 
-@numba.njit
+@compiled
 def measure(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> None:
     """Take a ranging of a train, with its errors, and keep it; what is told of it is its bound."""
     place = (train * STRIDE + 3 * now) % (POOL - 3)
@@ -62,7 +62,7 @@ def measure(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> No
     run[train].told_s[now % KEPT] = now
 
 
-@numba.njit
+@compiled
 def ranging(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> Any:
     """Give what the radio brings of a train in this cycle."""
     measure(day, run, line, train, now, out)

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
-from models.compiled import packed
+from models.compiled import compiled, packed
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE, NO_DUES, OPEN, UNKNOWN
@@ -121,7 +120,7 @@ def line_of(trial: Trial) -> Any:
     return line
 
 
-@numba.njit
+@compiled
 def bounds_of(line: Any, kind: Any) -> Any:
     """Give what the kernel holds a kind of train to."""
     return ArrivalBounds(line.line_um[kind], line.gain_um, SET.cycle_ms, SET.warning_cycles, line.silence_cycles)
@@ -147,7 +146,7 @@ def watched(trial: Trial, day: Day, out: Any, decides: Any = decide, settings: A
 # ---- trains under way
 
 
-@numba.njit
+@compiled
 def enter(day: Any, run: Any, line: Any, window: Any, ends: Any, track: int, now: int) -> None:
     """Let the next train onto its track, if it is time and the one before is far enough."""
     train = window[track, 1]
@@ -166,7 +165,7 @@ def enter(day: Any, run: Any, line: Any, window: Any, ends: Any, track: int, now
     window[track, 1] += 1
 
 
-@numba.njit
+@compiled
 def run_trains(day: Any, run: Any, line: Any, window: Any, track: int, out: Any) -> None:
     """Let all trains of a track run for a second; each sees the one ahead."""
     ahead, goes_um = NEVER, round(-1e6 * (line.station_m + GOES_M))
@@ -193,7 +192,7 @@ def run_trains(day: Any, run: Any, line: Any, window: Any, track: int, out: Any)
 # ---- what the crossing is told
 
 
-@numba.njit
+@compiled
 def strikes(day: Any, run: Any, line: Any, window: Any, track: int, now: int, out: Any) -> None:
     """Let trains strike start points, and put each strike down to a train in contact, or to none (X3)."""
     for train in range(window[track, 0], window[track, 1]):
@@ -217,7 +216,7 @@ def strikes(day: Any, run: Any, line: Any, window: Any, track: int, now: int, ou
             out[STRIKE_BROKEN] += 1
 
 
-@numba.njit
+@compiled
 def may_be_at(run: Any, line: Any, train: int, kind: int) -> Any:
     """Tell whether a train in contact may be at its start point, by its rangings (X3)."""
     near_um, age = run[train].near_um, run[train].age_cycles
@@ -225,7 +224,7 @@ def may_be_at(run: Any, line: Any, train: int, kind: int) -> Any:
     return near_um <= line.start_um[kind] <= near_um + reach_um
 
 
-@numba.njit
+@compiled
 def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -> Any:
     """Hear a start point's terminal: first what it has to tell, and then that it is there (X3, T14)."""
     if day.on[TERMINAL] and day.faults[TERMINAL].track_of == track:
@@ -237,7 +236,7 @@ def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -
     return note_heard(crossing, track)
 
 
-@numba.njit
+@compiled
 def follow_train(
     day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
 ) -> Any:
@@ -267,7 +266,7 @@ def follow_train(
     return crossing
 
 
-@numba.njit
+@compiled
 def likely(run: Any, line: Any, train: int, kind: int, told: Any) -> Any:
     """Tell whether the paper's reckoning warns now: its ranging has no bounds taken off; or it is lost (003, 2.3)."""
     if not told.valid:
@@ -277,7 +276,7 @@ def likely(run: Any, line: Any, train: int, kind: int, told: Any) -> Any:
     return arrives_by_likely_reckoning(line, kind, way_m, speed_m_s, SET.warning_cycles)
 
 
-@numba.njit
+@compiled
 def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
     """Tell whether a train's rear is past the road, or it has turned back beyond its start point (X4)."""
     kind = day.trains[train].local
@@ -286,7 +285,7 @@ def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
     return run[train].pace_um < 0 and run[train].way_um > line.start_um[kind] + 20_000_000
 
 
-@numba.njit
+@compiled
 def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
     """Tell that a train's rear is out of the approach: by end tag, end detector, start tag, or a person (X4, T14)."""
     if run[train].gone == 1 or not is_out(day, run, line, train):
@@ -308,13 +307,13 @@ def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: An
     return note_released(note_released(crossing, train), OTHER_NAME + train)
 
 
-@numba.njit
+@compiled
 def stays_s(day: Any, run: Any, train: int) -> Any:
     """Give how long a part of a train stays behind."""
     return int(day.faults[PARTS].size) if run[train].out_s >= 0 and is_on(day, PARTS, run[train].out_s) else 0
 
 
-@numba.njit
+@compiled
 def tell(
     day: Any, run: Any, line: Any, window: Any, track: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
 ) -> Any:
@@ -334,7 +333,7 @@ def tell(
 # ---- what is claimed, against the truth
 
 
-@numba.njit
+@compiled
 def note_asking(run: Any, crossing: Any, now: int) -> None:
     """Keep when each train first asked for the warning."""
     for name, asks in crossing.asks:
@@ -343,7 +342,7 @@ def note_asking(run: Any, crossing: Any, now: int) -> None:
             run[train].asked_s = now
 
 
-@numba.njit
+@compiled
 def note_opening(run: Any, crossing: Any, window: Any) -> None:
     """Keep of which trains the crossing knew when it opened (X4)."""
     for track in range(TRACKS):
@@ -353,7 +352,7 @@ def note_opening(run: Any, crossing: Any, window: Any) -> None:
         run[name - OTHER_NAME if name >= OTHER_NAME else name].was_known = 1
 
 
-@numba.njit
+@compiled
 def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
     """Hold arrivals and openings against what is claimed; give how many arrived (X2 to X5)."""
     arrivals = 0
@@ -382,7 +381,7 @@ def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: 
     return arrivals
 
 
-@numba.njit
+@compiled
 def old_crossing(run: Any, window: Any, moment: Any, out: Any) -> Any:
     """Let the old crossing warn from its start points to the rears (003, 2.3)."""
     is_on_now = False
@@ -396,7 +395,7 @@ def old_crossing(run: Any, window: Any, moment: Any, out: Any) -> Any:
     return is_on_now, off_s
 
 
-@numba.njit
+@compiled
 def judge_decision(run: Any, before: Any, moment: Any, window: Any, unheard: Any, now: int, out: Any) -> Any:
     """Hold a decision against what is claimed, and count warnings and what kept them (X3, X4)."""
     crossing, silent = moment.crossing, False
@@ -420,7 +419,7 @@ def judge_decision(run: Any, before: Any, moment: Any, window: Any, unheard: Any
     )
 
 
-@numba.njit
+@compiled
 def end_cycle(day: Any, moment: Any, now: int, out: Any) -> Any:
     """Let a cycle pass for arms and terminals (X5)."""
     slow = int(day.faults[SLOW_ARMS].size) if day.on[SLOW_ARMS] else 0
@@ -435,7 +434,7 @@ def end_cycle(day: Any, moment: Any, now: int, out: Any) -> Any:
     )  # fmt: skip
 
 
-@numba.njit
+@compiled
 def live(day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: Any, dues: Any, out: Any) -> None:
     """Let a day pass."""
     window, ends = np.zeros((TRACKS, 2), np.int64), np.zeros(TRACKS, np.int64)

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
-
+from models.compiled import compiled
 from models.rides import tally
 from models.rides.onboard import BRAKE, LOCATED, MADE, SENSORS
 from models.sensors.faults import CYCLE_S, GRAVITY_M_S2
@@ -37,7 +36,7 @@ class Rolling(NamedTuple):
     difference_m_s: float
 
 
-@numba.njit
+@compiled
 def nearest_end_mm(motion: Any) -> int:
     """The nearest end at which the brake control still lets the train run on."""
     near, far = motion.front_most_mm, motion.front_most_mm + FARTHEST_MM
@@ -50,7 +49,7 @@ def nearest_end_mm(motion: Any) -> int:
     return int(far)
 
 
-@numba.njit
+@compiled
 def rolled(rolling: Any, ending: Any, braked_cycles: int) -> Any:
     """One cycle on; ``braked_cycles``: since the brake was commanded, 0 if it is not."""
     if braked_cycles > ending.responds_s / CYCLE_S:
@@ -72,7 +71,7 @@ def rolled(rolling: Any, ending: Any, braked_cycles: int) -> Any:
     )
 
 
-@numba.njit
+@compiled
 def read(before: Any, after: Any, ending: Any, way_before_mm: int) -> Any:
     """What the sensors say at the end of a cycle: speed by the pulses' times, so the mean; without pulses none."""
     way_mm = int(after.turned_m / PULSE_M) * PULSE_MM
@@ -81,7 +80,7 @@ def read(before: Any, after: Any, ending: Any, way_before_mm: int) -> Any:
     return Readings(100, True, mean_mm_s, way_mm, True, round(force * 1000))
 
 
-@numba.njit
+@compiled
 def broken_bounds(ending: Any, out: Any) -> None:
     """Which of the proofs' assumptions this approach does not keep to."""
     out[tally.BRAKE_BROKEN] += (
@@ -98,7 +97,7 @@ def broken_bounds(ending: Any, out: Any) -> None:
     out[tally.WHEEL_BROKEN] += abs(ending.scale) * 1e6 > SENSORS.scale_ppm
 
 
-@numba.njit
+@compiled
 def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any) -> None:
     """Let a train approach the end of its authority until it stands."""
     wheel = speed_m_s * (1 + ending.scale)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 
+from models.compiled import compiled
 from models.rides import onboard, tally
 from models.rides.onboard import (
     AXIS_YAW,
@@ -89,19 +89,19 @@ class Apart(NamedTuple):
     first_seen: int
 
 
-@numba.njit
+@compiled
 def place(motion: Any) -> Any:
     """Where the front is, as the machines on board tell one another."""
     return Way(motion.loss == LOCATED, motion.front_least_mm, motion.front_most_mm)
 
 
-@numba.njit
+@compiled
 def anchor(motion: Any) -> Any:
     """Where counting began: while this stays, the truth that belongs to it does."""
     return motion.anchor_least_mm, motion.anchor_most_mm, motion.anchor_way_mm
 
 
-@numba.njit
+@compiled
 def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: Any, anchor_m: float, out: Any) -> None:
     """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1)."""
     gained = (trace.speed_m_s[cycle] - (trace.speed_m_s[cycle - 1] if cycle else 0.0)) * 10_000
@@ -119,7 +119,7 @@ def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: 
             out[tally.WHEEL_BROKEN] += 1
 
 
-@numba.njit
+@compiled
 def passes(reader: Any, uid: int, frames: int) -> Any:
     """An antenna passes a tag: frames into the reader; is its record delivered (T16)."""
     delivered = False
@@ -131,13 +131,13 @@ def passes(reader: Any, uid: int, frames: int) -> Any:
     return reader, delivered
 
 
-@numba.njit
+@compiled
 def passing(motion: Any, tag: int, cycle: int) -> Any:
     """What the length is measured by when an antenna has read a tag (T3)."""
     return Passing(KIND_TAG, tag + 1, cycle * 100, motion.front_least_mm, motion.front_most_mm, motion.speed_most_mm_s)
 
 
-@numba.njit
+@compiled
 def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
     """The head's antenna passes a tag: the second loop's window, a fix, the spacing, the length (T5, T13, T3)."""
     tag = ends.next_head
@@ -167,7 +167,7 @@ def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
     return motion, Ends(window, place(motion), spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
 
 
-@numba.njit
+@compiled
 def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
     """The tail's antenna passes a tag: is it one antenna distance behind the head; then the length (T13, T3)."""
     tag, spacing, length = ends.next_tail, ends.spacing, ends.length
@@ -184,7 +184,7 @@ def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
     return Ends(ends.window, ends.last_at, spacing, length, ends.head_reader, reader, ends.next_head, tag + 1)
 
 
-@numba.njit
+@compiled
 def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
     """Everything that the antennas have read in this cycle, and whether a tag is overdue (T2, T5)."""
     window = note_window(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion)))
@@ -202,7 +202,7 @@ def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any
     return motion, ends
 
 
-@numba.njit
+@compiled
 def feature_at(row: Any) -> Any:
     """A feature of the line, from its numbers."""
     return Feature(
@@ -211,7 +211,7 @@ def feature_at(row: Any) -> Any:
     )  # fmt: skip
 
 
-@numba.njit
+@compiled
 def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: Any, trusted: Any, out: Any) -> Any:
     """Match the yaw rate's average, which is some cycles old; a fix is carried on to now by the wheel (P2, P3)."""
     trusted_cycles = curve.trusted_cycles + 1 if motion.trusted else 0
@@ -238,7 +238,7 @@ def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: 
     return motion, Curve(curve.feature, detection, trusted_cycles)
 
 
-@numba.njit
+@compiled
 def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
     """Compare head and tail, each at the time of the tail's measurement (P5, P6)."""
     told = max(trace.source[cycle], 0)
@@ -273,7 +273,7 @@ def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
     return Apart(wholeness, intact, streak, first_seen)
 
 
-@numba.njit
+@compiled
 def compare(trace: Any, cycle: int, motion: Any, length: Any, out: Any) -> None:
     """Hold what is claimed against the truth (P1, P4, P7)."""
     if motion.loss != LOCATED:
@@ -288,7 +288,7 @@ def compare(trace: Any, cycle: int, motion: Any, length: Any, out: Any) -> None:
     out[tally.WIDEST_MM] = max(out[tally.WIDEST_MM], motion.front_most_mm - motion.front_least_mm)
 
 
-@numba.njit
+@compiled
 def ride(trace: Any, out: Any) -> Any:
     """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and motion."""
     start_mm = int(trace.head_m[0] * 1000)

@@ -10,7 +10,7 @@ from random import Random
 
 from kernel.names import Train
 from models.simulation.agenda import Act, Agenda
-from models.simulation.faults import Chosen
+from models.simulation.faults import Chosen, happens
 
 LEAST_MS, MOST_MS = 100, 400
 """From one end to the other, processing included (ours)."""
@@ -47,9 +47,7 @@ class Air:
         return usual + self._lasts_ms("radio_delay") if self._happens("radio_delay") else usual
 
     def _happens(self, fault: str) -> bool:
-        so = fault in self.chosen and self.random.random() < self.chosen[fault].rate
-        self.seen[fault] += so
-        return so
+        return happens(fault, self.chosen, self.random, self.seen)
 
     def _lasts_ms(self, fault: str) -> int:
         return round(self.random.uniform(self.chosen[fault].least, self.chosen[fault].most) * 1_000)

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from random import Random
 from typing import Any, Literal
 
 from models.layouts.results import BadInput
@@ -120,6 +122,13 @@ class Setting:
 Chosen = Mapping[str, Setting]
 EVERY_FAULT: Chosen = {fault.name: Setting(fault.rate, fault.least, fault.most) for fault in FAULTS}
 NO_FAULT: Chosen = {}
+
+
+def happens(fault: str, chosen: Chosen, random: Random, seen: Counter[str]) -> bool:
+    """Draw whether a fault of single telegrams or tags comes now, if it is chosen, and count it."""
+    so = fault in chosen and random.random() < chosen[fault].rate
+    seen[fault] += so
+    return so
 
 
 def read_faults(path: Path) -> Chosen:

@@ -9,18 +9,17 @@ from collections.abc import Mapping
 from random import Random
 
 from kernel.authority import may_proceed
-from kernel.names import Antenna, Read, Run, Tag, Train
+from kernel.names import Run, Tag, Train
 from kernel.unit import Unit
 from models.concrete.drive import Drive
 from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
 from models.concrete.train import Happening, OnRails
 from models.rides.plan import PLAN
 from models.simulation.driver import BELOW_MM_S, CYCLE_S, asked_mm_s2, gained_mm_s2, shown_mm_s
-from models.simulation.faults import Chosen
+from models.simulation.faults import Chosen, happens
 from models.simulation.onboard import OnBoard
 from models.simulation.sensors import Sensors
 from models.simulator.play import Play
-from models.world.assumptions import a_healthy_line_reaches_the_tail, a_pair_read_in_order_proves_the_exit
 
 NEAR_END_MM = 12_000
 SETTLES_CYCLES = 100
@@ -183,19 +182,15 @@ class Line(Drive):
             super().happens(train, run, what)
         elif what.kind == "head reads":
             self._head_passes(self.vehicles[train.name], what)
-        elif self._happens("tag_missed_tail"):
-            self.seen["tag_missed_tail"] += 1
-        else:
+        elif not self._happens("tag_missed_tail"):
             self.tail_reads(train, run, what)
 
     def _head_passes(self, vehicle: Vehicle, what: Happening) -> None:
         """The head's antenna passes a tag; now and then another lies there, or it reads nothing."""
         assert what.tag is not None
         if self._happens("tag_foreign"):
-            self.seen["tag_foreign"] += 1
             self._head_reads(vehicle, what, Tag("foreign"), None)
         if self._happens("tag_missed_head"):
-            self.seen["tag_missed_head"] += 1
             return
         places = (ahead.tags_mm[what.tag] for ahead in vehicle.board.lists.values() if what.tag in ahead.tags_mm)
         self._head_reads(vehicle, what, what.tag, next(places, None))
@@ -206,20 +201,11 @@ class Line(Drive):
         self.play.take("head_reads", train=train, cab=cab, tag=tag, in_window=in_window)
         vehicle.demanded(self.play)
 
-    def tail_reads(self, train: OnRails, run: Run, what: Happening) -> None:
-        """The antenna of the last car reads a tag; the machines on board say whether it is the train's tail."""
-        assert what.tag is not None
-        site, system, vehicle = self.play.site, self.play.system, self.vehicles[train.name]
-        through = not train.standing and self.now_ms >= vehicle.line_broken_until_ms
-        healthy = vehicle.board.tail_reads(self.numbers[what.tag], through)
-        read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
-        unit = system.units[run.train]
-        true = a_healthy_line_reaches_the_tail(site, system, run, Antenna.TAIL, cab, healthy)
-        if unit.tail_read is not None and unit.tail_cab == cab:
-            true = true and a_pair_read_in_order_proves_the_exit(site, system, run, what.car, unit.tail_read, read)
-        self.must(true, what)
-        event = {"antenna": Antenna.TAIL, "cab": cab, "healthy": healthy, "read": read}
-        self.play.take("tail_reads", run=run, car=what.car, **event)
+    def reads_as_tail(self, train: OnRails, tag: Tag) -> bool:
+        """Take a read by the last car's antenna; the machines on board say whether that is the train's tail."""
+        vehicle = self.vehicles[train.name]
+        through = super().reads_as_tail(train, tag) and self.now_ms >= vehicle.line_broken_until_ms
+        return vehicle.board.tail_reads(self.numbers[tag], through)
 
     def _happens(self, fault: str) -> bool:
-        return fault in self.chosen and self.random.random() < self.chosen[fault].rate
+        return happens(fault, self.chosen, self.random, self.seen)

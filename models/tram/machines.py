@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, TypeVar, cast
-
-import numba
+from typing import Any, TypeVar
 
 from kernel.tram import cycle, dispatching, display, stopping
-from models.compiled import compile_machines
+from models import compiled as machine_code
 
-MADE = compile_machines((cycle, dispatching, display, stopping))
+MADE = machine_code.compile_machines((cycle, dispatching, display, stopping))
 """Each function is compiled when it is first called."""
 
 Code = TypeVar("Code", bound=Callable[..., Any])
@@ -20,4 +18,4 @@ UNCOUNTED: dict[str, Any] = {"_nrt": False}
 
 def compiled(function: Code) -> Code:
     """Compile a function that calls the machines."""
-    return cast(Code, numba.njit(**UNCOUNTED)(function))
+    return machine_code.compiled(function, **UNCOUNTED)

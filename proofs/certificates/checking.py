@@ -11,10 +11,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-import cvc5
-
 from proofs import canaries, run, smtlib
-from proofs.solvers import BUDGET, QUANTIFIER
+from proofs.solvers import BUDGET, at_a_loss, commanded
 from proofs.workbench import Part
 
 CHECKER = "ethos"
@@ -77,23 +75,18 @@ def proved(part: Part) -> tuple[str, str]:
     answer, proof = _once(text)
     if answer == "checked" or answer == "sat":
         return answer, proof
-    return _once(text, "full-saturate-quant" if QUANTIFIER.search(text) else "nl-cov")
+    return _once(text, at_a_loss(text))
 
 
 def _once(text: str, *more: str) -> tuple[str, str]:
-    solver = cvc5.Solver()
-    options = {"rlimit": str(BUDGET["cvc5"]), "seed": "0", "produce-proofs": "true", "check-proofs": "true"}
-    for name, value in {**options, "proof-format-mode": "cpc", **dict.fromkeys(more, "true")}.items():
-        solver.setOption(name, value)
-    parser = cvc5.InputParser(solver)
-    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, text + "(get-proof)\n", "obligation")
-    symbols = parser.getSymbolManager()
+    options = {"produce-proofs": "true", "check-proofs": "true", "proof-format-mode": "cpc"}
+    _, says = commanded(text + "(get-proof)\n", BUDGET["cvc5"], 0, options | dict.fromkeys(more, "true"))
     said: list[str] = []
     try:
-        while not (command := parser.nextCommand()).isNull():
-            said.append(command.invoke(solver, symbols).strip())
-            if said[-1] in ("sat", "unknown"):
-                return said[-1], ""
+        for each in says:
+            said.append(each)
+            if each in ("sat", "unknown"):
+                return each, ""
     except RuntimeError as error:
         return f"no certificate: {' '.join(str(error).split())[:200]}", ""
     answer, proof = [each for each in said if each][-2:]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
@@ -16,7 +15,7 @@ from models.alarm.draws import HOURS, SECONDS, drawn
 from models.alarm.faults import BEYOND, FAULTS, WITHIN
 from models.alarm.line import REGISTER, REGULAR
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
-from models.compiled import packed
+from models.compiled import compiled, packed
 
 FAULT, CAUTION, NORMAL, ALARM = (packed(each) for each in (Tone.FAULT, Tone.CAUTION, Tone.NORMAL, Tone.ALARM))
 SEED = 5
@@ -87,7 +86,7 @@ def test_a_deduction_left_out_breaks_a_claim(fault: str) -> None:
     assert total(rows, ASSUMPTIONS) == 0
 
 
-@numba.njit
+@compiled
 def spoiled(register: Any, handset: Any) -> int:
     """Sound the normal tone for the fault tone, and caution for alarm: each breaks claims of its own."""
     heard = ALARM_TONE(register, handset)

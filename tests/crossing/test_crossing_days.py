@@ -6,13 +6,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, Due, Train
-from models.compiled import packed, unpacked
+from models.compiled import compiled, packed, unpacked
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
 from models.crossing.days import SYSTEM, one_day
 from models.crossing.faults import FAULTS
@@ -92,7 +91,7 @@ def test_a_dropped_guard_is_seen(change: dict[str, int], claim: str) -> None:
 Made = MADE.crossing.Crossing
 
 
-@numba.njit
+@compiled
 def careless(settings: Any, crossing: Any, dues: Any) -> Any:
     """Who has no answer is taken to be far, and whoever asked is forgotten."""
     asks, told = crossing.asks.copy(), dues.copy()

@@ -2,32 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
-
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
 
 from fuzz.failures.page.diagram import TOP, Diagram, Drawing
 from fuzz.failures.page.moments import FIRST_LOOP, changes
 from fuzz.failures.replaying import Outcome, Replay
 from fuzz.failures.trace import TRAFFIC
 from fuzz.failures.words import assumption, claim, comes_to, headline, meaning, otherwise, told
-
-TEMPLATE = "page.html.jinja"
+from models.whole_page import script_data, template_of
 
 
 def page_of(replay: Replay, name: str) -> str:
     """The page of a replay as HTML; ``name`` is that of the trace's file."""
     drawn = Drawing(replay).drawn()
-    environment = Environment(
-        loader=PackageLoader("fuzz.failures.page", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template(TEMPLATE).render(
+    return template_of("fuzz.failures.page").render(
         name=name,
         trace=replay.trace,
         headline=headline(replay),
@@ -40,7 +28,7 @@ def page_of(replay: Replay, name: str) -> str:
         steps=[_step(outcome) for outcome in replay.outcomes],
         failure=replay.at_step,
         last=len(replay.outcomes),
-        data=_data(replay, drawn),
+        data=script_data(_data(replay, drawn)),
     )
 
 
@@ -62,9 +50,9 @@ def _step(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _data(replay: Replay, drawn: Diagram) -> Markup:
-    """What the page's script shows, as JSON that cannot end the script element."""
-    data = {
+def _data(replay: Replay, drawn: Diagram) -> dict[str, Any]:
+    """What the page's script shows."""
+    return {
         "last": len(replay.outcomes),
         "failure": replay.at_step,
         "loop": FIRST_LOOP,
@@ -73,5 +61,3 @@ def _data(replay: Replay, drawn: Diagram) -> Markup:
         "colours": drawn.colours,
         "concerns": drawn.concerns,
     }
-    text = json.dumps(data, ensure_ascii=True, separators=(",", ":"))
-    return Markup(text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026"))

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
 
 from models.alarm.line import TUNNELS_MM, ZONE_MM
 from models.alarm.page.scene import Shown, line_data, moment, shown
+from models.whole_page import script_data, template_of
 
-TEMPLATE = "page.html.jinja"
 LINE = "Yamabe line"
 """Made up."""
 WORKER_M = (TUNNELS_MM[0][1] + ZONE_MM) / 1_000 + 1_000.0
@@ -21,18 +17,9 @@ FIRST_S, LENGTH_S = 0, 3_600
 
 def page_of(scene: Shown, title: str = LINE) -> str:
     """Give the page of some minutes as HTML."""
-    environment = Environment(
-        loader=PackageLoader("models.alarm.page", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     moments = [moment(scene, row) for row in range(len(scene.kept.own))]
-    data = json.dumps({"line": line_data(), "moments": moments}, separators=(",", ":"), ensure_ascii=False)
-    return environment.get_template(TEMPLATE).render(
-        title=title, last=len(moments) - 1, data=Markup(data.replace("<", "\\u003c"))
-    )
+    data = script_data({"line": line_data(), "moments": moments})
+    return template_of("models.alarm.page").render(title=title, last=len(moments) - 1, data=data)
 
 
 def write(

@@ -6,14 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from kernel.names import Route
 from models.layouts.export.control_table import Row
 from models.layouts.export.tag_plan import PlannedTag
 from models.layouts.results import CheckResult, Imported
+from models.whole_page import template_of
 
-TEMPLATE = "page.html.jinja"
 MOST_IN_THE_MATRIX = 120
 """Routes whose matrix is still read at a glance; of more the control table names the conflicts."""
 MOST_TAGS = 2_000
@@ -27,13 +25,6 @@ def page_of(
     plan: Sequence[PlannedTag],
 ) -> str:
     """The page as HTML; everything is in it, and nothing is loaded."""
-    environment = Environment(
-        loader=PackageLoader("models.layouts.export", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     number = {row.route: at for at, row in enumerate(rows, 1)}
     signs = {
         pair: sign
@@ -41,7 +32,7 @@ def page_of(
         for pair in ((number[one], number[other]), (number[other], number[one]))
     }
     layout, told, file = imported.layout, imported.told, Path(imported.name).name
-    return environment.get_template(TEMPLATE).render(
+    return template_of("models.layouts.export").render(
         title=(told.title if told is not None else None) or file,
         file=file,
         kind=imported.kind,

@@ -1,0 +1,1 @@
+"""Machines compiled, and kept."""
