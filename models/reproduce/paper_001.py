@@ -38,7 +38,10 @@ def reproduce(seed: int, runs: int, progress: Progress) -> Reproduction:
     count = max(1, min(RUNS_A_LINE, runs))
     lines = journeys(seed, max(1, runs // count), count, progress)
     plan = Registering()
-    rides = [ridden(plan, line) for line in lines]
+    rides = []
+    for number, line in enumerate(lines):
+        progress(number, len(lines), f"fixes on line {number + 1}")
+        rides.append(ridden(plan, line))
     found = first(rides, PAPER_FEATURES)
     everywhere = fixes(plan, lines, PAPER_FEATURES, everywhere=True)
     measured = lengths.lengths(lengths.PLAN, rides, PAPER_FEATURES, seed)
@@ -88,9 +91,9 @@ def fix_rows(found: Fixes, everywhere: Fixes) -> tuple[Row, ...]:
             overlap, "the 95 % intervals overlap"),
         Row("fixes, every curve registered", "table 1", paper, interval(everywhere), None, "none: for comparison"),
         Row("why no fix, where surveyed", "4.3.1", "too slow; curvature out of band for moments; and others",
-            causes(found), None, "by the machine's last stage"),
+            causes(found), None, "by the machine's last stage, or what made it begin late"),
         Row("why no fix, every curve", "4.3.1", "too slow; curvature out of band for moments; and others",
-            causes(everywhere), None, "by the machine's last stage"),
+            causes(everywhere), None, "by the machine's last stage, or what made it begin late"),
         Row("the fix contains the train's front", "4.3.1", "not given",
             f"all but {outside} of {found.fixed + everywhere.fixed}", outside == 0, "every one"),
         Row("error of a fix", "figure 9", "not given in numbers", f"{min(errors):+.1f} to {max(errors):+.1f} m", None,
