@@ -185,3 +185,11 @@ def test_a_detection_that_began_late_fails_for_what_made_it_late() -> None:
     assert passing.reason(curve, short, bent, slow) == slow
     assert passing.reason(curve, short, bent, "") == band
     assert passing.reason(curve, long, bent, slow) == band
+
+
+def test_a_train_that_came_to_stand_a_little_short_of_its_stop_goes_on() -> None:
+    track = tracks.line(302_020, passing.LINE_M)
+    runs = passing.runs_on(track, 302, [83])
+    stands = runs.head_m[0, np.flatnonzero(runs.speed_m_s[0] == 0)]
+    assert ((stands > 6_180.7) & (stands < 6_180.8)).any(), "no longer the train that stood 0.28 m short"
+    assert runs.head_m[0, -1] > 9_000
