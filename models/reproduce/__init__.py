@@ -26,7 +26,7 @@ class Paper:
 
 PAPERS = {
     "000": Paper(paper_000.reproduce, 400),
-    "001": Paper(paper_001.reproduce, 220),
+    "001": Paper(paper_001.reproduce, 260),
     "002": Paper(paper_002.reproduce, 20),
     "003": Paper(paper_003.reproduce, 10),
     "004": Paper(paper_004.reproduce, 20),

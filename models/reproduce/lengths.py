@@ -22,7 +22,7 @@ from kernel.onboard.train_length import (
     PointKind,
     cycle_way_mm,
 )
-from models.reproduce.fixes import SENSORS_APART_M, Watched, awaited, looked_for, yaw_of
+from models.reproduce.passing import SENSORS_APART_M, Ridden, Runs, awaited, looked_for, measured_yaw
 from models.sensors import track as tracks
 from models.sensors.curves import Registering, averaged
 from models.sensors.faults import CYCLE_S
@@ -53,49 +53,47 @@ class Measured:
     speed_m_s: float
 
 
-def tail_yaw(watched: Watched, seed: int, gyro: float = 1.0) -> Places:
-    """The tail's measured yaw rate, its cycles off by a part of a cycle that is drawn for each run."""
+def tail_yaw(runs: Runs, seed: int, gyro: float = 1.0) -> tuple[Places, Places]:
+    """The tail's averaged yaw rate, its cycles off by a part of a cycle that is drawn for each run; as the head's."""
     random = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(2**30,))))
-    made = watched.made
-    skew_s = CYCLE_S * random.random((len(made.runs), 1))
-    speed = made.truth.speed_m_s.astype(np.float64)
-    tail_m = made.truth.head_m - SENSORS_APART_M
+    skew_s = CYCLE_S * random.random((len(runs.ends), 1))
+    speed = runs.speed_m_s.astype(np.float64)
+    tail_m = runs.head_m - SENSORS_APART_M
     plain, skewed = (
-        tracks.read(watched.track.curvature_per_m, tracks.spots(watched.track, place_m)) * speed * 1e6
+        tracks.read(runs.track.curvature_per_m, tracks.spots(runs.track, place_m)) * speed * 1e6
         for place_m in (tail_m, tail_m + skew_s * speed)
     )
-    errors = made.sensors.tail_yaw_urad_s.numbers - plain
-    return np.asarray(np.rint(skewed + gyro * errors).astype(np.int64))
+    errors = runs.tail_yaw.numbers - plain
+    return averaged(np.asarray(np.rint(skewed + gyro * errors).astype(np.int64)), runs.tail_yaw.valid)
 
 
-def lengths(plan: Registering, watched: Sequence[Watched], most: int, seed: int, gyro: float = 1.0) -> list[Measured]:
+def lengths(plan: Registering, rides: Sequence[Ridden], most: int, seed: int, gyro: float = 1.0) -> list[Measured]:
     """Measure the length at the first so many features where both ends find the curve (P4)."""
     found: list[Measured] = []
     apart_mm = round(1000 * SENSORS_APART_M)
-    for each in watched:
-        yaws = yaw_of(each, gyro), tail_yaw(each, seed, gyro)
-        head = averaged(yaws[0], each.made.sensors.yaw_urad_s.valid)
-        tail = averaged(yaws[1], each.made.sensors.tail_yaw_urad_s.valid)
-        for point, one in enumerate(awaited(plan, each, each.track.features)):
+    for each in rides:
+        runs = each.runs
+        head, tail = measured_yaw(runs, gyro), tail_yaw(runs, seed, gyro)
+        for point, one in enumerate(awaited(plan, runs, runs.track.features)):
             if len(found) >= most:
                 return found
-            first = looked_for(plan, each, one, *head)
-            second = looked_for(plan, each, one, *tail, shift_mm=apart_mm)
+            first = looked_for(each, one, *head)
+            second = looked_for(each, one, *tail, shift_mm=apart_mm)
             if first.fixed and second.fixed:
-                found.append(measured(each, point, one.run, first.found, second.found))
+                found.append(measured(runs, point, one.run, first.found, second.found))
     return found
 
 
-def measured(watched: Watched, point: int, run: int, head: int, tail: int) -> Measured:
+def measured(runs: Runs, point: int, run: int, head: int, tail: int) -> Measured:
     """Let the kernel measure from the two cycles in which head and tail found the curve's end (P4)."""
     passes = [
         Passing(
             kind=PointKind.FEATURE,
             point=point,
             time_ms=CYCLE_MS * cycle,
-            front_least_mm=watched.way_mm[run][cycle],
-            front_most_mm=watched.way_mm[run][cycle],
-            speed_most_mm_s=watched.speed_mm_s[run][cycle],
+            front_least_mm=int(runs.way_mm[run, cycle]),
+            front_most_mm=int(runs.way_mm[run, cycle]),
+            speed_most_mm_s=int(runs.speed_mm_s[run, cycle]),
         )
         for cycle in (head, tail)
     ]

@@ -27,7 +27,10 @@ ADHESION = 0.16
 START_M = 50.0
 """Where the head stands at the beginning, beyond the train's own length (added)."""
 STANDS_M_S = 0.6
-"""Below this, where no more is allowed, the driver brakes to a standstill and stays."""
+"""Below this, where no more is allowed, the driver brakes to a standstill and stays.
+
+A train that came to stand a little short, where so little is allowed that it would not start again, stays as well.
+"""
 AWAY_M = 4.0
 """Ours: having stayed at a stop, the driver looks only beyond it."""
 LOOK_S = 0.8
@@ -69,6 +72,7 @@ def run(track: Track, values: Mapping[str, Floats], cycles: int, length_m: float
         allowed *= share
         waits = speed < STANDS_M_S
         waits &= allowed < STANDS_M_S
+        waits |= (speed == 0) & (allowed < COAST_M_S)
         waits |= stays > 0
         stays += waits
         over = np.subtract(speed, allowed, out=allowed)

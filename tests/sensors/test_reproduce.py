@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import heisoku
-from models.reproduce import lengths, paper_000, tables
+from kernel.onboard.feature import AWAITED, Detection, Progress, Readings
+from models.reproduce import fixes, lengths, paper_000, passing, tables
+from models.sensors import track as tracks
 from models.sensors.curves import Registering, registered
 from models.sensors.tag_reader import STAND
+from models.sensors.traces import Setup, traces
 from models.sensors.track import feature
 
 SMALL = {"000": "20", "001": "3"}
@@ -114,3 +118,78 @@ def test_one_figure_that_differs_is_a_verdict() -> None:
     assert found.verdict == "does not hold"
     assert "DIFFERS" in tables.table_as_text(found)
     assert tables.Reproduction("000", "t", 1, tuple(rows[:2]), (), (), {}, {}).verdict == "holds"
+
+
+def _nothing(done: int, total: int, name: str) -> None:
+    """Tell nobody."""
+
+
+def test_every_feature_that_is_set_counts_once_in_every_run() -> None:
+    plan, (line,) = Registering(), fixes.journeys(3, 1, 2, _nothing)
+    for everywhere in (False, True):
+        outcomes = fixes.ridden(plan, line, everywhere=everywhere).outcomes
+        curves = line.counted.track.features if everywhere else fixes.surveyed(plan, line.survey)
+        begun = [curve for curve in curves if any(each.awaited.curve == curve for each in outcomes)]
+        assert len(begun) >= 2
+        assert [(each.awaited.curve, each.awaited.run) for each in outcomes] == [
+            (curve, run) for curve in begun for run in (0, 1)
+        ]
+        left_out = [curve for curve in curves if curve not in begun]
+        assert all(curve.begin_m < 300 or registered(plan, curve) is None for curve in left_out if not curve.vertical)
+
+
+def test_the_place_on_board_is_put_right_by_a_fix_and_by_nothing_else() -> None:
+    runs = passing.runs_on(tracks.line(3_000, passing.LINE_M), 3, range(3))
+    yaw = passing.measured_yaw(runs)
+    with_fixes = passing.ride(runs, tuple(passing.awaited(Registering(), runs, runs.track.features)), *yaw)
+    without = passing.ride(runs, (), *yaw)
+    fixed = 0
+    for run in range(3):
+        found = sorted(each.found for each in with_fixes.outcomes if each.awaited.run == run and each.fixed)
+        ours, plain = (np.array(each.front_least_mm[run]) for each in (with_fixes, without))
+        gained = ours - plain
+        assert (ours <= 1000 * runs.head_m[run, : len(ours)] + 1).all()
+        assert (gained[: found[0] if found else len(gained)] == 0).all()
+        assert (np.diff(gained) > 500).sum() <= len(found)
+        assert not found or gained[-1] > 1_000
+        fixed += len(found)
+    assert fixed >= 3
+
+
+def test_the_slowest_train_reaches_the_end_of_the_slowest_line() -> None:
+    curves = [feature(at, 30, 500, 1 / tracks.LEAST_RADIUS_M) for at in np.arange(150.0, 8_800.0, 710.0)]
+    stops = np.arange(2_300.0, passing.LINE_M - 500, tracks.STATION_M[0])
+    track = tracks.laid(passing.LINE_M, curves, [], stops)
+    slowest = {"driver_share": 0.75, "traction_m_s2": 0.4, "braking_m_s2": 0.5, "dwell_s": 60.0}
+    made = traces(Setup(track, passing.CYCLES, length_m=100.0, present={**passing.SOUND, **slowest}), 1, [0])
+    assert made.truth.head_m[0, -1] > curves[-1].end_m + passing.BEYOND_M
+
+
+def test_a_detection_that_began_late_fails_for_what_made_it_late() -> None:
+    curve = registered(Registering(), feature(500, 50, 400, 1 / 600))
+    assert curve is not None
+    bent = Readings(
+        front_least_mm=480_000,
+        rolling=True,
+        speed_mm_s=20_000,
+        way_mm=400_000,
+        yaw_valid=True,
+        yaw_urad_s=33_000,
+        pitch_valid=False,
+        pitch_urad_s=0,
+    )
+    short, long = (Detection(Progress.ENTRY_STRAIGHT, 400_000 - way, 0, 0) for way in (20_000, 60_000))
+    slow, band, other = passing.FAILS_SLOW, passing.FAILS_BAND, passing.FAILS_OTHER
+    assert passing.reason(curve, AWAITED, bent, slow) == slow
+    assert passing.reason(curve, AWAITED, bent, "") == other
+    assert passing.reason(curve, short, bent, slow) == slow
+    assert passing.reason(curve, short, bent, "") == band
+    assert passing.reason(curve, long, bent, slow) == band
+
+
+def test_a_train_that_came_to_stand_a_little_short_of_its_stop_goes_on() -> None:
+    track = tracks.line(302_020, passing.LINE_M)
+    runs = passing.runs_on(track, 302, [83])
+    stands = runs.head_m[0, np.flatnonzero(runs.speed_m_s[0] == 0)]
+    assert ((stands > 6_180.7) & (stands < 6_180.8)).any(), "no longer the train that stood 0.28 m short"
+    assert runs.head_m[0, -1] > 9_000
