@@ -150,7 +150,13 @@ def _print(out: Console, found: Outcome, seconds: float) -> None:
         whose = ", of the timetable and not of the kernel" if found.timetable_to_blame else ""
         print_line(out, f"deadlock{whose}: {deadlock}")
     came = ", ".join(f"{name} {count}" for name, count in sorted(found.came.items()) if count)
-    print_line(out, f"faults: {came or 'none'}; {sim.air.sent:,} telegrams, {sim.air.lost:,} of them lost")
+    print_line(out, f"faults: {came or 'none'}")
+    refused = "; ".join(f"{count:,} {why}" for why, count in found.refused.items())
+    print_line(
+        out,
+        f"telegrams: {sim.air.sent:,} sent, {sim.air.lost:,} lost on the way, {found.delivered:,} delivered, "
+        f"{sim.links.mended:,} mended; refused: {refused or 'none'}",
+    )
     asked, looked = sum(found.judged.values()), sum(sim.oracles.checked.values())
     print_line(out, f"checked: {len(found.judged)} invariants {asked:,} times, {looked:,} times the truth by oracles")
     speed = f"{found.train_seconds:,} train seconds in {seconds:.1f} s: {found.train_seconds / seconds:,.0f} a second"

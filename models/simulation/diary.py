@@ -9,7 +9,7 @@ from typing import Any
 
 from models.world.state import System
 
-FAULT, BRAKE, ROUTE, TRAIN, STAFF = "fault", "brake", "route", "train", "staff"
+FAULT, BRAKE, ROUTE, TRAIN, STAFF, RADIO = "fault", "brake", "route", "train", "staff", "radio"
 
 
 @dataclass(frozen=True)

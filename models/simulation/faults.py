@@ -47,11 +47,26 @@ class Fault:
 TELLS_ANEW = "it brakes, tells at rest in a new life where it stands, and goes on by the rest of its route"
 
 FAULTS: tuple[Fault, ...] = (
-    Fault("radio_loss", "a telegram is lost, or dropped as corrupt", "telegram", 0.05, "s", 0, 0, "it is sent again"),
-    Fault("radio_delay", "a telegram comes late", "telegram", 0.02, "s", 2, 30, "it is sent again"),
+    Fault("radio_loss", "a telegram is lost", "telegram", 0.05, "s", 0, 0, "it is sent again"),
+    Fault(
+        "radio_delay", "a telegram comes late", "telegram", 0.02, "s", 2, 30,
+        "it is refused as too old, or as overtaken, and sent again",
+    ),
     Fault(
         "radio_repetition", "a telegram comes once more", "telegram", 0.02, "s", 1, 120,
-        "nothing: what is repeated changes nothing",
+        "nothing: it is refused as repeated, or as too old",
+    ),
+    Fault(
+        "radio_corruption", "bits of a telegram are turned round", "telegram", 0.03, "bits", 1, 60,
+        "few are mended; with many it is refused, and sent again",
+    ),
+    Fault(
+        "radio_forgery", "a stranger sends a telegram with a wrong key, throws one back, or takes it elsewhere",
+        "telegram", 0.003, "s", 0, 0, "nothing: it is refused",
+    ),
+    Fault(
+        "radio_replay", "a stranger sends an old telegram again, of an earlier session if there was one",
+        "telegram", 0.003, "s", 0, 0, "nothing: it is refused",
     ),
     Fault(
         "radio_outage", "a train is out of coverage", "train hour", 0.4, "s", 20, 180,

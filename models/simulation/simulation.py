@@ -19,16 +19,19 @@ from models.simulation.diary import Diary
 from models.simulation.facing import Orders
 from models.simulation.faults import BY_NAME
 from models.simulation.foresight import Board, Foresight
+from models.simulation.links import LIFE_SIGN_S, LIMITS, Addresses, Links
 from models.simulation.motors import Motors
 from models.simulation.occurrences import Occurrence, occurrences
 from models.simulation.onboard import on_board
 from models.simulation.oracles import Oracles
+from models.simulation.posted import Post
 from models.simulation.sensors import sensors
 from models.simulation.service import Office, Phase, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
 from models.simulation.vehicle import Line, Vehicle
 from models.simulation.waiting import Waits
+from models.simulation.wording import Wording
 from models.simulator import messages
 from models.simulator.play import Watcher, begin, site_of
 from models.world.state import System
@@ -57,11 +60,17 @@ class Simulation:
         foresight = Foresight(site.layout, self.ways)
         where, trips = begun(plan, names, self.rails, foresight)
         self.oracles = Oracles(site)
-        self.watchers: list[Watcher] = [self.oracles.after, self.diary.after, *([watch] if watch else [])]
-        self.play = begin(site, cars, where, self._watch)
         self.air = Air(self.agenda, Random(f"{plan.seed} radio"), plan.chosen)
+        self.addresses = Addresses(names, site.layout.points)
+        self.post = Post(LIMITS, self.oracles.must)
+        self.links = Links(self.air, self.addresses, Wording(site), self.post, self.diary, plan.seed)
+        self.watchers: list[Watcher] = [
+            *(self.oracles.after, self.diary.after, self._restarts, self.links.after),
+            *([watch] if watch else []),
+        ]
+        self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
-        self.talk = Talk(self.play, self.air, self.motors, self._may_answer, self._stands_short)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._stands_short)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
         office = Office(self.diary, foresight, self._board, plan.trips is None, orders)
@@ -88,6 +97,12 @@ class Simulation:
     def _watch(self, step: str, event: Mapping[str, Any], system: System) -> None:
         for watcher in self.watchers:
             watcher(step, event, system)
+
+    def _restarts(self, step: str, event: Mapping[str, Any], system: System) -> None:
+        """What is to be judged by must know of every restart, and not from the links."""
+        party = self.addresses.restarted(step, event)
+        if party is not None:
+            self.post.restarted(party)
 
     def _may_answer(self, train: Train) -> bool:
         return self.services[train].may_answer()
@@ -121,6 +136,8 @@ class Simulation:
             service.second(self.now_s)
             if (self.now_s + place) % TALKS_S == 0:
                 self.talk.with_train(train)
+            if (self.now_s + place) % LIFE_SIGN_S == 0:
+                self.links.look(train)
         for vehicle in self.vehicles.values():
             self._second_of(vehicle)
 
@@ -152,7 +169,7 @@ class Simulation:
                 self.diary.fault(each.fault, each.who or "centre", f"{says}{lasts}")
 
     def _radio_outage(self, each: Occurrence) -> bool:
-        self.air.silence(Train(each.who), each.lasts_ms)
+        self.air.silence(self.addresses.unit[Train(each.who)], each.lasts_ms)
         return True
 
     def _wheel_slip(self, each: Occurrence) -> bool:
