@@ -16,7 +16,7 @@ from typing import Any, Literal
 
 from models.layouts.results import BadInput
 
-Per = Literal["telegram", "tag", "train hour", "point hour", "hour"]
+Per = Literal["telegram", "tag", "train hour", "point hour", "crossing hour", "hour"]
 MOST_TIMES = 1_000
 
 
@@ -24,7 +24,7 @@ MOST_TIMES = 1_000
 class Fault:
     """One way in which things go wrong.
 
-    ``rate``: its chance a telegram or a tag, else how often an hour, ``per`` train, point or line.
+    ``rate``: its chance a telegram or a tag, else how often an hour, ``per`` train, point, crossing or line.
     ``least`` to ``most``: how long or how large, in ``unit``; 0 where it has no size.
     ``way_out``: what staff and system do, lawfully, until traffic runs again.
     """
@@ -115,6 +115,14 @@ FAULTS: tuple[Fault, ...] = (
     Fault(
         "route_cancelled", "the signaller wants a set route back", "train hour", 0.2, "s", 0, 0,
         "a train that stands short of it gives it back; one that has entered runs it",
+    ),
+    Fault(
+        "start_point_silent", "the terminal of a crossing's start points is not heard", "crossing hour",
+        0.3, "s", 1, 120, "the road is closed until it is heard; every strike is told first then",
+    ),
+    Fault(
+        "crossing_radio_silent", "a crossing's radio hears no train", "crossing hour", 0.3, "s", 3, 300,
+        "the road is closed for the trains that it knew, until they are heard again and past; others strike",
     ),
 )  # fmt: skip
 """Rates are ours, and high: an hour shows most of them."""

@@ -1,7 +1,8 @@
 """Both ends of every radio link: machines that write, send, judge and read telegrams as the kernel says (T8, T11).
 
-Centre and units talk, and units and point terminals.  Each pair has its key, each machine its clock and its life.
-Whoever is greeted, or hears of a session that is over, answers with a life sign, so that the peer knows its life.
+Centre and units talk, units and point terminals, and units and crossings.  Each pair has its key, each machine its
+clock and its life.  Whoever is greeted, or hears of a session that is over, answers with a life sign, so that the peer
+knows its life.
 """
 
 from __future__ import annotations
@@ -47,21 +48,25 @@ Acts = Callable[[Party, Party, str, Fields], object]
 
 
 class Addresses:
-    """The addresses of units and terminals on the radio, by number; names of a layout may be too long for them."""
+    """The addresses of units, terminals and crossings, by number; names of a layout may be too long for them."""
 
-    def __init__(self, trains: Iterable[Train], points: Iterable[Point]) -> None:
+    def __init__(self, trains: Iterable[Train], points: Iterable[Point], roads: Iterable[str]) -> None:
         self.unit: Mapping[Train, Party] = {
             train: Party(f"unit-{number:03}") for number, train in enumerate(sorted(trains), start=1)
         }
         self.terminal: Mapping[Point, Party] = {
             point: Party(f"point-{number:05}") for number, point in enumerate(sorted(points), start=1)
         }
+        self.road: Mapping[str, Party] = {
+            road: Party(f"crossing-{number:02}") for number, road in enumerate(sorted(roads), start=1)
+        }
         self.train = {party: train for train, party in self.unit.items()}
         self.point = {party: point for point, party in self.terminal.items()}
+        self._name_of_road = {party: road for road, party in self.road.items()}
 
     def name(self, party: Party) -> str:
-        """The train or the point behind an address, or the centre."""
-        return self.train.get(party) or self.point.get(party) or party
+        """The train, the point or the road behind an address, or the centre."""
+        return self.train.get(party) or self.point.get(party) or self._name_of_road.get(party) or party
 
     def restarted(self, step: str, event: Mapping[str, Any]) -> Party | None:
         """The machine that restarts in a step of the world, if one does."""
@@ -134,13 +139,14 @@ class Links:
             self._machines[party] = Machine(Random(f"{self.seed} clock of {party}"))
         return self._machines[party]
 
-    def _clock_ms(self, party: Party) -> int:
+    def clock_ms(self, party: Party) -> int:
+        """What a machine's clock shows now."""
         return self._machine(party).clock_ms(self._now_ms)
 
     def _end(self, me: Party, peer: Party) -> Link:
         """A link as it is; one that was not used in this life has just begun."""
         if (me, peer) not in self._ends:
-            self._ends[me, peer] = begin(me, peer, Life(self._machine(me).life), self._clock_ms(me))
+            self._ends[me, peer] = begin(me, peer, Life(self._machine(me).life), self.clock_ms(me))
         return self._ends[me, peer]
 
     def _key(self, me: Party, peer: Party) -> bytes:
@@ -154,7 +160,7 @@ class Links:
 
     def say(self, me: Party, peer: Party, kind: str, **fields: Any) -> None:
         """Write a message and send it, as the next telegram of this link."""
-        clock_ms = self._clock_ms(me)
+        clock_ms = self.clock_ms(me)
         link = note_time(self._end(me, peer), clock_ms)
         content = content_of(self.wording.written(kind, fields))
         assert not isinstance(content, Rejection), content
@@ -174,7 +180,7 @@ class Links:
     def arrives(self, packet: Packet) -> None:
         """Bytes arrive: believe them or not, and act on what is delivered."""
         me, peer = packet.receiver, packet.sender
-        clock_ms, link = self._clock_ms(me), self._end(me, peer)
+        clock_ms, link = self.clock_ms(me), self._end(me, peer)
         telegram = decode(self._key(me, peer), packet.raw)
         if isinstance(telegram, Rejection):
             self._ends[me, peer] = note_time(link, clock_ms)
@@ -210,7 +216,7 @@ class Links:
         """
         unit = self.addresses.unit[train]
         for me, peer in ((CENTRE, unit), (unit, CENTRE)):
-            clock_ms = self._clock_ms(me)
+            clock_ms = self.clock_ms(me)
             link = self._end(me, peer)
             silent = is_silent(LIMITS, link, clock_ms)
             self.post.heard(me, peer, self._now_ms, silent)

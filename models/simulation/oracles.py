@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from kernel.names import Block, Car, Train
+from models.simulation.crossings import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
 from models.simulation.posted import ONLY_WHAT_WAS_SENT, SILENCE
 from models.simulation.vehicle import Vehicle
 from models.world.state import Site, System
@@ -25,6 +26,9 @@ ORACLES: Mapping[str, str] = {
     "the_head_stays_inside_authority": "the head is not past the end of authority (T12)",
     "brakes_keep_their_bounds": "no train is faster than its brake control reckons with (T12)",
     ONLY_WHAT_WAS_SENT: "what a link delivers its peer has sent so, in this session, of late, in order and once (T11)",
+    CLOSED_IN_TIME: "the road is warned and its arms are down for their times before a head comes onto it (X2, X3, X5)",
+    CLOSED_UNDER: "the arms are down while a train is on the road (X4)",
+    OPENS_AGAIN: "the road is open when nobody has been coming for long (X4)",
     SILENCE: "a link that does not count as silent has delivered something of late (T8, T11)",
 }
 TOLERANCE_MM = 1.0

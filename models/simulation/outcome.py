@@ -9,6 +9,7 @@ from typing import Any, Literal
 from kernel.link import Outcome as Delivery
 from kernel.names import Stage, Train
 from models.simulation.beginning import Plan
+from models.simulation.crossings import State
 from models.simulation.faults import Chosen
 from models.simulation.history import History
 from models.simulation.links import CENTRE
@@ -174,6 +175,7 @@ class Outcome:
             "deadlocks": list(self.deadlocks),
             "steps": dict(sorted(sim.diary.steps.items())),
             "telegrams": _telegrams(sim),
+            "crossings": {name: _road(sim, state) for name, state in sim.crossings.states.items()},
             "events": [vars(event) for event in sim.diary.events],
             "occupation": [vars(stay) for stay in self.history.stays],
         }
@@ -191,6 +193,16 @@ def _telegrams(sim: Simulation) -> dict[str, Any]:
             train: {"by the centre": links.unheard_s[CENTRE, unit], "on board": links.unheard_s[unit, CENTRE]}
             for train, unit in links.addresses.unit.items()
         },
+    }
+
+
+def _road(sim: Simulation, state: State) -> dict[str, Any]:
+    """How long a road was closed, each time from and to, how many trains came, and after how long at the least."""
+    return {
+        "closed_s": sim.crossings.closed_s(state, sim.now_s),
+        "trains": state.passed,
+        "least_warning_s": state.least_s,
+        "closings": sim.crossings.closings(state, sim.now_s),
     }
 
 

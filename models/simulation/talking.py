@@ -60,7 +60,6 @@ class Talk:
             "challenge": self._answers,
             "standing": self._is_noted,
         }
-        links.acts = self.hears
 
     def with_train(self, train: Train) -> None:
         """Everything that is to be said now by and to one train."""

@@ -14,7 +14,7 @@ from kernel.telegram import Said
 from models.simulator.messages import NO_ROUTE
 from models.world.state import Radio, Site
 
-SERIAL_BYTES, NUMBER_BYTES, LENGTH_BYTES = 8, 4, 1
+SERIAL_BYTES, SIGNED_BYTES, NUMBER_BYTES, LENGTH_BYTES = 8, 8, 4, 1
 
 
 class Kind(NamedTuple):
@@ -24,10 +24,11 @@ class Kind(NamedTuple):
     sent_in: str
 
 
-LIFE_SIGN = "life sign"
+LIFE_SIGN, RANGING = "life sign", "ranging"
 OF_A_POINT = ("run", "point", "life")
 KINDS: Mapping[str, Kind] = {
     LIFE_SIGN: Kind((), ""),
+    RANGING: Kind(("at_ms", "way_mm", "speed_mm_s", "is_coming"), ""),
     "order": Kind(OF_A_POINT, "orders"),
     "relayed order": Kind(OF_A_POINT, "relayed_orders"),
     "enquiry": Kind(OF_A_POINT, "enquiries"),
@@ -55,8 +56,8 @@ Fields = Mapping[str, Any]
 
 
 def was_sent(radio: Radio, kind: str, fields: Fields) -> bool:
-    """Tell whether a message stands among those that the abstract world has sent; a life sign says nothing there."""
-    if kind == LIFE_SIGN:
+    """Tell whether a message is among those that the abstract world has sent; where it has no such kind, it is."""
+    if not KINDS[kind].sent_in:
         return True
     if kind == "standing":
         key = fields["train"], fields["life"], fields["epoch"]
@@ -86,6 +87,9 @@ class _Reader:
 
     def number(self, size: int = NUMBER_BYTES) -> int:
         return int.from_bytes(self.take(size), "big")
+
+    def signed(self) -> int:
+        return int.from_bytes(self.take(SIGNED_BYTES), "big", signed=True)
 
 
 class _Names(NamedTuple):
@@ -131,6 +135,10 @@ class Wording:
             "entered": (self._write_read, self._read_read),
             "life": (_write_number, _Reader.number),
             "epoch": (_write_number, _Reader.number),
+            "at_ms": (_write_signed, _Reader.signed),
+            "way_mm": (_write_signed, _Reader.signed),
+            "speed_mm_s": (_write_signed, _Reader.signed),
+            "is_coming": (lambda yes: bytes([yes]), lambda reader: reader.take(1) != b"\0"),
         }
 
     def written(self, kind: str, fields: Fields) -> Said:
@@ -173,6 +181,10 @@ class Wording:
             return Read(tag, Record(record.decode()))
         except UnicodeDecodeError as error:
             raise UnreadableError from error
+
+
+def _write_signed(number: int) -> bytes:
+    return number.to_bytes(SIGNED_BYTES, "big", signed=True)
 
 
 def _write_number(number: int) -> bytes:
