@@ -20,7 +20,8 @@ from kernel.crossing.crossing import Train as Known
 from kernel.link import Party
 from kernel.names import Car, Train
 from models.crossing.sites import EXCESS, SETTINGS
-from models.simulation.diary import ROAD, Diary
+from models.crossing.traffic import PERSON_S
+from models.simulation.diary import ROAD, STAFF, Diary
 from models.simulation.driver import ACCELERATES_MM_S2, LINE_MM_S
 from models.simulation.links import LIMITS, Links
 from models.simulation.roads import Ways
@@ -44,7 +45,7 @@ END_MM = 15_000
 ARMS_S = (8, 10)
 """How long arms take to come down."""
 AT_LEAST_QUIET_S = 900
-"""If nobody has been coming, and all was heard, for so long, the road is open; a fault may last 300 s."""
+"""Closed for nobody, though all is heard, a road is no longer than this; a fault may last 300 s."""
 CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN = (
     "the_road_is_closed_before_every_train",
     "the_road_is_closed_under_a_train",
@@ -68,13 +69,14 @@ class Seen:
     """What is truly so of a train before one road.
 
     ``ahead_mm``: the shortest way to it.  ``over_mm``: where its path meets it, from the head's coming until its rear
-    is proved past.  ``under``: it is on the road.  ``leads``: the car that led then.
+    is proved past.  ``under``: it is on the road.  ``leads``, ``front_mm``: the car that led then, and where it was.
     """
 
+    leads: Car
+    front_mm: float
     ahead_mm: float
     over_mm: float | None
     under: bool
-    leads: Car
 
 
 @dataclass
@@ -83,6 +85,7 @@ class State:
 
     ``closed_s``: since when it warns; ``down_s``: since when its arms are down.  ``closings``: each closure as
     [from, to].  ``passed``: trains that came over it; ``least_s``: the shortest time that the road was closed before.
+    ``attended_s``: when somebody will have looked for a train that cannot say that it is gone.
     """
 
     ways: Ways
@@ -97,6 +100,7 @@ class State:
     struck: set[Train] = field(default_factory=set)
     strikes: list[Train] = field(default_factory=list)
     seen: dict[Train, Seen] = field(default_factory=dict)
+    attended_s: dict[Train, int] = field(default_factory=dict)
     terminal_silent_until_ms: int = 0
     quiet_s: int = 0
     closings: list[tuple[int, int]] = field(default_factory=list)
@@ -149,6 +153,7 @@ class Crossings:
                 self._look(state, train, vehicle)
                 self._strike(state, train)
                 self._says(state, train, vehicle)
+                self._release(state, train, vehicle, now_s)
             self._hear(state)
             self._decide(state, now_s)
 
@@ -156,11 +161,14 @@ class Crossings:
         """See where a train is, in truth."""
         on_rails, before = vehicle.on_rails, state.seen.get(train)
         leads, front_mm = on_rails.cars[0], vehicle.front_mm
+        if before is not None and before.leads == leads and before.front_mm == front_mm:
+            return
         meets_mm = state.ways.under(on_rails, front_mm)
         stays = before is not None and before.leads == leads
         over_mm = meets_mm if meets_mm is not None or not stays or before is None else before.over_mm
         left = bool(on_rails.standing) and before is not None and before.under
-        state.seen[train] = Seen(state.ways.ahead_mm(on_rails, front_mm), over_mm, meets_mm is not None or left, leads)
+        ahead_mm = state.ways.ahead_mm(on_rails, front_mm)
+        state.seen[train] = Seen(leads, front_mm, ahead_mm, over_mm, meets_mm is not None or left)
 
     def _strike(self, state: State, train: Train) -> None:
         """A train strikes its start point, or is told of by hand where it begins inside (X3)."""
@@ -191,6 +199,23 @@ class Crossings:
             unit, state.party, RANGING, at_ms=self.links.clock_ms(unit), way_mm=way_mm,
             speed_mm_s=motion.speed_most_mm_s, is_coming=is_coming,
         )  # fmt: skip
+
+    def _release(self, state: State, train: Train, vehicle: Vehicle, now_s: int) -> None:
+        """A person on site looks for a train that is gone and cannot say so, not being sure to be whole (X4).
+
+        One that has parted is not looked for; its road stays closed.
+        """
+        seen = state.seen[train]
+        is_gone = not seen.under and seen.ahead_mm > REACH_MM and not vehicle.on_rails.standing
+        if not is_gone or Known(train) not in state.crossing.asks:
+            state.attended_s.pop(train, None)
+        elif train not in state.attended_s:
+            state.attended_s[train] = now_s + self.random.randint(*PERSON_S)
+        elif now_s >= state.attended_s[train]:
+            state.crossing = machine.note_released(state.crossing, Known(train))
+            state.followed.pop(train, None)
+            del state.attended_s[train]
+            self.diary.note(STAFF, train, f"is released at {state.name} by a person who has seen that it is gone")
 
     def _is_whole(self, vehicle: Vehicle) -> bool:
         """Whether the train knows that nothing of it was left behind."""
@@ -295,9 +320,11 @@ class Crossings:
     def _judge_opening(self, state: State) -> None:
         """The road is open again once nobody has been coming for long."""
         silent = self.links.air.agenda.now_ms < state.terminal_silent_until_ms
-        coming = any(self._may_come(state, train) for train in self.vehicles)
-        state.quiet_s = 0 if silent or coming else state.quiet_s + 1
-        so = state.quiet_s < AT_LEAST_QUIET_S or not state.crossing.warns
+        if not state.crossing.warns or silent or any(self._may_come(state, train) for train in self.vehicles):
+            state.quiet_s = 0
+        else:
+            state.quiet_s += 1
+        so = state.quiet_s < AT_LEAST_QUIET_S
         self.must(OPENS_AGAIN, so, f"{state.name} is closed, and nobody has been coming for {state.quiet_s} s")
 
     def _may_come(self, state: State, train: Train) -> bool:

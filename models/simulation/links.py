@@ -36,7 +36,7 @@ from models.simulation.wording import LIFE_SIGN, Fields, Wording
 from models.world.state import System
 
 LIMITS = Limits(fresh_ms=2_000, silence_ms=20_000, offset_ms=50)
-"""Two seconds fresh, so that what is held up is sent again rather than believed; three life signs may be lost."""
+"""Two seconds fresh, so that what is held up is not believed; two life signs in a row may be lost."""
 LIFE_SIGN_S = 5
 """So often centre and unit ask whether the other is silent, and say that they are there."""
 SYNCHRONISED_MS = 60_000

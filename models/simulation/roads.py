@@ -71,8 +71,8 @@ def _place(file: str, rails: Rails, where: str, given: Any, write: str) -> tuple
     for index, segment in enumerate(rails.segments.segments):
         if segment.track == track and segment.from_mm < at_m * 1_000 < segment.to_mm:
             return index, round(at_m * 1_000) - segment.from_mm
-    length_m = tracks[track] / 1_000
-    raise BadInput(file, where, f"at {at_m:g} m '{track}' ends, or is cut", f"give another place from 0 to {length_m:g} m")
+    instead = f"give another place from 0 to {tracks[track] / 1_000:g} m"
+    raise BadInput(file, where, f"at {at_m:g} m '{track}' ends, or is cut", instead)
 
 
 class Ways:

@@ -103,6 +103,16 @@ def test_a_start_point_that_is_not_heard_closes_the_road_until_it_is() -> None:
     assert 90 <= to_s <= 92
 
 
+def test_a_train_that_cannot_say_that_it_is_gone_is_released_by_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Crossings, "_is_whole", lambda _crossings, _vehicle: False)
+    monkeypatch.setattr(crossings, "PERSON_S", (30, 60))
+    sim = line(NO_FAULT, seed=3)
+    assert not sim.oracles.found
+    released = [event for event in sim.diary.events if "by a person who has seen" in event.text]
+    assert len(released) >= 2
+    assert any(state.closings for state in sim.crossings.states.values())
+
+
 def test_a_train_that_begins_its_run_near_the_road_waits_until_it_is_closed() -> None:
     sim = line(NO_FAULT, hours=0.3, roads=NEAR_THE_STAND)
     assert not sim.oracles.found
