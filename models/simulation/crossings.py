@@ -338,15 +338,21 @@ class Crossings:
     # ---- for drivers, and for the record
 
     def lets_depart(self, train: Train) -> bool:
-        """Whether a train at rest may begin its run: no road is so near ahead that has not been closed for its time."""
+        """Whether a train at rest may begin its run, by every road that is near ahead.
+
+        One that the crossing has been told of waits until it has been closed for its time.  Of one in contact that it
+        need not warn of yet the crossing will in time.
+        """
         vehicle = self.vehicles[train]
         return all(
-            state.ways.ahead_mm(vehicle.on_rails, vehicle.front_mm) > START_MM
-            or (
-                state.crossing.asks.get(Known(train), False) and state.crossing.warned_cycles >= SETTINGS.warning_cycles
-            )
+            self._lets_depart(state, train)
             for state in self.states.values()
+            if state.ways.ahead_mm(vehicle.on_rails, vehicle.front_mm) <= START_MM
         )
+
+    def _lets_depart(self, state: State, train: Train) -> bool:
+        asks = state.crossing.asks.get(Known(train))
+        return asks is False or (asks is True and state.crossing.warned_cycles >= SETTINGS.warning_cycles)
 
     def closings(self, state: State, now_s: int) -> list[tuple[int, int]]:
         """Each closure of a road as [from, to]; one that still lasts goes up to now."""

@@ -103,6 +103,13 @@ def test_a_start_point_that_is_not_heard_closes_the_road_until_it_is() -> None:
     assert 90 <= to_s <= 92
 
 
+def test_a_train_in_contact_departs_where_no_start_point_is_heard() -> None:
+    silent: Chosen = {"start_point_silent": Setting(0, 9_999, 9_999, (0.0,))}
+    sim = line(silent, hours=0.4, roads=(road("passing_station", "Far Lane", ("east", 2_100)),))
+    assert not sim.oracles.found
+    assert sim.crossings.states["Far Lane"].passed >= 2
+
+
 def test_a_train_that_cannot_say_that_it_is_gone_is_released_by_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Crossings, "_is_whole", lambda _crossings, _vehicle: False)
     monkeypatch.setattr(crossings, "PERSON_S", (30, 60))

@@ -75,7 +75,7 @@ for (let km = 0; km <= data.km; km += data.km > 20 ? 5 : data.km > 4 ? 1 : 0.5) 
   make(lines, "text", { class: "axis", x: LEFT - 8, y: y(km * 1000) + 3, "text-anchor": "end" }, `${km} km`);
 }
 for (const road of data.roads) {
-  const heights = [...new Set(road.places.map(([, , m]) => y(m)))];
+  const heights = road.places.map(([, , m]) => y(m)).sort((a, b) => a - b).filter((height, i, all) => !i || height - all[i - 1] > 6);
   for (const height of heights) {
     make(lines, "line", { class: "road", x1: LEFT, x2: WIDTH - RIGHT, y1: height, y2: height });
     for (const [from, to] of road.closings) make(lines, "rect", { class: "closed", x: x(from), y: height - 3, width: Math.max(0.6, x(to) - x(from)), height: 6 }, `${road.name}: closed ${clock(from)} to ${clock(to)}`);
