@@ -35,6 +35,10 @@ Faults = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Which faults come, and how often (TOML).", show_default="every fault"),
 ]
+Roads = Annotated[
+    Path | None,
+    typer.Option("--crossings", metavar="FILE", help="Where roads cross the line (TOML).", show_default="none"),
+]
 EachFault = Annotated[bool, typer.Option("--each-fault", help="Try one fault after the other, and tell the way out.")]
 Html = Annotated[Path | None, typer.Option("--html", metavar="F", help="Write the page there.", show_default=False)]
 
@@ -46,6 +50,7 @@ def simulate(
     trips: Trips = None,
     seed: Seed = 1,
     faults: Faults = None,
+    crossings: Roads = None,
     each_fault: EachFault = False,
     html: Html = None,
     json: Json = None,
@@ -60,15 +65,17 @@ def simulate(
     * `heisoku simulate layouts/passing_station.toml --trains 1 --trips 1 --json out/line.json`
     """
     from models.layouts import load
-    from models.simulation.beginning import Plan, usual_trains
+    from models.simulation.beginning import Plan, rails_of, usual_trains
     from models.simulation.each_fault import each
     from models.simulation.faults import EVERY_FAULT, read_faults
+    from models.simulation.roads import read_roads
 
     writable(html, json)
     with bad_input_refused():
         imported = load(layout)
         chosen = EVERY_FAULT if faults is None else read_faults(faults)
-        plan = Plan(imported, seed, trains or usual_trains(imported), hours, chosen, trips)
+        roads = () if crossings is None else read_roads(crossings, rails_of(imported))
+        plan = Plan(imported, seed, trains or usual_trains(imported), hours, chosen, trips, roads)
         if each_fault:
             if html is not None:
                 refuse("--html: --each-fault has no page; leave one of them out")
@@ -150,7 +157,23 @@ def _print(out: Console, found: Outcome, seconds: float) -> None:
         whose = ", of the timetable and not of the kernel" if found.timetable_to_blame else ""
         print_line(out, f"deadlock{whose}: {deadlock}")
     came = ", ".join(f"{name} {count}" for name, count in sorted(found.came.items()) if count)
-    print_line(out, f"faults: {came or 'none'}; {sim.air.sent:,} telegrams, {sim.air.lost:,} of them lost")
+    print_line(out, f"faults: {came or 'none'}")
+    refused = "; ".join(f"{count:,} {why}" for why, count in found.refused.items())
+    print_line(
+        out,
+        f"telegrams: {sim.air.sent:,} sent, {sim.air.lost:,} lost on the way, {found.delivered:,} delivered, "
+        f"{sim.links.mended:,} mended; refused: {refused or 'none'}",
+    )
+    for name, state in sim.crossings.states.items():
+        closings = sim.crossings.closings(state, sim.now_s)
+        longest_s = max((to_s - from_s for from_s, to_s in closings), default=0)
+        closed_s = sim.crossings.closed_s(state, sim.now_s)
+        least = f", none sooner than {state.least_s} s after it was closed" if state.least_s is not None else ""
+        print_line(
+            out,
+            f"crossing '{name}': closed {len(closings)} times for {closed_s:,} of {sim.now_s:,} s, "
+            f"{longest_s:,} s at the longest; {state.passed} trains{least}",
+        )
     asked, looked = sum(found.judged.values()), sum(sim.oracles.checked.values())
     print_line(out, f"checked: {len(found.judged)} invariants {asked:,} times, {looked:,} times the truth by oracles")
     speed = f"{found.train_seconds:,} train seconds in {seconds:.1f} s: {found.train_seconds / seconds:,.0f} a second"

@@ -13,6 +13,7 @@ from models.concrete.train import CAR_MM
 from models.layouts.results import BadInput, Imported
 from models.simulation.faults import Chosen
 from models.simulation.foresight import Foresight, drawn
+from models.simulation.roads import Road
 from models.simulation.timetable import Trip
 from models.simulator.play import berths
 
@@ -25,7 +26,10 @@ USUAL_TRAINS = 8
 
 @dataclass(frozen=True)
 class Plan:
-    """What a simulation is made of; ``trips``: so many a train, however long that takes, up to ``hours``."""
+    """What a simulation is made of; ``trips``: so many a train, however long that takes, up to ``hours``.
+
+    ``roads``: those that cross the line.
+    """
 
     imported: Imported
     seed: int
@@ -33,6 +37,7 @@ class Plan:
     hours: float
     chosen: Chosen
     trips: int | None = None
+    roads: tuple[Road, ...] = ()
 
 
 Begun = tuple[Mapping[Train, Block], Mapping[Train, list[Trip]]]

@@ -9,12 +9,12 @@ from typing import Any
 
 from models.world.state import System
 
-FAULT, BRAKE, ROUTE, TRAIN, STAFF = "fault", "brake", "route", "train", "staff"
+FAULT, BRAKE, ROUTE, TRAIN, STAFF, RADIO, ROAD = "fault", "brake", "route", "train", "staff", "radio", "road"
 
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened, ``at_ms``, to or by ``who``: a train, a point or the centre."""
+    """Something that happened, ``at_ms``, to or by ``who``: a train, a point, a road or the centre."""
 
     at_ms: int
     kind: str

@@ -17,7 +17,7 @@ from models.simulation.service import Phase, Service
 from models.simulation.simulation import Simulation
 
 HOUR_S = 3_600.0
-TIMES = {"hour": 2, "train hour": 12, "point hour": 12}
+TIMES = {"hour": 2, "train hour": 12, "point hour": 12, "crossing hour": 12}
 """A fault is put in so many times, evenly from a tenth of the time to its half; the rest is for the way out."""
 SHARE, LEAST_SHARE = 5.0, 0.01
 """A chance that is usually small is taken so many times as often, and a little more."""
@@ -88,7 +88,7 @@ def _ahead(service: Service, run: Run) -> Set[Block]:
 
 def each(plan: Plan, progress: Callable[[int, int, str], object] = lambda done, of, name: None) -> list[Row]:
     """Try no fault, and every fault that was chosen, one after the other."""
-    chosen = [fault for fault in FAULTS if fault.name in plan.chosen]
+    chosen = [fault for fault in FAULTS if fault.name in plan.chosen and (plan.roads or fault.per != "crossing hour")]
     rows = [_tried(replace(plan, chosen=NO_FAULT), "none", "nothing")]
     for done, fault in enumerate(chosen, start=1):
         progress(done, len(chosen), fault.name)

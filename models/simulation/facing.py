@@ -19,20 +19,23 @@ from models.world.formations import ByRun
 from models.world.state import Formation
 
 
+def onwards(rails: Rails, heading: Heading) -> list[Heading]:
+    """Where rails lead at the end of a segment, however points lie."""
+    end = rails.segments.at[heading]
+    if isinstance(end, Cut):
+        return [end.beyond]
+    return [onward for _, _, onward in rails.segments.onward(end)] if isinstance(end, Joint) else []
+
+
 def exits(rails: Rails, heading: Heading) -> frozenset[Tag]:
     """The tags at the ends of a block that a movement in it may come to, however its points lie."""
     block, todo, seen, found = rails.block[heading[0]], [heading], {heading}, set[Tag]()
     while todo:
         here = todo.pop()
         end = rails.segments.at[here]
-        onward: list[Heading] = []
-        if isinstance(end, Cut):
-            onward = [end.beyond]
-            if rails.boundary(here) and (tag := rails.tag_at.get((end.mark, block))) is not None:
-                found.add(tag)
-        elif isinstance(end, Joint):
-            onward = [heading for _, _, heading in rails.segments.onward(end)]
-        for each in onward:
+        if isinstance(end, Cut) and rails.boundary(here) and (tag := rails.tag_at.get((end.mark, block))) is not None:
+            found.add(tag)
+        for each in onwards(rails, here):
             if rails.block[each[0]] == block and each not in seen:
                 seen.add(each)
                 todo.append(each)

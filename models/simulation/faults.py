@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from models.layouts.results import BadInput
 
-Per = Literal["telegram", "tag", "train hour", "point hour", "hour"]
+Per = Literal["telegram", "tag", "train hour", "point hour", "crossing hour", "hour"]
 MOST_TIMES = 1_000
 
 
@@ -26,7 +26,7 @@ MOST_TIMES = 1_000
 class Fault:
     """One way in which things go wrong.
 
-    ``rate``: its chance a telegram or a tag, else how often an hour, ``per`` train, point or line.
+    ``rate``: its chance a telegram or a tag, else how often an hour, ``per`` train, point, crossing or line.
     ``least`` to ``most``: how long or how large, in ``unit``; 0 where it has no size.
     ``way_out``: what staff and system do, lawfully, until traffic runs again.
     """
@@ -49,11 +49,26 @@ class Fault:
 TELLS_ANEW = "it brakes, tells at rest in a new life where it stands, and goes on by the rest of its route"
 
 FAULTS: tuple[Fault, ...] = (
-    Fault("radio_loss", "a telegram is lost, or dropped as corrupt", "telegram", 0.05, "s", 0, 0, "it is sent again"),
-    Fault("radio_delay", "a telegram comes late", "telegram", 0.02, "s", 2, 30, "it is sent again"),
+    Fault("radio_loss", "a telegram is lost", "telegram", 0.05, "s", 0, 0, "it is sent again"),
+    Fault(
+        "radio_delay", "a telegram comes late", "telegram", 0.02, "s", 2, 30,
+        "it is refused as too old, or as overtaken, and sent again",
+    ),
     Fault(
         "radio_repetition", "a telegram comes once more", "telegram", 0.02, "s", 1, 120,
-        "nothing: what is repeated changes nothing",
+        "nothing: it is refused as repeated, or as too old",
+    ),
+    Fault(
+        "radio_corruption", "bits of a telegram are turned round", "telegram", 0.03, "bits", 1, 60,
+        "few are mended; with many it is refused, and sent again",
+    ),
+    Fault(
+        "radio_forgery", "a stranger sends a telegram with a wrong key, throws one back, or takes it elsewhere",
+        "telegram", 0.003, "s", 0, 0, "nothing: it is refused",
+    ),
+    Fault(
+        "radio_replay", "a stranger sends an old telegram again, of an earlier session if there was one",
+        "telegram", 0.003, "s", 0, 0, "nothing: it is refused",
     ),
     Fault(
         "radio_outage", "a train is out of coverage", "train hour", 0.4, "s", 20, 180,
@@ -102,6 +117,14 @@ FAULTS: tuple[Fault, ...] = (
     Fault(
         "route_cancelled", "the signaller wants a set route back", "train hour", 0.2, "s", 0, 0,
         "a train that stands short of it gives it back; one that has entered runs it",
+    ),
+    Fault(
+        "start_point_silent", "the terminal of a crossing's start points is not heard", "crossing hour",
+        0.3, "s", 1, 120, "the road is closed until it is heard; every strike is told first then",
+    ),
+    Fault(
+        "crossing_radio_silent", "a crossing's radio hears no train", "crossing hour", 0.3, "s", 3, 300,
+        "the road is closed for the trains that it knew, until they are heard again and past; others strike",
     ),
 )  # fmt: skip
 """Rates are ours, and high: an hour shows most of them."""

@@ -67,6 +67,12 @@ class Kilometres:
         low, high = self.ends[index]
         return index, share, round(low + (high - low) * share)
 
+    def of_place(self, index: int, at_mm: int) -> tuple[float, int]:
+        """A place on a segment: its share of it from its low end, and the kilometrage in mm."""
+        low, high = self.ends[index]
+        share = at_mm / max(1, self.rails.length_mm((index, LOW)))
+        return share, round(low + (high - low) * share)
+
     def of_block(self, block: Block) -> int:
         """The middle of a block."""
         ends = [mm for index, each in self.ends.items() if self.rails.block[index] == block for mm in each]

@@ -5,7 +5,7 @@ So a fault that is left out moves none of the others.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
@@ -17,7 +17,10 @@ HOUR_S = 3_600.0
 
 @dataclass(frozen=True)
 class Occurrence:
-    """A fault that comes ``at_ms`` to ``who``, a train or a point, or to the line (empty); it lasts ``lasts_ms``."""
+    """A fault that comes ``at_ms`` to ``who``, or to the line (empty), and lasts ``lasts_ms``.
+
+    Who it comes to is a train, a point or a road.
+    """
 
     at_ms: int
     fault: str
@@ -26,23 +29,28 @@ class Occurrence:
 
 
 def occurrences(
-    chosen: Chosen, seed: int, hours: float, trains: Sequence[Train], points: Sequence[Point]
+    chosen: Chosen,
+    seed: int,
+    hours: float,
+    trains: Sequence[Train],
+    points: Sequence[Point],
+    roads: Sequence[str] = (),
 ) -> list[Occurrence]:
     """Draw what comes within some hours, in the order of its time."""
+    whose: Mapping[str, Sequence[str]] = {"train hour": trains, "point hour": points, "crossing hour": roads}
     found = [
         each
         for fault in FAULTS
         if fault.name in chosen and not fault.is_share
-        for each in _of_one(fault, chosen[fault.name], Random(f"{seed} {fault.name}"), hours, trains, points)
+        for each in _of_one(
+            fault, chosen[fault.name], Random(f"{seed} {fault.name}"), hours, whose.get(fault.per, ("",))
+        )
     ]
     return sorted(found, key=lambda each: (each.at_ms, each.fault, each.who))
 
 
-def _of_one(
-    fault: Fault, setting: Setting, random: Random, hours: float, trains: Sequence[Train], points: Sequence[Point]
-) -> Iterator[Occurrence]:
-    """One fault: each train's, point's or the line's own times, and those that were asked for."""
-    whose: Sequence[str] = {"train hour": trains, "point hour": points}.get(fault.per, ("",))
+def _of_one(fault: Fault, setting: Setting, random: Random, hours: float, whose: Sequence[str]) -> Iterator[Occurrence]:
+    """One fault: each train's, point's, road's or the line's own times, and those that were asked for."""
     for who in whose:
         at_s = random.expovariate(setting.rate) * HOUR_S if setting.rate else hours * HOUR_S
         while at_s < hours * HOUR_S:

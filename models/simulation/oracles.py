@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from kernel.names import Block, Car, Train
+from models.simulation.crossings import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
+from models.simulation.posted import ONLY_WHAT_WAS_SENT, SILENCE
 from models.simulation.vehicle import Vehicle
 from models.world.state import Site, System
 
@@ -23,6 +25,11 @@ ORACLES: Mapping[str, str] = {
     "range_contains_the_train": "the front is in the range that the odometry claims, the speed in its own (P1, P7)",
     "the_head_stays_inside_authority": "the head is not past the end of authority (T12)",
     "brakes_keep_their_bounds": "no train is faster than its brake control reckons with (T12)",
+    ONLY_WHAT_WAS_SENT: "what a link delivers its peer has sent so, in this session, of late, in order and once (T11)",
+    CLOSED_IN_TIME: "the road is warned and its arms are down for their times before a head comes onto it (X2, X3, X5)",
+    CLOSED_UNDER: "the arms are down while a train is on the road (X4)",
+    OPENS_AGAIN: "the road is open when nobody has been coming for long (X4)",
+    SILENCE: "a link that does not count as silent has delivered something of late (T8, T11)",
 }
 TOLERANCE_MM = 1.0
 """A position is known to the whole millimetre."""
@@ -62,7 +69,8 @@ class Oracles:
         """Note what was broken."""
         self.found.append(Violation(oracle, self.now_ms, text))
 
-    def _must(self, oracle: str, so: bool, text: str) -> None:
+    def must(self, oracle: str, so: bool, text: str) -> None:
+        """Count that an oracle was asked; note what was broken."""
         self.checked[oracle] += 1
         if not so:
             self.violated(oracle, text)
@@ -77,18 +85,18 @@ class Oracles:
         train = self._train(car)
         for near in (block, *sorted(self.site.layout.fouls.get(block, frozenset()))):
             others = {other for other in self._within(system, near) if other != train}
-            self._must("one_train_a_block", not others, f"{train} comes into {block}; in {near} is {sorted(others)}")
+            self.must("one_train_a_block", not others, f"{train} comes into {block}; in {near} is {sorted(others)}")
 
     def _secured(self, system: System, car: Car, block: Block) -> None:
         train = self._train(car)
         held = any(run.train == train for run in system.centre.claimed.get(block, frozenset()))
         so = held or block in system.centre.lost_blocks
-        self._must("trains_stay_in_what_is_secured", so, f"{train} gets into {block}, which is not held for it")
+        self.must("trains_stay_in_what_is_secured", so, f"{train} gets into {block}, which is not held for it")
 
     def _clear(self, system: System, point: Any) -> None:
         block = self.site.layout.stands_in[point]
         there = sorted(set(self._within(system, block)))
-        self._must("no_point_moves_under_a_train", not there, f"{point} moves, and in {block} is {there}")
+        self.must("no_point_moves_under_a_train", not there, f"{point} moves, and in {block} is {there}")
 
     def _released(self, before: System, after: System) -> None:
         """What the centre no longer holds for a train, no car of it is in."""
@@ -99,7 +107,7 @@ class Oracles:
             gone = {run.train for run in runs} - {run.train for run in now}
             for train in sorted(gone):
                 so = train not in set(self._within(after, block))
-                self._must("nothing_is_released_around_a_train", so, f"{block} is released, and {train} is in it")
+                self.must("nothing_is_released_around_a_train", so, f"{block} is released, and {train} is in it")
 
     def on_board(self, train: Train, vehicle: Vehicle) -> None:
         """Judge what a train's machines claim, at the end of a cycle."""
@@ -111,7 +119,7 @@ class Oracles:
                 and motion.speed_least_mm_s - TOLERANCE_MM <= speed_mm_s <= motion.speed_most_mm_s + TOLERANCE_MM
             )
             claimed = f"{motion.front_least_mm} to {motion.front_most_mm} mm"
-            self._must("range_contains_the_train", so, f"{train} is at {front_mm:.0f} mm, claimed is {claimed}")
+            self.must("range_contains_the_train", so, f"{train} is at {front_mm:.0f} mm, claimed is {claimed}")
         inside = vehicle.front_mm <= board.brake.end_mm + TOLERANCE_MM or not board.lists
-        self._must("the_head_stays_inside_authority", inside, f"{train} is past {board.brake.end_mm} mm")
-        self._must("brakes_keep_their_bounds", not board.watch.broken, f"{train} gains more, or brakes less")
+        self.must("the_head_stays_inside_authority", inside, f"{train} is past {board.brake.end_mm} mm")
+        self.must("brakes_keep_their_bounds", not board.watch.broken, f"{train} gains more, or brakes less")

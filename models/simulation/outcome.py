@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from kernel.link import Outcome as Delivery
 from kernel.names import Stage, Train
 from models.simulation.beginning import Plan
+from models.simulation.crossings import State
 from models.simulation.faults import Chosen
 from models.simulation.history import History
+from models.simulation.links import CENTRE
 from models.simulation.oracles import ORACLES, Violation
 from models.simulation.service import Phase, Service
 from models.simulation.simulation import Simulation
@@ -137,6 +140,17 @@ class Outcome:
         return {name: counted[name] for name in self.plan.chosen}
 
     @property
+    def delivered(self) -> int:
+        """How many telegrams were delivered."""
+        return self.sim.links.outcomes[Delivery.DELIVERED.value]
+
+    @property
+    def refused(self) -> Mapping[str, int]:
+        """How many telegrams were refused, by why, the most first."""
+        counted = self.sim.links.outcomes.most_common()
+        return {why: count for why, count in counted if why != Delivery.DELIVERED.value}
+
+    @property
     def train_seconds(self) -> int:
         """Trains times simulated seconds."""
         return self.plan.trains * self.sim.now_s
@@ -160,10 +174,36 @@ class Outcome:
             "accounts": [vars(each) | {"blocks": list(each.blocks)} for each in self.accounts],
             "deadlocks": list(self.deadlocks),
             "steps": dict(sorted(sim.diary.steps.items())),
-            "telegrams": {"sent": sim.air.sent, "lost": sim.air.lost},
+            "telegrams": _telegrams(sim),
+            "crossings": {name: _road(sim, state) for name, state in sim.crossings.states.items()},
             "events": [vars(event) for event in sim.diary.events],
             "occupation": [vars(stay) for stay in self.history.stays],
         }
+
+
+def _telegrams(sim: Simulation) -> dict[str, Any]:
+    """What became of all that was sent, and for how long centre and units did not hear each other."""
+    links = sim.links
+    return {
+        "sent": sim.air.sent,
+        "lost": sim.air.lost,
+        "mended": links.mended,
+        "arrived": dict(sorted(links.outcomes.items())),
+        "unheard_s": {
+            train: {"by the centre": links.unheard_s[CENTRE, unit], "on board": links.unheard_s[unit, CENTRE]}
+            for train, unit in links.addresses.unit.items()
+        },
+    }
+
+
+def _road(sim: Simulation, state: State) -> dict[str, Any]:
+    """How long a road was closed, each time from and to, how many trains came, and after how long at the least."""
+    return {
+        "closed_s": sim.crossings.closed_s(state, sim.now_s),
+        "trains": state.passed,
+        "least_warning_s": state.least_s,
+        "closings": sim.crossings.closings(state, sim.now_s),
+    }
 
 
 def _faults(chosen: Chosen, came: Mapping[str, int]) -> dict[str, Any]:

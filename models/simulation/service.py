@@ -11,7 +11,7 @@ from enum import Enum
 from random import Random
 
 from kernel.authority import may_proceed
-from kernel.names import Block, Route, Run, Stage, UnitLife
+from kernel.names import Block, Route, Run, Stage, Train, UnitLife
 from kernel.route_setting import request_refusal
 from models.simulation.ahead import ahead
 from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
@@ -51,6 +51,7 @@ class Office:
 
     ``diverts``: a train that cannot make for its goal for long gets another one; else its timetable stands.
     ``orders``: which end of a train leads in each run.
+    ``lets_depart``: whether the roads that are near ahead of a train are closed for it.
     """
 
     diary: Diary
@@ -58,6 +59,7 @@ class Office:
     board: Callable[[], Board]
     diverts: bool
     orders: Orders
+    lets_depart: Callable[[Train], bool]
 
 
 class Service:
@@ -320,6 +322,8 @@ class Service:
             return
         if not self._leads(run.route):
             self._turns()
+        if not self.office.lets_depart(self.train):
+            return
         board.lists = {}
         self._survey(run)
         board.begin_way()

@@ -7,6 +7,7 @@ from dataclasses import replace
 from random import Random
 from typing import Any
 
+from kernel.link import Party
 from kernel.names import Block, Car, Epoch, Point, Run, Stage, TerminalLife, Train, UnitLife
 from kernel.onboard.arithmetic import CYCLE_MS
 from models.concrete.drive import NatureRefusedError
@@ -15,20 +16,25 @@ from models.concrete.train import CAR_MM, OnRails
 from models.simulation.agenda import Agenda
 from models.simulation.air import Air
 from models.simulation.beginning import CARS, Plan, begun, rails_of
+from models.simulation.crossings import Crossings
 from models.simulation.diary import Diary
 from models.simulation.facing import Orders
 from models.simulation.faults import BY_NAME
 from models.simulation.foresight import Board, Foresight
+from models.simulation.links import LIFE_SIGN_S, LIMITS, Addresses, Links
 from models.simulation.motors import Motors
 from models.simulation.occurrences import Occurrence, occurrences
 from models.simulation.onboard import on_board
 from models.simulation.oracles import Oracles
+from models.simulation.posted import Post
+from models.simulation.roads import Ways as WaysToRoad
 from models.simulation.sensors import sensors
 from models.simulation.service import Office, Phase, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
 from models.simulation.vehicle import Line, Vehicle
 from models.simulation.waiting import Waits
+from models.simulation.wording import RANGING, Fields, Wording
 from models.simulator import messages
 from models.simulator.play import Watcher, begin, site_of
 from models.world.state import System
@@ -57,19 +63,30 @@ class Simulation:
         foresight = Foresight(site.layout, self.ways)
         where, trips = begun(plan, names, self.rails, foresight)
         self.oracles = Oracles(site)
-        self.watchers: list[Watcher] = [self.oracles.after, self.diary.after, *([watch] if watch else [])]
-        self.play = begin(site, cars, where, self._watch)
         self.air = Air(self.agenda, Random(f"{plan.seed} radio"), plan.chosen)
+        self.addresses = Addresses(names, site.layout.points, (road.name for road in plan.roads))
+        self.post = Post(LIMITS, self.oracles.must)
+        self.links = Links(self.air, self.addresses, Wording(site), self.post, self.diary, plan.seed)
+        self.watchers: list[Watcher] = [
+            *(self.oracles.after, self.diary.after, self._restarts, self.links.after),
+            *([watch] if watch else []),
+        ]
+        self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
-        self.talk = Talk(self.play, self.air, self.motors, self._may_answer, self._stands_short)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._stands_short)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
-        office = Office(self.diary, foresight, self._board, plan.trips is None, orders)
+        roads = [WaysToRoad(self.rails, road) for road in plan.roads]
+        self.crossings = Crossings(roads, self.links, self.vehicles, self.diary, self.oracles.must, plan.seed)
+        self.links.acts = self._hears
+        office = Office(self.diary, foresight, self._board, plan.trips is None, orders, self.crossings.lets_depart)
         self.services = {
             train: Service(self.vehicles[train], trips[train], self.line, self.talk, self.ways, office)
             for train in names
         }
-        self.coming = occurrences(plan.chosen, plan.seed, plan.hours, names, sorted(site.layout.points))
+        self.coming = occurrences(
+            plan.chosen, plan.seed, plan.hours, names, sorted(site.layout.points), list(self.crossings.states)
+        )
 
     # ---- the beginning
 
@@ -88,6 +105,19 @@ class Simulation:
     def _watch(self, step: str, event: Mapping[str, Any], system: System) -> None:
         for watcher in self.watchers:
             watcher(step, event, system)
+
+    def _restarts(self, step: str, event: Mapping[str, Any], system: System) -> None:
+        """What is to be judged by must know of every restart, and not from the links."""
+        party = self.addresses.restarted(step, event)
+        if party is not None:
+            self.post.restarted(party)
+
+    def _hears(self, me: Party, peer: Party, kind: str, fields: Fields) -> None:
+        """A machine acts on what its link has delivered."""
+        if kind == RANGING:
+            self.crossings.hears(me, peer, fields)
+        else:
+            self.talk.hears(me, peer, kind, fields)
 
     def _may_answer(self, train: Train) -> bool:
         return self.services[train].may_answer()
@@ -121,8 +151,12 @@ class Simulation:
             service.second(self.now_s)
             if (self.now_s + place) % TALKS_S == 0:
                 self.talk.with_train(train)
+            if (self.now_s + place) % LIFE_SIGN_S == 0:
+                self.links.look(train)
+        self.crossings.decide(self.now_s - 1)
         for vehicle in self.vehicles.values():
             self._second_of(vehicle)
+        self.crossings.end_second(self.now_s - 1)
 
     def _set_clock(self, now_ms: int) -> None:
         self.diary.now_ms = self.oracles.now_ms = self.line.now_ms = now_ms
@@ -152,7 +186,15 @@ class Simulation:
                 self.diary.fault(each.fault, each.who or "centre", f"{says}{lasts}")
 
     def _radio_outage(self, each: Occurrence) -> bool:
-        self.air.silence(Train(each.who), each.lasts_ms)
+        self.air.silence(self.addresses.unit[Train(each.who)], each.lasts_ms)
+        return True
+
+    def _start_point_silent(self, each: Occurrence) -> bool:
+        self.crossings.silence_terminal(each.who, each.lasts_ms)
+        return True
+
+    def _crossing_radio_silent(self, each: Occurrence) -> bool:
+        self.air.silence(self.addresses.road[each.who], each.lasts_ms)
         return True
 
     def _wheel_slip(self, each: Occurrence) -> bool:

@@ -1,20 +1,21 @@
 """What centre, trains and terminals say to each other: whatever a machine sends in its state, again until it is heard.
 
-The words are steps of the world; when they arrive is the radio's (T4, T6, T8, T9, T10, T11).
+The words are steps of the world, and so is what a machine does with what its link delivers; how they are written,
+and what is believed, is the links' (T4, T6, T8, T9, T10, T11).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from kernel.centre import Grant
-from kernel.names import Block, Point, Run, Stage, Train
-from models.simulation.agenda import Act
-from models.simulation.air import Air
+from kernel.link import Party
+from kernel.names import Block, Epoch, Point, Run, Serial, Stage, Train
+from models.simulation.links import CENTRE, Links
 from models.simulation.motors import Motors
-from models.simulator import messages
+from models.simulation.wording import Fields, was_sent
+from models.simulator.messages import NO_ROUTE
 from models.simulator.play import Play
 
 MayAnswer = Callable[[Train], bool]
@@ -22,16 +23,43 @@ MayAnswer = Callable[[Train], bool]
 StandsShort = Callable[[Run], bool]
 """Whether a train stands short of a run."""
 
+STEPS: Mapping[str, str] = {
+    "relayed life": "note_terminal_life",
+    "offer": "take_offer",
+    "echo": "note_echo",
+    "permit": "take_permit",
+    "return": "note_given_back",
+    "tail report": "release_block",
+    "stop": "release_overlap",
+    "standing run": "take_standing",
+}
+"""What is done with a message that is a step of the world as it is, with the fields of the message."""
+
 
 class Talk:
     """The conversations of every train."""
 
-    def __init__(self, play: Play, air: Air, motors: Motors, may_answer: MayAnswer, stands_short: StandsShort) -> None:
+    def __init__(
+        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, stands_short: StandsShort
+    ) -> None:
         self.play = play
-        self.air = air
+        self.links = links
         self.motors = motors
         self.may_answer = may_answer
         self.stands_short = stands_short
+        self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
+        self._acts: Mapping[str, Callable[[Train, Fields], object]] = {
+            "order": lambda train, fields: self._relays("relay_order", "relayed order", train, fields),
+            "enquiry": lambda train, fields: self._relays("relay_enquiry", "relayed enquiry", train, fields),
+            "relayed order": lambda _, fields: self.motors.obey(fields["run"], fields["point"], fields["life"]),
+            "relayed enquiry": lambda _, fields: self.play.take("answer_enquiry", **fields),
+            "confirmation": self._relays_confirmation,
+            "relayed confirmation": self._is_confirmed,
+            "terminal's life": lambda train, fields: self._say(self._unit[train], CENTRE, "relayed life", fields),
+            "recall": self._gives_back,
+            "challenge": self._answers,
+            "standing": self._is_noted,
+        }
 
     def with_train(self, train: Train) -> None:
         """Everything that is to be said now by and to one train."""
@@ -40,14 +68,32 @@ class Talk:
             if run.train == train and grant.stage != Stage.OVER:
                 self._about(run, grant)
 
-    def _carry(self, train: Train, step: str, **event: Any) -> None:
-        """A telegram whose arrival is a step of the world; what it changes is answered at once."""
+    def hears(self, me: Party, peer: Party, kind: str, fields: Fields) -> None:
+        """A machine acts on what its link has delivered; what that changes is answered at once.
 
-        def arrives() -> None:
-            if self.play.take(step, **event):
-                self.with_train(train)
+        Of the two one is a unit, and what is said is about its own train; a terminal obeys for its own point.
+        """
+        addresses = self.links.addresses
+        train = addresses.train[me if me in addresses.train else peer]
+        if fields.get("train", train) != train or ("run" in fields and fields["run"].train != train):
+            return
+        if me in addresses.point and fields["point"] != addresses.point[me]:
+            return
+        if kind not in STEPS:
+            self._acts[kind](train, fields)
+        elif self.play.take(STEPS[kind], **fields):
+            self.with_train(train)
 
-        self.air.carry(train, arrives)
+    def _say(self, me: Party, peer: Party, kind: str, fields: Fields) -> None:
+        """Send a message, if the world has it among those that were sent."""
+        if was_sent(self.play.system.radio, kind, fields):
+            self.links.say(me, peer, kind, **fields)
+
+    def _to_unit(self, train: Train, kind: str, /, **fields: Any) -> None:
+        self._say(CENTRE, self._unit[train], kind, fields)
+
+    def _to_centre(self, train: Train, kind: str, /, **fields: Any) -> None:
+        self._say(self._unit[train], CENTRE, kind, fields)
 
     # ---- routes
 
@@ -57,13 +103,13 @@ class Talk:
             self._prove_points(run, grant)
         elif grant.stage == Stage.OFFERED and order is None:
             play.take("send_offer", run=run)
-            self._carry(run.train, "take_offer", run=run)
+            self._to_unit(run.train, "offer", run=run)
         elif grant.stage == Stage.OFFERED:
             play.take("send_echo", run=run)
-            self._carry(run.train, "note_echo", run=run)
+            self._to_centre(run.train, "echo", run=run)
         elif grant.stage == Stage.SET and order is not None and not order.permitted and not grant.cancelling:
             play.take("send_permit", run=run)
-            self._carry(run.train, "take_permit", run=run)
+            self._to_unit(run.train, "permit", run=run)
         elif grant.stage == Stage.STANDING:
             self._adopt_points(run)
         if grant.cancelling:
@@ -79,61 +125,61 @@ class Talk:
             if not self._hear(run.train, point):
                 continue
             if terminal.holds == run and not terminal.unlocked:
-                self._confirm(run, point, "note_confirmation")
+                self._confirm(run, point)
                 continue
-            self.play.take("send_order", run=run, point=point, life=terminal.life)
             event = {"run": run, "point": point, "life": terminal.life}
-            obeys = partial(self.motors.obey, run, point, terminal.life)
-            self.air.carry(run.train, self._relays("relay_order", event, obeys))
+            self.play.take("send_order", **event)
+            self._to_unit(run.train, "order", **event)
         if not unproved and self.play.take("open_first_loop", run=run):
             self.with_train(run.train)
 
     def _hear(self, train: Train, point: Point) -> bool:
-        """Whether the centre knows the terminal's life; if not, the terminal tells it."""
+        """Whether the centre knows the terminal's life; if not, the terminal tells it, by way of the train."""
         life = self.play.system.terminals[point].life
         if self.play.system.centre.terminal_life.get(point) == life:
             return True
         self.play.take("send_terminal_life", point=point)
-        self._carry(train, "note_terminal_life", point=point, life=life)
+        fields = {"point": point, "life": life}
+        self._say(self._terminal[point], self._unit[train], "terminal's life", fields)
         return False
 
-    def _relays(self, step: str, event: dict[str, Any], arrives: Act) -> Act:
-        """A train passes something on, and that arrives a little later."""
+    def _relays(self, step: str, kind: str, train: Train, fields: Fields) -> None:
+        """A train passes something on to a terminal."""
+        self.play.take(step, **fields)
+        self._say(self._unit[train], self._terminal[fields["point"]], kind, fields)
 
-        def relays() -> None:
-            self.play.take(step, **event)
-            self.air.carry(event["run"].train, arrives)
-
-        return relays
-
-    def _confirm(self, run: Run, point: Point, then: str) -> None:
+    def _confirm(self, run: Run, point: Point) -> None:
         """The terminal's word how its point lies, by way of the train to the centre."""
         lies = self.play.system.track.lies[point]
         event = {"run": run, "point": point, "position": lies}
         self.play.take("send_confirmation", **event, detected=lies)
-        if (run, point, lies) not in self.play.system.radio.confirmed:
-            return
+        self._say(self._terminal[point], self._unit[run.train], "confirmation", event)
 
-        def arrives() -> None:
-            if self.play.take(then, **event):
-                self.with_train(run.train)
+    def _relays_confirmation(self, train: Train, fields: Fields) -> None:
+        self.play.take("relay_confirmation", **fields)
+        self._to_centre(train, "relayed confirmation", **fields)
 
-        self.air.carry(run.train, self._relays("relay_confirmation", event, arrives))
+    def _is_confirmed(self, train: Train, fields: Fields) -> None:
+        """The centre hears how a point lies for a run: one that is being set, or one that stands over it."""
+        grant = self.play.system.centre.runs.get(fields["run"])
+        stands = grant is not None and grant.stage == Stage.STANDING
+        if self.play.take("adopt_point" if stands else "note_confirmation", **fields):
+            self.with_train(train)
 
     def _recall(self, run: Run) -> None:
         """The centre wants the run back; the train gives it back if it stands short of it (T9)."""
         play = self.play
         play.take("send_recall", run=run)
         if self.stands_short(run):
-            self.air.carry(run.train, lambda: self._gives_back(run))
+            self._to_unit(run.train, "recall", run=run)
         if play.system.units[run.train].orders.get(run) is not None:
             play.take("send_return", run=run)
-            if run in play.system.radio.returns:
-                self._carry(run.train, "note_given_back", run=run)
+            self._to_centre(run.train, "return", run=run)
 
-    def _gives_back(self, run: Run) -> None:
+    def _gives_back(self, train: Train, fields: Fields) -> None:
+        run = fields["run"]
         if self.stands_short(run) and self.play.take("give_back", run=run, stands_short=True):
-            self.with_train(run.train)
+            self.with_train(train)
 
     def _report(self, run: Run) -> None:
         """Every block that the tail has left and the centre still holds, and that the train stands (T6, T7, T9)."""
@@ -142,12 +188,11 @@ class Talk:
             if run in play.system.centre.claimed.get(block, frozenset()):
                 event = {"run": run, "block": block, "left": evidence.left, "entered": evidence.entered}
                 play.take("send_tail_report", **event)
-                if (run, block, evidence.left, evidence.entered) in play.system.radio.tail_reports:
-                    self._carry(run.train, "release_block", **event)
+                self._to_centre(run.train, "tail report", **event)
         overlap = play.site.layout.overlap.get(run.route, frozenset())
         if order.stopped and any(run in play.system.centre.claimed.get(block, frozenset()) for block in overlap):
             play.take("send_stop", run=run)
-            self._carry(run.train, "release_overlap", run=run)
+            self._to_centre(run.train, "stop", run=run)
 
     # ---- where trains stand
 
@@ -157,13 +202,14 @@ class Talk:
         if unit.answered != centre.epoch:
             if self.may_answer(train):
                 play.take("send_challenge", epoch=centre.epoch)
-                self.air.carry(train, lambda: self._answers(train))
+                self._to_unit(train, "challenge", epoch=centre.epoch)
         elif centre.accounted.get(train) != unit.life:
             play.take("send_standing", train=train, epoch=centre.epoch)
-            self.air.carry(train, lambda: self._is_noted(train))
+            said = {"life": unit.life, "epoch": centre.epoch, "blocks": unit.standing_in}
+            self._to_centre(train, "standing", train=train, **said)
         elif (run := self.standing_run(train)) is not None and run not in unit.orders:
             play.take("send_standing_run", run=run)
-            self._carry(train, "take_standing", run=run)
+            self._to_unit(train, "standing run", run=run)
 
     def standing_run(self, train: Train) -> Run | None:
         """The run under which the centre holds a train that has told, in its present life, where it stands."""
@@ -173,21 +219,22 @@ class Talk:
                 return run
         return None
 
-    def _answers(self, train: Train) -> None:
+    def _answers(self, train: Train, fields: Fields) -> None:
         play = self.play
         if not self.may_answer(train):
             return
-        unit, epoch = play.system.units[train], play.system.centre.epoch
-        life = type(unit.life)(unit.life + 1)
-        event = {"train": train, "epoch": epoch, "life": life, "blocks": where(play, train)}
-        if play.take("answer", **event, at_rest=True, healthy=True):
+        unit = play.system.units[train]
+        event = {"train": train, "life": type(unit.life)(unit.life + 1), "blocks": where(play, train)}
+        if play.take("answer", **event, epoch=fields["epoch"], at_rest=True, healthy=True):
             self.with_train(train)
 
-    def _is_noted(self, train: Train) -> None:
-        play = self.play
-        unit, epoch = play.system.units[train], play.system.centre.epoch
-        run = messages.next_run(play, train, messages.NO_ROUTE)
-        if play.take("note_standing", train=train, life=unit.life, epoch=epoch, run=run):
+    def _is_noted(self, train: Train, fields: Fields) -> None:
+        """The centre takes a train's word, and gives it a run to stand under; the world has it if it was sent."""
+        play, life, epoch = self.play, fields["life"], Epoch(fields["epoch"])
+        if not was_sent(play.system.radio, "standing", fields):
+            return
+        run = Run(Serial(play.system.centre.newest + 1), train, life, NO_ROUTE)
+        if play.take("note_standing", train=train, life=life, epoch=epoch, run=run):
             self.with_train(train)
 
     def _adopt_points(self, run: Run) -> None:
@@ -200,12 +247,11 @@ class Talk:
                 continue
             terminal = play.system.terminals[point]
             if terminal.holds == run:
-                self._confirm(run, point, "adopt_point")
+                self._confirm(run, point)
                 continue
             event = {"run": run, "point": point, "life": terminal.life}
             play.take("send_enquiry", **event)
-            answers = partial(self.play.take, "answer_enquiry", **event)
-            self.air.carry(run.train, self._relays("relay_enquiry", event, answers))
+            self._to_unit(run.train, "enquiry", **event)
 
 
 def where(play: Play, train: Train) -> frozenset[Block]:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
 from fuzz.simulation.judging import Judge
 from models.layouts import load
 from models.layouts.results import Imported
-from models.simulation.beginning import Plan
+from models.simulation.beginning import Plan, rails_of
 from models.simulation.faults import EVERY_FAULT, FAULTS, Chosen, Setting
 from models.simulation.history import History
 from models.simulation.kilometres import Kilometres
 from models.simulation.outcome import Outcome, outcome
+from models.simulation.roads import Road
 from models.simulation.simulation import Simulation
 
 LAYOUTS = Path(__file__).resolve().parents[2] / "layouts"
@@ -33,8 +35,32 @@ def plan(
     hours: float = 0.1,
     chosen: Chosen = EVERY_FAULT,
     trips: int | None = None,
+    roads: tuple[Road, ...] = (),
 ) -> Plan:
-    return Plan(imported(place), seed, trains, hours, chosen, trips)
+    return Plan(imported(place), seed, trains, hours, chosen, trips, roads)
+
+
+def road(place: str, name: str, *places: tuple[str, float]) -> Road:
+    """A road over tracks of a sample, at so many m of each."""
+    segments, found = rails_of(imported(place)).segments.segments, []
+    for track, at_m in places:
+        at_mm = round(1_000 * at_m)
+        index = next(
+            index for index, each in enumerate(segments) if each.track == track and each.from_mm < at_mm < each.to_mm
+        )
+        found.append((index, at_mm - segments[index].from_mm))
+    return Road(name, tuple(found))
+
+
+ROADS: Mapping[str, tuple[Road, ...]] = {
+    "passing_station": (
+        road("passing_station", "Mill Road", ("west", 2_000)),
+        road("passing_station", "Long Lane", ("east", 1_500)),
+    ),
+    "terminus": (road("terminus", "Quay Street", ("arrival", 700), ("departure", 700)),),
+    "junction": (road("junction", "Tower Road", ("down_west", 700), ("up_west", 700)),),
+}
+"""Roads over the samples' tracks."""
 
 
 def simulated(given: Plan) -> Outcome:

@@ -31,6 +31,17 @@ def test_it_tells_where_every_train_ended_and_how_fast_it_was(
     assert all(oracle["checked"] >= 0 for oracle in found["oracles"].values())
 
 
+def test_it_tells_how_long_roads_were_closed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    roads, record = tmp_path / "roads.toml", tmp_path / "line.json"
+    roads.write_text('["Mill Road"]\nplaces = [{ track = "west", at_m = 2300 }]\n')
+    assert run(["simulate", STATION, *SHORT, "--crossings", str(roads), "--json", str(record)]) == 0
+    told = capsys.readouterr().out
+    found = json.loads(record.read_text())["crossings"]["Mill Road"]
+    assert f"crossing 'Mill Road': closed {len(found['closings'])} times for {found['closed_s']} of 180 s" in told
+    assert "telegrams: " in told
+    assert "delivered" in told
+
+
 def test_a_timetable_that_does_not_end_is_1(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["simulate", STATION, *SHORT, "--trips", "1"]) == 1
     assert "the timetable has not come to its end" in capsys.readouterr().out
@@ -41,6 +52,7 @@ def test_a_timetable_that_does_not_end_is_1(capsys: pytest.CaptureFixture[str]) 
     [
         ["no.toml"],
         [STATION, "--faults", "no.toml"],
+        [STATION, "--crossings", "no.toml"],
         [STATION, "--trains", "99"],
         [STATION, "--html", "/dev/null/page.html"],
         [STATION, "--each-fault", "--html", "out.html"],

@@ -13,6 +13,7 @@ from tests.simulation.lines import imported
 
 TRAINS = sorted(imported("passing_station").layout.fleet)
 POINTS = sorted(imported("passing_station").layout.points)
+ROADS = ("Mill Road",)
 
 
 def test_a_file_names_what_comes(tmp_path: Path) -> None:
@@ -50,9 +51,11 @@ def test_what_is_wrong_is_told_in_one_line_by_its_key(tmp_path: Path, text: str,
 
 
 def test_a_fault_that_is_left_out_moves_none_of_the_others() -> None:
-    whole = occurrences(EVERY_FAULT, 7, 200.0, TRAINS, POINTS)
+    whole = occurrences(EVERY_FAULT, 7, 200.0, TRAINS, POINTS, ROADS)
     for fault in FAULTS:
         some = {name: setting for name, setting in EVERY_FAULT.items() if name != fault.name}
-        assert occurrences(some, 7, 200.0, TRAINS, POINTS) == [each for each in whole if each.fault != fault.name]
+        assert occurrences(some, 7, 200.0, TRAINS, POINTS, ROADS) == [
+            each for each in whole if each.fault != fault.name
+        ]
     assert {each.fault for each in whole} == {fault.name for fault in FAULTS if not fault.is_share}
     assert whole == sorted(whole, key=lambda each: each.at_ms)

@@ -10,14 +10,14 @@ import pytest
 from models.simulation.outcome import Outcome
 from models.simulation.page.writing import page_of
 from tests.fuzz.failures.browser import CHROMIUM, Browser, browser
-from tests.simulation.lines import plan, simulated
+from tests.simulation.lines import ROADS, plan, simulated
 
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium: apt-get install chromium")
 
 
 @pytest.fixture(scope="module")
 def found() -> Outcome:
-    return simulated(plan("passing_station", hours=0.15))
+    return simulated(plan("passing_station", hours=0.15, roads=ROADS["passing_station"]))
 
 
 @pytest.fixture(scope="module")
@@ -69,6 +69,13 @@ def test_everything_is_drawn(page: Path, tab: Browser, found: Outcome) -> None:
     there = tab.value("document.querySelectorAll('#chart .there').length")
     assert there == sum(stay.there for stay in found.history.stays)
     assert tab.value("document.querySelectorAll('#events li').length") == len(found.sim.diary.events)
+    closings = [
+        each
+        for state in found.sim.crossings.states.values()
+        for each in found.sim.crossings.closings(state, found.sim.now_s)
+    ]
+    assert tab.value("document.querySelectorAll('#lines .closed').length") == len(closings) > 0
+    assert tab.value("document.querySelectorAll('#track path.road').length") == len(ROADS["passing_station"])
     lit = tab.value("document.querySelectorAll('#track .rail.there').length")
     assert lit >= len(found.accounts)
 

@@ -22,7 +22,7 @@ from models.simulation.simulation import Simulation
 from models.simulator.play import WORLD
 from models.world.state import Site, System
 from tests.layouts.stations import SHARED, needs_shared
-from tests.simulation.lines import HARD, SAMPLES, plan, simulated
+from tests.simulation.lines import HARD, ROADS, SAMPLES, plan, simulated
 
 
 def text(given: Plan) -> str:
@@ -30,7 +30,8 @@ def text(given: Plan) -> str:
 
 
 def test_the_same_seed_gives_the_same_record_to_the_byte() -> None:
-    assert text(plan("passing_station")) == text(plan("passing_station"))
+    for roads in ((), ROADS["passing_station"]):
+        assert text(plan("passing_station", roads=roads)) == text(plan("passing_station", roads=roads))
     assert text(plan("passing_station")) != text(plan("passing_station", seed=2))
 
 

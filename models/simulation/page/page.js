@@ -37,6 +37,10 @@ data.track.lines.forEach((line, index) => {
 });
 for (const [px, py, name] of data.track.ends) make(track, "line", { class: "end", x1: px, x2: px, y1: py - 5, y2: py + 5 }, name);
 for (const [px, py, name] of data.track.points) make(track, "circle", { class: "point", cx: px, cy: py, r: 2.6 }, name);
+const roads = data.roads.map((road) => road.places.map(([segment, share]) => {
+  const [px, py] = along(data.track.lines[segment], share / 1000);
+  return make(track, "path", { class: "road", d: `M${px - 4} ${py - 6}L${px + 4} ${py + 6}M${px - 4} ${py + 6}L${px + 4} ${py - 6}` }, road.name);
+}));
 data.trains.forEach((train) => {
   const group = make(track, "g", {});
   make(group, "circle", { r: 5, fill: train.colour, stroke: "#fff" }, train.name);
@@ -69,6 +73,14 @@ ticks(lines, HEAD, HIGH);
 for (let km = 0; km <= data.km; km += data.km > 20 ? 5 : data.km > 4 ? 1 : 0.5) {
   make(lines, "line", { class: "grid", x1: LEFT, x2: WIDTH - RIGHT, y1: y(km * 1000), y2: y(km * 1000) });
   make(lines, "text", { class: "axis", x: LEFT - 8, y: y(km * 1000) + 3, "text-anchor": "end" }, `${km} km`);
+}
+for (const road of data.roads) {
+  const heights = road.places.map(([, , m]) => y(m)).sort((a, b) => a - b).filter((height, i, all) => !i || height - all[i - 1] > 6);
+  for (const height of heights) {
+    make(lines, "line", { class: "road", x1: LEFT, x2: WIDTH - RIGHT, y1: height, y2: height });
+    for (const [from, to] of road.closings) make(lines, "rect", { class: "closed", x: x(from), y: height - 3, width: Math.max(0.6, x(to) - x(from)), height: 6 }, `${road.name}: closed ${clock(from)} to ${clock(to)}`);
+  }
+  make(lines, "text", { class: "axis road", x: LEFT + 4, y: heights[0] - 5 }, road.name);
 }
 const paths = data.trains.map((train) => {
   let path = "";
@@ -131,6 +143,10 @@ function go(to) {
     const here = taken.get(data.of[i]);
     rail.setAttribute("class", `rail${here ? here[0] < 0 ? " lost" : here[1] ? " there" : " held" : ""}`);
     rail.style.stroke = here && here[0] >= 0 ? data.trains[here[0]].colour : "";
+  });
+  data.roads.forEach((road, i) => {
+    const closed = road.closings.some(([from, to]) => from <= second && second < to);
+    for (const mark of roads[i]) mark.setAttribute("class", closed ? "road shut" : "road");
   });
   data.trains.forEach((train, i) => {
     const [px, py] = along(data.track.lines[train.segment[at] || 0], (train.share[at] || 0) / 1000);

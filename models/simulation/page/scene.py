@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from models.simulation.crossings import State
 from models.simulation.history import EVERY_S
 from models.simulation.kilometres import Kilometres
 from models.simulation.outcome import Outcome
@@ -63,7 +64,22 @@ def scene(found: Outcome) -> dict[str, Any]:
             [number[stay.block], who.get(stay.who, -1), int(stay.there), stay.from_s, stay.to_s]
             for stay in history.stays
         ],
+        "roads": [_road(found, state) for state in sim.crossings.states.values()],
         "events": [[round(event.at_ms / 1_000), event.kind, event.who, event.text] for event in sim.diary.events],
+    }
+
+
+def _road(found: Outcome, state: State) -> dict[str, Any]:
+    """One crossing: where its road meets the tracks, in the diagram and along the line, and when it was closed."""
+    kilometres = found.history.kilometres
+    places = []
+    for index, at_mm in state.ways.road.places:
+        share, place_mm = kilometres.of_place(index, at_mm)
+        places.append([index, round(1_000 * share), round(place_mm / 1_000)])
+    return {
+        "name": state.name,
+        "places": places,
+        "closings": found.sim.crossings.closings(state, found.sim.now_s),
     }
 
 

@@ -1,0 +1,364 @@
+"""Level crossings of a simulated line: the kernel's machine decides each second, from what trains say by radio (X1-X5).
+
+A unit in reach says how near its head may be, by its own range, and how fast, on a link of its own with the crossing;
+and that it is not coming any more, once its rear is proved past or it leads away, all of it.  Start points are struck
+on every way to the road, and told by the crossing's terminal; staff tell it of a train that begins its run inside,
+and its driver waits until the road has been closed for its time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from random import Random
+
+from kernel.crossing import arrival
+from kernel.crossing import crossing as machine
+from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due
+from kernel.crossing.crossing import Train as Known
+from kernel.link import Party
+from kernel.names import Car, Train
+from models.crossing.sites import EXCESS, SETTINGS
+from models.crossing.traffic import PERSON_S
+from models.simulation.diary import ROAD, STAFF, Diary
+from models.simulation.driver import ACCELERATES_MM_S2, LINE_MM_S
+from models.simulation.links import LIMITS, Links
+from models.simulation.roads import Ways
+from models.simulation.vehicle import Vehicle
+from models.simulation.wording import RANGING, Fields
+
+BOUNDS = ArrivalBounds(
+    line_um=round(1_000 * EXCESS * LINE_MM_S),
+    gain_um=round(1_000 * EXCESS * ACCELERATES_MM_S2),
+    cycle_ms=SETTINGS.cycle_ms,
+    warning_cycles=SETTINGS.warning_cycles,
+    silence_cycles=5,
+)
+"""Some more than trains are driven by; two rangings in a row may be lost."""
+START_MM = (SETTINGS.start_cycles + 1) * BOUNDS.line_um // 1_000
+"""Start points lie so far before the road: the cycles of the settings at the greatest pace, and that of the strike."""
+REACH_MM = 2_200_000
+"""So far the crossing's radio reaches."""
+END_MM = 15_000
+"""The rear is past the road here."""
+ARMS_S = (8, 10)
+"""How long arms take to come down."""
+AT_LEAST_QUIET_S = 900
+"""Closed for nobody, though all is heard, a road is no longer than this; a fault may last 300 s."""
+CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN = (
+    "the_road_is_closed_before_every_train",
+    "the_road_is_closed_under_a_train",
+    "the_road_opens_again",
+)
+
+Must = Callable[[str, bool, str], object]
+
+
+@dataclass
+class Told:
+    """A ranging that has come since the last decision; ``at_ms``: by the unit's clock."""
+
+    at_ms: int
+    way_mm: int
+    speed_mm_s: int
+
+
+@dataclass
+class Seen:
+    """What is truly so of a train before one road.
+
+    ``ahead_mm``: the shortest way to it.  ``over_mm``: where its path meets it, from the head's coming until its rear
+    is proved past.  ``under``: it is on the road.  ``leads``, ``front_mm``: the car that led then, and where it was.
+    """
+
+    leads: Car
+    front_mm: float
+    ahead_mm: float
+    over_mm: float | None
+    under: bool
+
+
+@dataclass
+class State:
+    """One crossing with its arms.
+
+    ``closed_s``: since when it warns; ``down_s``: since when its arms are down.  ``closings``: each closure as
+    [from, to].  ``passed``: trains that came over it; ``least_s``: the shortest time that the road was closed before.
+    ``attended_s``: when somebody will have looked for a train that cannot say that it is gone.
+    """
+
+    ways: Ways
+    party: Party
+    crossing: Crossing
+    arms_s: int
+    lowered: int
+    closed_s: int | None
+    down_s: int | None
+    followed: dict[Train, Followed] = field(default_factory=dict)
+    told: dict[Train, Told] = field(default_factory=dict)
+    struck: set[Train] = field(default_factory=set)
+    strikes: list[Train] = field(default_factory=list)
+    seen: dict[Train, Seen] = field(default_factory=dict)
+    attended_s: dict[Train, int] = field(default_factory=dict)
+    terminal_silent_until_ms: int = 0
+    quiet_s: int = 0
+    closings: list[tuple[int, int]] = field(default_factory=list)
+    passed: int = 0
+    least_s: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The road's name."""
+        return self.ways.road.name
+
+    @property
+    def track(self) -> CrossingTrack:
+        """All start points of a road have one terminal."""
+        return CrossingTrack(self.name)
+
+
+LONG_AGO_S = -3_600
+
+
+class Crossings:
+    """Every level crossing of the line."""
+
+    def __init__(
+        self, ways: list[Ways], links: Links, vehicles: Mapping[Train, Vehicle], diary: Diary, must: Must, seed: int
+    ) -> None:
+        assert machine.are_lawful(SETTINGS), "it is not put into service"
+        self.links = links
+        self.vehicles = vehicles
+        self.diary = diary
+        self.must = must
+        self.random = Random(f"{seed} arms")
+        self.states = {each.road.name: self._closed(each) for each in ways}
+        self._by_party = {state.party: state for state in self.states.values()}
+
+    def _closed(self, ways: Ways) -> State:
+        """A crossing that is put into service: closed, until nobody is on the way."""
+        crossing = Crossing(
+            asks={}, silent_cycles={CrossingTrack(ways.road.name): 0}, warns=True, warned_cycles=-LONG_AGO_S
+        )
+        party = self.links.addresses.road[ways.road.name]
+        return State(ways, party, crossing, ARMS_S[1], -LONG_AGO_S, LONG_AGO_S, LONG_AGO_S)
+
+    # ---- a second
+
+    def decide(self, now_s: int) -> None:
+        """Trains say where they are, start points are told, and each crossing decides for the second that begins."""
+        for state in self.states.values():
+            for train, vehicle in self.vehicles.items():
+                self._look(state, train, vehicle)
+                self._strike(state, train)
+                self._says(state, train, vehicle)
+                self._release(state, train, vehicle, now_s)
+            self._hear(state)
+            self._decide(state, now_s)
+
+    def _look(self, state: State, train: Train, vehicle: Vehicle) -> None:
+        """See where a train is, in truth."""
+        on_rails, before = vehicle.on_rails, state.seen.get(train)
+        leads, front_mm = on_rails.cars[0], vehicle.front_mm
+        if before is not None and before.leads == leads and before.front_mm == front_mm:
+            return
+        meets_mm = state.ways.under(on_rails, front_mm)
+        stays = before is not None and before.leads == leads
+        over_mm = meets_mm if meets_mm is not None or not stays or before is None else before.over_mm
+        left = bool(on_rails.standing) and before is not None and before.under
+        ahead_mm = state.ways.ahead_mm(on_rails, front_mm)
+        state.seen[train] = Seen(leads, front_mm, ahead_mm, over_mm, meets_mm is not None or left)
+
+    def _strike(self, state: State, train: Train) -> None:
+        """A train strikes its start point, or is told of by hand where it begins inside (X3)."""
+        seen = state.seen[train]
+        inside = seen.under or seen.ahead_mm <= START_MM
+        if inside and train not in state.struck:
+            state.struck.add(train)
+            state.strikes.append(train)
+        elif not inside and seen.ahead_mm > REACH_MM:
+            state.struck.discard(train)
+
+    def _says(self, state: State, train: Train, vehicle: Vehicle) -> None:
+        """A unit that knows where it is says how near and how fast its head may be; or that it is not coming."""
+        seen, board = state.seen[train], vehicle.board
+        if vehicle.restarted or not board.place.known:
+            return
+        motion = board.motion
+        if seen.over_mm is not None and motion.front_least_mm - board.length_mm >= seen.over_mm + END_MM:
+            seen.over_mm = None
+        is_coming = seen.over_mm is not None or seen.ahead_mm <= REACH_MM
+        known = Known(train) in state.crossing.asks
+        if not is_coming and (not known or not self._is_whole(vehicle)):
+            return
+        ahead_mm = seen.ahead_mm - (motion.front_most_mm - vehicle.front_mm)
+        way_mm = 0 if seen.over_mm is not None or not is_coming else int(ahead_mm // 1)
+        unit = self.links.addresses.unit[train]
+        self.links.say(
+            unit, state.party, RANGING, at_ms=self.links.clock_ms(unit), way_mm=way_mm,
+            speed_mm_s=motion.speed_most_mm_s, is_coming=is_coming,
+        )  # fmt: skip
+
+    def _release(self, state: State, train: Train, vehicle: Vehicle, now_s: int) -> None:
+        """A person on site looks for a train that is gone and cannot say so, not being sure to be whole (X4).
+
+        One that has parted is not looked for; its road stays closed.
+        """
+        seen = state.seen[train]
+        is_gone = not seen.under and seen.ahead_mm > REACH_MM and not vehicle.on_rails.standing
+        if not is_gone or Known(train) not in state.crossing.asks:
+            state.attended_s.pop(train, None)
+        elif train not in state.attended_s:
+            state.attended_s[train] = now_s + self.random.randint(*PERSON_S)
+        elif now_s >= state.attended_s[train]:
+            state.crossing = machine.note_released(state.crossing, Known(train))
+            state.followed.pop(train, None)
+            del state.attended_s[train]
+            self.diary.note(STAFF, train, f"is released at {state.name} by a person who has seen that it is gone")
+
+    def _is_whole(self, vehicle: Vehicle) -> bool:
+        """Whether the train knows that nothing of it was left behind."""
+        connected = self.links.air.agenda.now_ms >= vehicle.line_broken_until_ms
+        return vehicle.board.intact and connected and not vehicle.on_rails.standing
+
+    # ---- what a crossing hears
+
+    def hears(self, me: Party, peer: Party, fields: Fields) -> None:
+        """A crossing's link delivers a unit's word."""
+        state, train = self._by_party[me], self.links.addresses.train[peer]
+        if not fields["is_coming"]:
+            state.crossing = machine.note_gone(state.crossing, Known(train), True)
+            state.followed.pop(train, None)
+            state.told.pop(train, None)
+            return
+        state.told[train] = Told(fields["at_ms"], fields["way_mm"], fields["speed_mm_s"])
+
+    def silence_terminal(self, name: str, ms: int) -> None:
+        """The terminal of a road's start points is not heard for so long."""
+        state = self.states[name]
+        until_ms = self.links.air.agenda.now_ms + ms
+        state.terminal_silent_until_ms = max(state.terminal_silent_until_ms, until_ms)
+
+    def _hear(self, state: State) -> None:
+        """The terminal tells every strike, and that it is there (X3, T14)."""
+        if self.links.air.agenda.now_ms < state.terminal_silent_until_ms:
+            return
+        for train in state.strikes:
+            state.crossing = machine.note_struck(state.crossing, Known(train))
+        state.strikes = []
+        state.crossing = machine.note_heard(state.crossing, state.track)
+
+    def _ranging(self, state: State, train: Train) -> Ranging:
+        """What has come of a train since the last decision, made no younger than it may be."""
+        told = state.told.pop(train, None)
+        if told is None:
+            return Ranging(False, 0, 0, 0)
+        age_ms = self.links.clock_ms(state.party) - told.at_ms + 2 * LIMITS.offset_ms
+        return Ranging(True, told.way_mm, told.speed_mm_s, max(0, -(-age_ms // SETTINGS.cycle_ms)))
+
+    def _decide(self, state: State, now_s: int) -> None:
+        """Reckon when each train may arrive, and decide (X2 to X5)."""
+        dues: dict[Known, Due] = {}
+        for train in sorted({*state.told, *state.followed}):
+            ranging = self._ranging(state, train)
+            if train in state.followed:
+                known = arrival.follow(BOUNDS, state.followed[train], ranging)
+            elif arrival.counts(BOUNDS, ranging):
+                state.crossing = machine.note_contact(state.crossing, Known(train))
+                known = arrival.taken(BOUNDS, Followed(0, 0, 10**6, False), ranging)
+            else:
+                continue
+            dues[Known(train)] = machine.due(BOUNDS, known, SETTINGS.reopening_cycles)
+            state.followed[train] = arrival.aged(BOUNDS, known)
+        state.crossing = machine.decide(SETTINGS, state.crossing, dues)
+        self._warns(state, now_s)
+
+    def _warns(self, state: State, now_s: int) -> None:
+        """Lamps and bells begin or end; arms are let up with them."""
+        if state.crossing.warns and state.closed_s is None:
+            state.closed_s, state.arms_s = now_s, self.random.randint(*ARMS_S)
+            self.diary.note(ROAD, state.name, "is closed")
+        elif not state.crossing.warns and state.closed_s is not None:
+            if now_s:
+                state.closings.append((max(0, state.closed_s), now_s))
+            state.closed_s = state.down_s = None
+            self.diary.note(ROAD, state.name, "is opened")
+
+    # ---- when trains have run
+
+    def end_second(self, now_s: int) -> None:
+        """Arms move, and what trains met at the road is judged: all by the truth."""
+        for state in self.states.values():
+            for train, vehicle in self.vehicles.items():
+                self._judge(state, train, vehicle, now_s)
+            state.lowered = state.lowered + 1 if machine.arms_are_to_be_down(SETTINGS, state.crossing) else 0
+            if state.lowered >= state.arms_s and state.down_s is None:
+                state.down_s = now_s + 1
+            state.crossing = machine.aged(state.crossing)
+            self._judge_opening(state)
+
+    def _judge(self, state: State, train: Train, vehicle: Vehicle, now_s: int) -> None:
+        """No head comes onto the road before it is closed for its time, and nobody is on it while it is not."""
+        before = state.seen[train]
+        if before.ahead_mm > REACH_MM and not before.under:
+            return
+        self._look(state, train, vehicle)
+        if not state.seen[train].under:
+            return
+        closed_s = -1 if state.closed_s is None else now_s - state.closed_s
+        down_s = -1 if state.down_s is None else now_s - state.down_s
+        if not before.under:
+            state.passed += 1
+            if state.closed_s != LONG_AGO_S:
+                state.least_s = closed_s if state.least_s is None else min(state.least_s, closed_s)
+            in_time = closed_s >= SETTINGS.warning_cycles and down_s >= SETTINGS.least_down_cycles
+            told = f"{train} comes to {state.name}: it warns for {closed_s} s, arms are down for {down_s} s"
+            self.must(CLOSED_IN_TIME, in_time, told)
+        self.must(CLOSED_UNDER, down_s >= 0, f"{train} is on {state.name}, and its arms are not down")
+
+    def _judge_opening(self, state: State) -> None:
+        """The road is open again once nobody has been coming for long."""
+        silent = self.links.air.agenda.now_ms < state.terminal_silent_until_ms
+        if not state.crossing.warns or silent or any(self._may_come(state, train) for train in self.vehicles):
+            state.quiet_s = 0
+        else:
+            state.quiet_s += 1
+        so = state.quiet_s < AT_LEAST_QUIET_S
+        self.must(OPENS_AGAIN, so, f"{state.name} is closed, and nobody has been coming for {state.quiet_s} s")
+
+    def _may_come(self, state: State, train: Train) -> bool:
+        """Whether a train is on its way, or is known and cannot say that it is not."""
+        seen, vehicle = state.seen[train], self.vehicles[train]
+        if seen.under or seen.over_mm is not None or seen.ahead_mm <= REACH_MM:
+            return True
+        mute = vehicle.restarted or not vehicle.board.place.known or not self._is_whole(vehicle)
+        return mute and Known(train) in state.crossing.asks
+
+    # ---- for drivers, and for the record
+
+    def lets_depart(self, train: Train) -> bool:
+        """Whether a train at rest may begin its run, by every road that is near ahead.
+
+        One that the crossing has been told of waits until it has been closed for its time.  Of one in contact that it
+        need not warn of yet the crossing will in time.
+        """
+        vehicle = self.vehicles[train]
+        return all(
+            self._lets_depart(state, train)
+            for state in self.states.values()
+            if state.ways.ahead_mm(vehicle.on_rails, vehicle.front_mm) <= START_MM
+        )
+
+    def _lets_depart(self, state: State, train: Train) -> bool:
+        asks = state.crossing.asks.get(Known(train))
+        return asks is False or (asks is True and state.crossing.warned_cycles >= SETTINGS.warning_cycles)
+
+    def closings(self, state: State, now_s: int) -> list[tuple[int, int]]:
+        """Each closure of a road as [from, to]; one that still lasts goes up to now."""
+        lasts = [] if state.closed_s is None else [(max(0, state.closed_s), now_s)]
+        return [*state.closings, *lasts]
+
+    def closed_s(self, state: State, now_s: int) -> int:
+        """How long a road was closed in all."""
+        return sum(to_s - from_s for from_s, to_s in self.closings(state, now_s))
