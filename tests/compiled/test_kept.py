@@ -107,7 +107,7 @@ def test_a_changed_kernel_is_never_run_with_stale_code(tmp_path: Path) -> None:
     sources = tmp_path / "sources"
     for folder in ("kernel", "models/compiled"):
         shutil.copytree(ROOT / folder, sources / folder, ignore=shutil.ignore_patterns("__pycache__"))
-    for name in ("models/__init__.py", "models/kept_folder.py"):
+    for name in ("models/__init__.py", "models/kept_folder.py", "models/names_apart.py"):
         shutil.copy(ROOT / name, sources / name)
     before, names = answer(started(RUN, tmp_path, sources))
     assert names == ALL
@@ -211,8 +211,8 @@ def test_another_content_is_another_digest(change: str) -> None:
 
 
 def test_a_function_as_an_argument_is_told_by_what_it_is() -> None:
-    one, same, other = (types.Dispatcher(made(source)) for source in (BASE, BASE, BASE.replace("3", "4")))
-    of = [digest_of_types((each, types.int64), lambda *_: None) for each in (one, same, other)]
+    functions = [made(source) for source in (BASE, BASE, BASE.replace("3", "4"))]
+    of = [digest_of_types((types.Dispatcher(each), types.int64), lambda *_: None) for each in functions]
     assert of[0] == of[1] != of[2]
     assert digest_of_types((types.int64,), lambda *_: None) != digest_of_types((types.int32,), lambda *_: None)
 
