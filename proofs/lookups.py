@@ -12,7 +12,7 @@ from typing import Any
 import z3
 
 from proofs.lift import Lifter
-from proofs.promise import fields_of
+from proofs.transitions import event_types
 from proofs.workbench import Part, Workbench
 
 
@@ -27,7 +27,7 @@ def lookups(bench: Workbench, name: str) -> list[Any]:
         lifter.formula(theory.premises[name], bench.site)
     elif name in theory.promises:
         for predicate in theory.promises[name].predicates:
-            about = [bench.scope.constant(kind, f"about.{field}") for field, kind in fields_of([predicate]).items()]
+            about = [bench.scope.constant(kind, f"about.{field}") for field, kind in event_types(predicate).items()]
             lifter.formula(predicate, bench.site, bench.before, *about)
     else:
         lifter.formula(theory.read[name], bench.site, bench.before)

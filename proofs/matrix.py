@@ -180,7 +180,7 @@ def counted(obligations: Sequence[Obligation]) -> str:
     verdicts = [verdict_of(cell) for cell in cells.values()]
     rows = len({transition for transition, _ in cells})
     columns = len({(theory_of(transition)[0], invariant) for transition, invariant in cells})
-    return f"{rows} transitions × {columns} invariants: {len(cells)} obligations, " + ", ".join(
+    return f"{rows} rows × {columns} columns: {len(cells)} obligations, " + ", ".join(
         f"{verdicts.count(verdict)} {verdict}" for verdict in MARK
     )
 

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
-from typing import Any, get_type_hints
+from typing import Any
+
+from proofs.transitions import event_types
 
 Predicate = Callable[..., bool]
-STATE = ("site", "system")
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,22 +47,12 @@ class Promise:
     @property
     def about(self) -> Mapping[str, Any]:
         """What it is about, by name and type."""
-        return fields_of([self.goal, *(link.holds for link in self.links)])
+        return {name: kind for each in self.predicates for name, kind in event_types(each).items()}
 
     @property
     def predicates(self) -> tuple[Predicate, ...]:
         """Everything that is read in it."""
         return (self.goal, *(link.holds for link in self.links))
-
-
-def fields_of(predicates: Iterable[Callable[..., Any]]) -> dict[str, Any]:
-    """What predicates, or a transition, are about beside site and system, by name and type."""
-    return {name: kind for predicate in predicates for name, kind in _fields(predicate).items()}
-
-
-@cache
-def _fields(predicate: Callable[..., Any]) -> Mapping[str, Any]:
-    return {name: kind for name, kind in get_type_hints(predicate).items() if name not in (*STATE, "return")}
 
 
 def by_goal(promises: Iterable[Promise]) -> dict[str, Promise]:
@@ -82,4 +72,4 @@ def still_to_go(promise: Promise, site: Any, system: Any, about: Mapping[str, An
 
 def told(predicate: Predicate, site: Any, system: Any, given: Mapping[str, Any]) -> bool:
     """Ask a predicate, in CPython, for those of the values that it is about."""
-    return predicate(site, system, **{name: given[name] for name in fields_of([predicate])})
+    return predicate(site, system, **{name: given[name] for name in event_types(predicate)})

@@ -7,7 +7,8 @@ from typing import Any
 
 import z3
 
-from proofs.promise import Link, Promise, fields_of
+from proofs.promise import Link, Promise
+from proofs.transitions import event_types
 from proofs.workbench import Part, Workbench
 
 
@@ -62,4 +63,4 @@ def _ahead(bench: Workbench, promise: Promise, links: Sequence[Link], state: Any
 
 
 def _said(bench: Workbench, predicate: Callable[..., bool], state: Any, given: Mapping[str, Any]) -> Any:
-    return bench.lifter.formula(predicate, bench.site, state, *(given[name] for name in fields_of([predicate])))
+    return bench.lifter.formula(predicate, bench.site, state, *(given[name] for name in event_types(predicate)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 from typing import Any, get_type_hints
 
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
@@ -74,7 +75,8 @@ TRANSITIONS: tuple[Transition, ...] = (
 )
 
 
-def event_types(transition: Transition) -> Mapping[str, Any]:
-    """Give the names and types of what an event of this transition carries beside site and system."""
-    hints = get_type_hints(transition)
+@cache
+def event_types(function: Callable[..., Any]) -> Mapping[str, Any]:
+    """Give the names and types of what a transition's event carries, or a predicate asks, beside site and system."""
+    hints = get_type_hints(function)
     return {name: kind for name, kind in hints.items() if name not in ("site", "system", "return")}

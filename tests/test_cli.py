@@ -64,7 +64,7 @@ def test_prove_ends_with_the_code_of_its_verdict(
 ) -> None:
     prover["answers"] = [answer("proved"), answer(verdict)]
     assert heisoku.run(["prove"]) == code
-    assert "1 transitions × 1 invariants: 1 obligations" in capsys.readouterr().out
+    assert "1 rows × 1 columns: 1 obligations" in capsys.readouterr().out
 
 
 def test_prove_passes_its_options_on(prover: dict[str, Any]) -> None:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from types import FrameType
-from typing import TextIO
 
 from rich.console import Console
 
@@ -34,11 +33,11 @@ from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Target
 from fuzz.targets.walks import Walks
+from models.commands import console
 from models.days.systems import NAMES
 from models.exit_codes import UNDECIDED
 from proofs.records import commit, versions, write_json
 
-COLUMNS_OF_A_FILE = 120
 SECONDS_AN_HOUR = 3600
 FIRST_SEED = 1
 
@@ -210,8 +209,3 @@ def _stopping() -> Iterator[threading.Event]:
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-def console(stream: TextIO) -> Console:
-    """A stream; 120 columns wide where it is not a terminal."""
-    return Console(file=stream, width=None if stream.isatty() else COLUMNS_OF_A_FILE)

@@ -85,8 +85,8 @@ def parse_json(file: str, text: str) -> Any:
         raise BadInput(file, "number", f"cannot be read: {error}", "give positions and lengths in metres") from error
 
 
-def parse_toml(file: str, text: str) -> Any:
-    """TOML, with the line of an error."""
+def parse_toml(file: str, text: str, described: str = "layouts/README.md") -> Any:
+    """TOML, with the line of an error; ``described``: the page that says what stands in such a file."""
     if DOTTED_KEY.search(text):
         raise too_deep(file)
     try:
@@ -95,11 +95,11 @@ def parse_toml(file: str, text: str) -> Any:
         found = re.search(r"\(at (line \d+, column \d+|end of document)\)", str(error))
         place = found.group(1) if found else "file"
         what = "is not TOML: " + re.sub(r" \(at .*\)$", "", str(error))
-        raise BadInput(file, place, what, "see layouts/README.md for the format") from error
+        raise BadInput(file, place, what, f"see {described} for the format") from error
     except RecursionError as error:
         raise too_deep(file) from error
     except ValueError as error:
-        raise BadInput(file, "number", f"cannot be read: {error}", "give positions in whole mm") from error
+        raise BadInput(file, "number", f"cannot be read: {error}", f"see {described} for the format") from error
 
 
 def too_deep(file: str) -> BadInput:

@@ -8,7 +8,7 @@ and its driver waits until the road has been closed for its time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from random import Random
 
@@ -24,6 +24,7 @@ from models.crossing.traffic import PERSON_S
 from models.simulation.diary import ROAD, STAFF, Diary
 from models.simulation.driver import ACCELERATES_MM_S2, LINE_MM_S
 from models.simulation.links import LIMITS, Links
+from models.simulation.posted import Must
 from models.simulation.roads import Ways
 from models.simulation.vehicle import Vehicle
 from models.simulation.wording import RANGING, Fields
@@ -51,8 +52,6 @@ CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN = (
     "the_road_is_closed_under_a_train",
     "the_road_opens_again",
 )
-
-Must = Callable[[str, bool, str], object]
 
 
 @dataclass

@@ -7,8 +7,6 @@ times.  A fault that the file does not name does not come.
 
 from __future__ import annotations
 
-import math
-import tomllib
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,6 +15,7 @@ from random import Random
 from typing import Any, Literal
 
 from models.layouts.results import BadInput
+from models.simulation.tables import number_of, tables_of
 
 Per = Literal["telegram", "tag", "train hour", "point hour", "crossing hour", "hour"]
 MOST_TIMES = 1_000
@@ -160,13 +159,7 @@ def read_faults(path: Path) -> Chosen:
     Raises:
         BadInput: the file cannot be read, names no fault of the table, or gives a number that cannot be.
     """
-    try:
-        given = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise BadInput(str(path), "file", f"cannot be read ({error.strerror})", "name another file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadInput(str(path), "file", f"is not TOML ({error})", "correct it there") from error
-    return {name: _setting(str(path), name, value) for name, value in given.items()}
+    return {name: _setting(str(path), name, value) for name, value in tables_of(path).items()}
 
 
 def _setting(file: str, name: str, given: Any) -> Setting:
@@ -180,7 +173,7 @@ def _setting(file: str, name: str, given: Any) -> Setting:
     for key in given:
         if key not in (*usual, "at_s"):
             raise BadInput(file, f"'{name}.{key}'", "there is no such key", "use rate, least, most or at_s")
-    numbers = {key: _number(file, f"{name}.{key}", given.get(key, number)) for key, number in usual.items()}
+    numbers = {key: number_of(file, f"'{name}.{key}'", given.get(key, number)) for key, number in usual.items()}
     if fault.is_share and numbers["rate"] > 1:
         raise BadInput(file, f"'{name}.rate'", f"{numbers['rate']:g} is no chance", "give a number from 0 to 1")
     if numbers["least"] > numbers["most"]:
@@ -194,10 +187,4 @@ def _times(file: str, fault: Fault, given: Any) -> tuple[float, ...]:
         raise BadInput(file, f"'{place}'", "is not a list of times", f"give at most {MOST_TIMES} in s, as [600.0]")
     if given and fault.is_share:
         raise BadInput(file, f"'{place}'", f"comes by its chance a {fault.per}", "give its rate")
-    return tuple(_number(file, place, each) for each in given)
-
-
-def _number(file: str, place: str, given: Any) -> float:
-    if isinstance(given, bool) or not isinstance(given, int | float) or not 0 <= given <= 1e6 or math.isnan(given):
-        raise BadInput(file, f"'{place}'", "is not a number from 0 to 1000000", "give one")
-    return float(given)
+    return tuple(number_of(file, f"'{place}'", each) for each in given)

@@ -7,7 +7,6 @@ track's name in the layout file and the distance in m from where that track begi
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -19,6 +18,7 @@ from models.concrete.train import OnRails
 from models.layouts.results import BadInput
 from models.layouts.track import HIGH, LOW, Heading
 from models.simulation.facing import onwards
+from models.simulation.tables import number_of, tables_of
 
 MOST_ROADS, MOST_PLACES = 99, 16
 
@@ -37,12 +37,7 @@ def read_roads(path: Path, rails: Rails) -> tuple[Road, ...]:
     Raises:
         BadInput: the file cannot be read, or names no place of the layout.
     """
-    try:
-        given = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise BadInput(str(path), "file", f"cannot be read ({error.strerror})", "name another file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise BadInput(str(path), "file", f"is not TOML ({error})", "correct it there") from error
+    given = tables_of(path)
     if len(given) > MOST_ROADS:
         raise BadInput(str(path), "file", f"has {len(given)} crossings", f"give at most {MOST_ROADS}")
     return tuple(_road(str(path), rails, name, value) for name, value in given.items())
@@ -55,19 +50,19 @@ def _road(file: str, rails: Rails, name: str, given: Any) -> Road:
         raise BadInput(file, f"'{name}'", "is not a table with a list 'places' alone", write)
     if not 1 <= len(given["places"]) <= MOST_PLACES:
         raise BadInput(file, f"'{name}.places'", "has no place, or too many", f"give 1 to {MOST_PLACES}")
-    return Road(name, tuple(_place(file, rails, f"'{name}.places'", each, write) for each in given["places"]))
+    return Road(name, tuple(_place(file, rails, name, each, write) for each in given["places"]))
 
 
-def _place(file: str, rails: Rails, where: str, given: Any, write: str) -> tuple[int, int]:
+def _place(file: str, rails: Rails, name: str, given: Any, write: str) -> tuple[int, int]:
     """The segment of a place, and how far it is along it."""
+    where = f"'{name}.places'"
     if not isinstance(given, dict) or set(given) != {"track", "at_m"}:
         raise BadInput(file, where, "an entry has other keys than 'track' and 'at_m'", write)
-    track, at_m = given["track"], given["at_m"]
+    track = given["track"]
     tracks = rails.segments.station.tracks
     if not isinstance(track, str) or track not in tracks:
         raise BadInput(file, where, f"{track!r} is no track of the layout", f"name one, as '{min(tracks)}'")
-    if isinstance(at_m, bool) or not isinstance(at_m, int | float) or math.isnan(at_m):
-        raise BadInput(file, where, "'at_m' is not a number", "give m from the track's beginning")
+    at_m = number_of(file, f"'{name}.places.at_m'", given["at_m"])
     for index, segment in enumerate(rails.segments.segments):
         if segment.track == track and segment.from_mm < at_m * 1_000 < segment.to_mm:
             return index, round(at_m * 1_000) - segment.from_mm

@@ -54,15 +54,15 @@ def test_each_theory_has_a_matrix_of_its_own_and_all_have_one_total() -> None:
     assert rows == ["request", "init", "take_fix"]
     assert "odometry.take_fix × range_contains_train: refuted" in lines
     totals = lines[-5:]
-    assert totals[0] == "interlocking: 1 transitions × 1 invariants: 1 obligations, 1 proved, 0 refuted, 0 undecided"
-    assert totals[1] == "odometry: 2 transitions × 2 invariants: 3 obligations, 2 proved, 1 refuted, 0 undecided"
-    assert totals[2] == "3 transitions × 3 invariants: 4 obligations, 3 proved, 1 refuted, 0 undecided"
+    assert totals[0] == "interlocking: 1 rows × 1 columns: 1 obligations, 1 proved, 0 refuted, 0 undecided"
+    assert totals[1] == "odometry: 2 rows × 2 columns: 3 obligations, 2 proved, 1 refuted, 0 undecided"
+    assert totals[2] == "3 rows × 3 columns: 4 obligations, 3 proved, 1 refuted, 0 undecided"
 
 
 def test_one_theory_alone_is_printed_as_ever() -> None:
     lines = matrix(Report([answer("request", "locks_agree")], 0.0, 0.0))
     assert "interlocking" not in lines
-    assert "1 transitions × 1 invariants: 1 obligations, 1 proved, 0 refuted, 0 undecided" in lines
+    assert "1 rows × 1 columns: 1 obligations, 1 proved, 0 refuted, 0 undecided" in lines
 
 
 def test_a_record_says_which_theory_it_is_of() -> None:

@@ -39,6 +39,9 @@ def test_a_file_names_what_comes(tmp_path: Path) -> None:
         ("[unit_restart]\nat_s = [-1]\n", "'unit_restart.at_s': is not a number"),
         ("[radio_loss]\nat_s = [60]\n", "'radio_loss.at_s': comes by its chance a telegram"),
         ("[radio_loss\n", "is not TOML"),
+        ("[radio_loss]\nrate = 1" + 400 * "0", "'radio_loss.rate': is not a number"),
+        ("[radio_loss]\nrate = 1" + 5_000 * "0", "number: cannot be read"),
+        ("a = " + 3_000 * "[", "nesting: is deeper"),
     ],
 )
 def test_what_is_wrong_is_told_in_one_line_by_its_key(tmp_path: Path, text: str, told: str) -> None:
