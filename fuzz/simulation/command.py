@@ -165,9 +165,9 @@ def _print(out: Console, found: Outcome, seconds: float) -> None:
         f"{sim.links.mended:,} mended; refused: {refused or 'none'}",
     )
     for name, state in sim.crossings.states.items():
-        closings = sim.crossings.closings(state, sim.now_s)
+        closings = state.closures(sim.now_s)
         longest_s = max((to_s - from_s for from_s, to_s in closings), default=0)
-        closed_s = sim.crossings.closed_s(state, sim.now_s)
+        closed_s = state.closed_in_all_s(sim.now_s)
         least = f", none sooner than {state.least_s} s after it was closed" if state.least_s is not None else ""
         print_line(
             out,

@@ -9,7 +9,6 @@ and its driver waits until the road has been closed for its time.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from random import Random
 
 from kernel.crossing import arrival
@@ -18,13 +17,15 @@ from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due
 from kernel.crossing.crossing import Train as Known
 from kernel.link import Party
-from kernel.names import Car, Train
+from kernel.names import Train
 from models.crossing.sites import EXCESS, SETTINGS
 from models.crossing.traffic import PERSON_S
+from models.simulation.crossing_state import LONG_AGO_S, REACH_MM, Seen, State, Told
 from models.simulation.diary import ROAD, STAFF, Diary
 from models.simulation.driver import ACCELERATES_MM_S2, LINE_MM_S
 from models.simulation.links import LIMITS, Links
 from models.simulation.posted import Must
+from models.simulation.road_oracles import judge_opening, judge_train
 from models.simulation.roads import Ways
 from models.simulation.vehicle import Vehicle
 from models.simulation.wording import RANGING, Fields
@@ -39,85 +40,10 @@ BOUNDS = ArrivalBounds(
 """Some more than trains are driven by; two rangings in a row may be lost."""
 START_MM = (SETTINGS.start_cycles + 1) * BOUNDS.line_um // 1_000
 """Start points lie so far before the road: the cycles of the settings at the greatest pace, and that of the strike."""
-REACH_MM = 2_200_000
-"""So far the crossing's radio reaches."""
 END_MM = 15_000
 """The rear is past the road here."""
 ARMS_S = (8, 10)
 """How long arms take to come down."""
-AT_LEAST_QUIET_S = 900
-"""Closed for nobody, though all is heard, a road is no longer than this; a fault may last 300 s."""
-CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN = (
-    "the_road_is_closed_before_every_train",
-    "the_road_is_closed_under_a_train",
-    "the_road_opens_again",
-)
-
-
-@dataclass
-class Told:
-    """A ranging that has come since the last decision; ``at_ms``: by the unit's clock."""
-
-    at_ms: int
-    way_mm: int
-    speed_mm_s: int
-
-
-@dataclass
-class Seen:
-    """What is truly so of a train before one road.
-
-    ``ahead_mm``: the shortest way to it.  ``over_mm``: where its path meets it, from the head's coming until its rear
-    is proved past.  ``under``: it is on the road.  ``leads``, ``front_mm``: the car that led then, and where it was.
-    """
-
-    leads: Car
-    front_mm: float
-    ahead_mm: float
-    over_mm: float | None
-    under: bool
-
-
-@dataclass
-class State:
-    """One crossing with its arms.
-
-    ``closed_s``: since when it warns; ``down_s``: since when its arms are down.  ``closings``: each closure as
-    [from, to].  ``passed``: trains that came over it; ``least_s``: the shortest time that the road was closed before.
-    ``attended_s``: when somebody will have looked for a train that cannot say that it is gone.
-    """
-
-    ways: Ways
-    party: Party
-    crossing: Crossing
-    arms_s: int
-    lowered: int
-    closed_s: int | None
-    down_s: int | None
-    followed: dict[Train, Followed] = field(default_factory=dict)
-    told: dict[Train, Told] = field(default_factory=dict)
-    struck: set[Train] = field(default_factory=set)
-    strikes: list[Train] = field(default_factory=list)
-    seen: dict[Train, Seen] = field(default_factory=dict)
-    attended_s: dict[Train, int] = field(default_factory=dict)
-    terminal_silent_until_ms: int = 0
-    quiet_s: int = 0
-    closings: list[tuple[int, int]] = field(default_factory=list)
-    passed: int = 0
-    least_s: int | None = None
-
-    @property
-    def name(self) -> str:
-        """The road's name."""
-        return self.ways.road.name
-
-    @property
-    def track(self) -> CrossingTrack:
-        """All start points of a road have one terminal."""
-        return CrossingTrack(self.name)
-
-
-LONG_AGO_S = -3_600
 
 
 class Crossings:
@@ -298,33 +224,18 @@ class Crossings:
             self._judge_opening(state)
 
     def _judge(self, state: State, train: Train, vehicle: Vehicle, now_s: int) -> None:
-        """No head comes onto the road before it is closed for its time, and nobody is on it while it is not."""
+        """See where a train is now, and what it meets there."""
         before = state.seen[train]
         if before.ahead_mm > REACH_MM and not before.under:
             return
         self._look(state, train, vehicle)
-        if not state.seen[train].under:
-            return
-        closed_s = -1 if state.closed_s is None else now_s - state.closed_s
-        down_s = -1 if state.down_s is None else now_s - state.down_s
-        if not before.under:
-            state.passed += 1
-            if state.closed_s != LONG_AGO_S:
-                state.least_s = closed_s if state.least_s is None else min(state.least_s, closed_s)
-            in_time = closed_s >= SETTINGS.warning_cycles and down_s >= SETTINGS.least_down_cycles
-            told = f"{train} comes to {state.name}: it warns for {closed_s} s, arms are down for {down_s} s"
-            self.must(CLOSED_IN_TIME, in_time, told)
-        self.must(CLOSED_UNDER, down_s >= 0, f"{train} is on {state.name}, and its arms are not down")
+        judge_train(self.must, state, train, before, now_s)
 
     def _judge_opening(self, state: State) -> None:
-        """The road is open again once nobody has been coming for long."""
+        """A road that is closed while all is heard is so for somebody."""
         silent = self.links.air.agenda.now_ms < state.terminal_silent_until_ms
-        if not state.crossing.warns or silent or any(self._may_come(state, train) for train in self.vehicles):
-            state.quiet_s = 0
-        else:
-            state.quiet_s += 1
-        so = state.quiet_s < AT_LEAST_QUIET_S
-        self.must(OPENS_AGAIN, so, f"{state.name} is closed, and nobody has been coming for {state.quiet_s} s")
+        closed = state.crossing.warns and not silent
+        judge_opening(self.must, state, closed and not any(self._may_come(state, train) for train in self.vehicles))
 
     def _may_come(self, state: State, train: Train) -> bool:
         """Whether a train is on its way, or is known and cannot say that it is not."""
@@ -334,7 +245,7 @@ class Crossings:
         mute = vehicle.restarted or not vehicle.board.place.known or not self._is_whole(vehicle)
         return mute and Known(train) in state.crossing.asks
 
-    # ---- for drivers, and for the record
+    # ---- for drivers
 
     def lets_depart(self, train: Train) -> bool:
         """Whether a train at rest may begin its run, by every road that is near ahead.
@@ -352,12 +263,3 @@ class Crossings:
     def _lets_depart(self, state: State, train: Train) -> bool:
         asks = state.crossing.asks.get(Known(train))
         return asks is False or (asks is True and state.crossing.warned_cycles >= SETTINGS.warning_cycles)
-
-    def closings(self, state: State, now_s: int) -> list[tuple[int, int]]:
-        """Each closure of a road as [from, to]; one that still lasts goes up to now."""
-        lasts = [] if state.closed_s is None else [(max(0, state.closed_s), now_s)]
-        return [*state.closings, *lasts]
-
-    def closed_s(self, state: State, now_s: int) -> int:
-        """How long a road was closed in all."""
-        return sum(to_s - from_s for from_s, to_s in self.closings(state, now_s))

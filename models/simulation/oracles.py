@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from kernel.names import Block, Car, Train
-from models.simulation.crossings import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
 from models.simulation.posted import ONLY_WHAT_WAS_SENT, SILENCE
+from models.simulation.road_oracles import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
 from models.simulation.vehicle import Vehicle
 from models.world.state import Site, System
 

@@ -9,7 +9,7 @@ from typing import Any, Literal
 from kernel.link import Outcome as Delivery
 from kernel.names import Stage, Train
 from models.simulation.beginning import Plan
-from models.simulation.crossings import State
+from models.simulation.crossing_state import State
 from models.simulation.faults import Chosen
 from models.simulation.history import History
 from models.simulation.links import CENTRE
@@ -199,10 +199,10 @@ def _telegrams(sim: Simulation) -> dict[str, Any]:
 def _road(sim: Simulation, state: State) -> dict[str, Any]:
     """How long a road was closed, each time from and to, how many trains came, and after how long at the least."""
     return {
-        "closed_s": sim.crossings.closed_s(state, sim.now_s),
+        "closed_s": state.closed_in_all_s(sim.now_s),
         "trains": state.passed,
         "least_warning_s": state.least_s,
-        "closings": sim.crossings.closings(state, sim.now_s),
+        "closings": state.closures(sim.now_s),
     }
 
 

@@ -23,11 +23,12 @@ from models.concrete.train import OnRails
 from models.crossing.sites import SETTINGS
 from models.layouts import BadInput
 from models.layouts.track import HIGH, LOW
-from models.simulation import crossings
+from models.simulation import crossings, road_oracles
 from models.simulation.beginning import rails_of
-from models.simulation.crossings import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN, Crossings
+from models.simulation.crossings import Crossings
 from models.simulation.facing import onwards
 from models.simulation.faults import NO_FAULT, Chosen, Setting
+from models.simulation.road_oracles import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
 from models.simulation.roads import Ways, read_roads
 from models.simulation.simulation import Simulation
 from tests.simulation.lines import HARD, ROADS, SAMPLES, imported, plan, road, simulated
@@ -69,7 +70,7 @@ def test_without_faults_a_road_is_closed_for_trains_alone_and_not_much_longer_th
     sim = line(NO_FAULT, seed=3, hours=0.6)
     assert not sim.oracles.found
     for state in sim.crossings.states.values():
-        closings = sim.crossings.closings(state, sim.now_s)
+        closings = state.closures(sim.now_s)
         assert state.passed >= 2
         assert 0 < len(closings) <= state.passed
         assert sum(to_s - from_s for from_s, to_s in closings) < sim.now_s / 3
@@ -97,7 +98,7 @@ def test_a_train_that_begins_on_the_road_has_it_closed() -> None:
 def test_a_start_point_that_is_not_heard_closes_the_road_until_it_is() -> None:
     sim = line({"start_point_silent": Setting(0, 60, 60, (30.0,))}, trains=1, hours=0.03)
     assert not sim.oracles.found
-    closings = [each for state in sim.crossings.states.values() for each in sim.crossings.closings(state, sim.now_s)]
+    closings = [each for state in sim.crossings.states.values() for each in state.closures(sim.now_s)]
     (from_s, to_s), *_ = closings
     assert 30 + SETTINGS.silence_cycles <= from_s <= 30 + SETTINGS.silence_cycles + 2
     assert 90 <= to_s <= 92
@@ -153,7 +154,7 @@ def test_a_crossing_that_decides_wrongly_is_noticed(
     monkeypatch: pytest.MonkeyPatch, decides: Any, sees: set[str]
 ) -> None:
     monkeypatch.setattr("models.simulation.crossings.machine.decide", decides)
-    monkeypatch.setattr(crossings, "AT_LEAST_QUIET_S", 120)
+    monkeypatch.setattr(road_oracles, "AT_LEAST_QUIET_S", 120)
     assert broken(line(NO_FAULT, hours=0.5)) == sees
 
 

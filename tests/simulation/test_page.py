@@ -69,11 +69,7 @@ def test_everything_is_drawn(page: Path, tab: Browser, found: Outcome) -> None:
     there = tab.value("document.querySelectorAll('#chart .there').length")
     assert there == sum(stay.there for stay in found.history.stays)
     assert tab.value("document.querySelectorAll('#events li').length") == len(found.sim.diary.events)
-    closings = [
-        each
-        for state in found.sim.crossings.states.values()
-        for each in found.sim.crossings.closings(state, found.sim.now_s)
-    ]
+    closings = [each for state in found.sim.crossings.states.values() for each in state.closures(found.sim.now_s)]
     assert tab.value("document.querySelectorAll('#lines .closed').length") == len(closings) > 0
     assert tab.value("document.querySelectorAll('#track path.road').length") == len(ROADS["passing_station"])
     lit = tab.value("document.querySelectorAll('#track .rail.there').length")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from models.simulation.crossings import State
+from models.simulation.crossing_state import State
 from models.simulation.history import EVERY_S
 from models.simulation.kilometres import Kilometres
 from models.simulation.outcome import Outcome
@@ -79,7 +79,7 @@ def _road(found: Outcome, state: State) -> dict[str, Any]:
     return {
         "name": state.name,
         "places": places,
-        "closings": found.sim.crossings.closings(state, found.sim.now_s),
+        "closings": state.closures(found.sim.now_s),
     }
 
 
