@@ -46,6 +46,7 @@ class State:
 
     ``closed_s``: since when it warns; ``down_s``: since when its arms are down.  ``closings``: each closure as
     [from, to].  ``passed``: trains that came over it; ``least_s``: the shortest time that the road was closed before.
+    ``quiet_s``: for how long it has been closed for nobody, or has known a train that is gone.
     ``attended_s``: when somebody will have looked for a train that cannot say that it is gone.
     """
 
@@ -63,7 +64,7 @@ class State:
     seen: dict[Train, Seen] = field(default_factory=dict)
     attended_s: dict[Train, int] = field(default_factory=dict)
     terminal_silent_until_ms: int = 0
-    quiet_s: int = 0
+    quiet_s: dict[str, int] = field(default_factory=dict)
     closings: list[tuple[int, int]] = field(default_factory=list)
     passed: int = 0
     least_s: int | None = None

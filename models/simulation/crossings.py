@@ -25,7 +25,7 @@ from models.simulation.diary import ROAD, STAFF, Diary
 from models.simulation.driver import ACCELERATES_MM_S2, LINE_MM_S
 from models.simulation.links import LIMITS, Links
 from models.simulation.posted import Must
-from models.simulation.road_oracles import judge_opening, judge_train
+from models.simulation.road_oracles import NOBODY, judge_opening, judge_train
 from models.simulation.roads import Ways
 from models.simulation.vehicle import Vehicle
 from models.simulation.wording import RANGING, Fields
@@ -232,10 +232,13 @@ class Crossings:
         judge_train(self.must, state, train, before, now_s)
 
     def _judge_opening(self, state: State) -> None:
-        """A road that is closed while all is heard is so for somebody."""
+        """While all is heard a road is closed for somebody, and whoever it knows of may come."""
         silent = self.links.air.agenda.now_ms < state.terminal_silent_until_ms
-        closed = state.crossing.warns and not silent
-        judge_opening(self.must, state, closed and not any(self._may_come(state, train) for train in self.vehicles))
+        away = [train for train in self.vehicles if not self._may_come(state, train)]
+        kept_for: list[str] = [train for train in away if Known(train) in state.crossing.asks and not silent]
+        if state.crossing.warns and not silent and len(away) == len(self.vehicles):
+            kept_for.append(NOBODY)
+        judge_opening(self.must, state, kept_for)
 
     def _may_come(self, state: State, train: Train) -> bool:
         """Whether a train is on its way, or is known and cannot say that it is not."""

@@ -54,7 +54,7 @@ FAULTS: tuple[Fault, ...] = (
         "it is refused as too old, or as overtaken, and sent again",
     ),
     Fault(
-        "radio_repetition", "a telegram comes once more", "telegram", 0.02, "s", 1, 120,
+        "radio_repetition", "a telegram comes once more", "telegram", 0.02, "s", 0.1, 4,
         "nothing: it is refused as repeated, or as too old",
     ),
     Fault(

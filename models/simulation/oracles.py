@@ -28,7 +28,7 @@ ORACLES: Mapping[str, str] = {
     ONLY_WHAT_WAS_SENT: "what a link delivers its peer has sent so, in this session, of late, in order and once (T11)",
     CLOSED_IN_TIME: "the road is warned and its arms are down for their times before a head comes onto it (X2, X3, X5)",
     CLOSED_UNDER: "the arms are down while a train is on the road (X4)",
-    OPENS_AGAIN: "the road is open when nobody has been coming for long (X4)",
+    OPENS_AGAIN: "no road is kept closed for nobody, or for a train that is gone, for long (X4)",
     SILENCE: "a link that does not count as silent has delivered something of late (T8, T11)",
 }
 TOLERANCE_MM = 1.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from kernel.names import Train
 from models.crossing.sites import SETTINGS
 from models.simulation.crossing_state import LONG_AGO_S, Seen, State
@@ -9,6 +11,7 @@ from models.simulation.posted import Must
 
 AT_LEAST_QUIET_S = 900
 """Closed for nobody, though all is heard, a road is no longer than this; a fault may last 300 s."""
+NOBODY = "nobody"
 CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN = (
     "the_road_is_closed_before_every_train",
     "the_road_is_closed_under_a_train",
@@ -32,8 +35,8 @@ def judge_train(must: Must, state: State, train: Train, before: Seen, now_s: int
     must(CLOSED_UNDER, down_s >= 0, f"{train} is on {state.name}, and its arms are not down")
 
 
-def judge_opening(must: Must, state: State, for_nobody: bool) -> None:
-    """The road is open again once nobody has been coming for long; ``for_nobody``: now it is closed and none comes."""
-    state.quiet_s = state.quiet_s + 1 if for_nobody else 0
-    so = state.quiet_s < AT_LEAST_QUIET_S
-    must(OPENS_AGAIN, so, f"{state.name} is closed, and nobody has been coming for {state.quiet_s} s")
+def judge_opening(must: Must, state: State, kept_for: Iterable[str]) -> None:
+    """The road opens again; ``kept_for``: trains it knows though they are gone, or ``NOBODY`` where it is closed."""
+    state.quiet_s = {who: state.quiet_s.get(who, 0) + 1 for who in kept_for}
+    who, longest_s = max(state.quiet_s.items(), key=lambda each: each[1], default=(NOBODY, 0))
+    must(OPENS_AGAIN, longest_s < AT_LEAST_QUIET_S, f"{state.name} is kept for {who}, not coming for {longest_s} s")

@@ -158,6 +158,12 @@ def test_a_crossing_that_decides_wrongly_is_noticed(
     assert broken(line(NO_FAULT, hours=0.5)) == sees
 
 
+def test_a_train_that_is_gone_and_not_forgotten_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("models.simulation.crossings.machine.note_gone", lambda known, _train, _whole: known)
+    monkeypatch.setattr(road_oracles, "AT_LEAST_QUIET_S", 120)
+    assert broken(line(NO_FAULT, hours=0.5)) == {OPENS_AGAIN}
+
+
 def test_a_train_that_is_believed_slower_than_it_is_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     slow = replace(crossings.BOUNDS, line_um=15_000_000, gain_um=100_000)
     monkeypatch.setattr(crossings, "BOUNDS", slow)
