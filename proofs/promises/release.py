@@ -67,14 +67,19 @@ def its_standstill_is_in_the_air(site: Site, system: System, run: Run, block: Bl
     return run.route in site.layout.routes and block in site.layout.overlap[run.route] and run in system.radio.stops
 
 
-def a_run_that_holds_nothing_is_forgotten(site: Site, system: System, run: Run) -> bool:
-    """The centre does not remember for ever a run that holds no block (T8)."""
+def a_run_that_holds_nothing_is_forgotten(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The centre does not remember a run for ever; and until it is forgotten, what is free of it stays free (T8)."""
     return run not in system.centre.runs
 
 
+def the_block_is_free_of_it(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The block is not held for the run, and never will be again."""
+    return run in system.centre.runs and not holds(system, run, block)
+
+
 def it_holds_nothing(site: Site, system: System, run: Run) -> bool:
-    """No block is held for the run, and none ever will be again."""
-    return run in system.centre.runs and all(run not in holders for _block, holders in system.centre.claimed.items())
+    """No other block is held for it either."""
+    return all(run not in holders for _block, holders in system.centre.claimed.items())
 
 
 PROMISES = (
@@ -92,6 +97,9 @@ PROMISES = (
         ),
         an_overlap_is_freed,
     ),
-    Promise((Link(it_holds_nothing, at_the_centre.retire),), a_run_that_holds_nothing_is_forgotten),
+    Promise(
+        (Link(the_block_is_free_of_it, at_the_centre.retire, it_holds_nothing),),
+        a_run_that_holds_nothing_is_forgotten,
+    ),
 )
 """In the order in which a run comes to them."""
