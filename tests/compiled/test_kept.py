@@ -91,11 +91,14 @@ def kept(cache: Path) -> dict[str, bytes]:
 
 
 def test_two_processes_compile_at_once_and_the_next_reads(tmp_path: Path) -> None:
-    """Neither sees half of a file of the other; what both kept is whole."""
+    """Neither sees half of a file of the other; what both kept is whole.
+
+    Whichever is ahead has kept a function before the other asks for it, so each function is compiled by one or both.
+    """
     both = [started(RUN, tmp_path) for _ in range(2)]
-    (found, names), (other, _) = map(answer, both)
+    (found, names), (other, others) = map(answer, both)
     assert found == other
-    assert names == ALL
+    assert sorted({*names, *others}) == ALL
     files = kept(tmp_path)
     assert len(files) == len(ALL)
     assert answer(started(RUN, tmp_path)) == [found, []]
