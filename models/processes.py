@@ -1,14 +1,33 @@
-"""Work spread over processes, its results in order."""
+"""Work spread over processes that end when whoever started them does."""
 
 from __future__ import annotations
 
+import os
+import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing import get_context, parent_process
 from typing import TypeVar
 
 Work = TypeVar("Work")
 Found = TypeVar("Found")
+
+
+@contextmanager
+def processes(jobs: int, *, one_each: bool = False) -> Iterator[ProcessPoolExecutor]:
+    """Give so many processes; what has not begun when they are left is not begun.
+
+    ``one_each``: each piece of work has a process of its own.  None is forked: a forked one would share what the
+    solvers hold, and could wait for it for ever.
+    """
+    most = 1 if one_each else None
+    spawned = get_context("spawn")
+    pool = ProcessPoolExecutor(jobs, spawned, initializer=_end_with_parent, max_tasks_per_child=most)
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iterator[Found]:
@@ -16,5 +35,28 @@ def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iter
     if jobs <= 1 or len(todo) <= 1:
         yield from map(do, todo)
         return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+    with processes(jobs) as pool:
         yield from pool.map(do, todo)
+
+
+def as_they_end(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iterator[Found]:
+    """Do each piece of work in one of so many processes; what comes of them, whichever ends first."""
+    if jobs <= 1 or len(todo) <= 1:
+        yield from map(do, todo)
+        return
+    with processes(jobs) as pool:
+        for future in as_completed([pool.submit(do, each) for each in todo]):
+            yield future.result()
+
+
+def _end_with_parent() -> None:
+    """End this process when its parent has: killed, a parent ends nobody, and its work would go on for hours."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

@@ -13,10 +13,8 @@ import re
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, TypedDict
 from unittest.mock import patch
@@ -24,6 +22,7 @@ from unittest.mock import patch
 import z3
 
 from models.exit_codes import HOLDS, UNDECIDED
+from models.processes import spread
 from proofs import scripts
 from proofs.lift import expressions, statements
 from proofs.lift.frames import Frame
@@ -197,11 +196,10 @@ def found(only: str, jobs: int) -> list[Row]:
         chosen = tuple(each for each in theory_of(row)[0].invariants if re.search(only, f"{row} {each}"))
         todo += [(row, chosen)] * bool(chosen)
     rows: list[Row] = []
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        for each in pool.map(row_of_cores, todo):
-            rows.append(each)
-            if sys.stderr.isatty():
-                print(f"{len(rows)}/{len(todo)} {each.transition}", file=sys.stderr, flush=True)
+    for each in spread(row_of_cores, todo, jobs):
+        rows.append(each)
+        if sys.stderr.isatty():
+            print(f"{len(rows)}/{len(todo)} {each.transition}", file=sys.stderr, flush=True)
     return rows
 
 

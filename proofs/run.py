@@ -7,13 +7,12 @@ import hashlib
 import inspect
 import re
 import time
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from multiprocessing import get_context
 from pathlib import Path
 
+from models.processes import spread
 from proofs import canaries, lookups, promised, scripts, smtlib, solvers
 from proofs.records import Obligation, Report, Source, Verdict, write_whole
 from proofs.theories import ROWS, THEORIES, columns, theory_of
@@ -158,16 +157,8 @@ def prove_all(
     seen = canaries.seen(asked) if todo else []
     obligations: list[Obligation] = []
     lifting = 0.0
-    for done, (found, seconds) in enumerate(_results(todo, jobs), 1):
+    for done, (found, seconds) in enumerate(spread(work, todo, jobs), 1):
         obligations += found
         lifting += seconds
         progress(done, len(todo), todo[done - 1].row)
     return Report(obligations, lifting, time.perf_counter() - began, seen)
-
-
-def _results(todo: list[Task], jobs: int) -> Iterable[tuple[list[Obligation], float]]:
-    if jobs <= 1 or len(todo) <= 1:
-        yield from map(work, todo)
-        return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(work, todo)

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import re
 import sys
-from concurrent.futures import ProcessPoolExecutor
 
 import z3
 
+from models.processes import spread
 from proofs import scripts
 from proofs.run import bench, laid_out
 from proofs.theories import ROWS, columns, theory_of
@@ -80,21 +80,20 @@ def main(pattern: str = "") -> int:
     """Search every obligation that matches and write the scripts."""
     tasks = [(row, [name for name in columns(row) if re.search(pattern, f"{row} {name}")]) for row in ROWS]
     missing = 0
-    with ProcessPoolExecutor(2) as pool:
-        for transition, found in pool.map(find_row, [task for task in tasks if task[1]]):
-            known = {
-                invariant: names
-                for invariant, names in scripts.script(transition).items()
-                if invariant in columns(transition)
-            }
-            for invariant, names in found.items():
-                if names is None:
-                    missing += 1
-                    print(f"open: {transition} {invariant}", flush=True)
-                else:
-                    known[invariant] = names
-            scripts.write(transition, known)
-            print(f"{transition}: {len(found)} searched", flush=True)
+    for transition, found in spread(find_row, [task for task in tasks if task[1]], 2):
+        known = {
+            invariant: names
+            for invariant, names in scripts.script(transition).items()
+            if invariant in columns(transition)
+        }
+        for invariant, names in found.items():
+            if names is None:
+                missing += 1
+                print(f"open: {transition} {invariant}", flush=True)
+            else:
+                known[invariant] = names
+        scripts.write(transition, known)
+        print(f"{transition}: {len(found)} searched", flush=True)
     return 1 if missing else 0
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 from typing import Protocol, runtime_checkable
 
 from fuzz.planted.canaries import MOST_SECONDS, NOTHING_SHOWN, Canary, canaries
 from fuzz.targets.target import Batch, Target
+from models.processes import processes
 
 MANY = 10**9
 
@@ -46,7 +45,7 @@ def seek(targets: Sequence[Target], seed: int, workers: int) -> list[Sought]:
     wanted = [(canary, found) for canary in canaries(seed) if (found := carriers(targets, canary))]
     if not wanted:
         return []
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn"), max_tasks_per_child=1) as pool:
+    with processes(workers, one_each=True) as pool:
         going = [pool.submit(hunted, canary.kind, canary.name, on, seed) for canary, on in wanted]
         return [each.result() for each in going]
 

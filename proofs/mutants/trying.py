@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import random
 import re
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
-from typing import Any, TypeVar
+from collections.abc import Callable
+from typing import Any
 
+from models.processes import as_they_end
 from proofs.mutants.classes import SERVICE, objection, table
 from proofs.mutants.record import Trials
 from proofs.mutants.targets import mutants, of_interlocking, theories_of, transitions_of
 from proofs.mutants.trial import tried
 
-Result = TypeVar("Result")
 Verdicts = dict[str, dict[str, Any]]
 Progress = Callable[[int, int, str, dict[str, Any]], object]
 """Told of each trial as it ends: how many have ended, of how many, the mutant, its verdict."""
@@ -23,28 +21,14 @@ Progress = Callable[[int, int, str, dict[str, Any]], object]
 def try_all(names: list[str], jobs: int, trials: Trials, progress: Progress = lambda *_: None) -> Verdicts:
     """Try those that have no verdict yet, judge all, and keep it."""
     todo = [name for name in names if name not in trials.verdicts]
-    for done, (name, verdict) in enumerate(_as_they_end(trial, todo, jobs), 1):
+    for done, (name, verdict) in enumerate(as_they_end(trial, todo, jobs), 1):
         trials.note(name, [theory.name for theory in theories_of(mutants()[name].function)], verdict)
         progress(done, len(todo), name, verdict)
     dead = {name: killed(name, trials.verdicts[name]["outcome"]) for name in names}
-    for name, kind, wrong in _as_they_end(judged, names, jobs, dead):
+    for name, kind, wrong in as_they_end(judged, list(dead.items()), jobs):
         trials.verdicts[name] |= {"class": kind, "objection": wrong}
     trials.keep()
     return {name: trials.verdicts[name] for name in names}
-
-
-def _as_they_end(
-    do: Callable[..., Result], names: list[str], jobs: int, more: Mapping[str, Any] | None = None
-) -> Iterator[Result]:
-    """Do something for each name, and give what comes of it, whichever ends first."""
-    given = [(name,) if more is None else (name, more[name]) for name in names]
-    if jobs <= 1 or len(given) <= 1:
-        yield from (do(*each) for each in given)
-        return
-    # Forked processes would share what the solvers hold, and could wait for each other for ever.
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        for future in as_completed([pool.submit(do, *each) for each in given]):
-            yield future.result()
 
 
 def trial(name: str) -> tuple[str, dict[str, Any]]:
@@ -64,8 +48,9 @@ def killed(name: str, outcome: str) -> bool:
     )
 
 
-def judged(name: str, is_killed: bool) -> tuple[str, str, str]:
-    """The class of a mutant, and what is wrong with it if anything is."""
+def judged(mutant: tuple[str, bool]) -> tuple[str, str, str]:
+    """The class of a mutant, and what is wrong with it if anything is; given its name, and whether it was killed."""
+    name, is_killed = mutant
     entry = table().get(name)
     if is_killed:
         idle = entry is not None and entry.kind != SERVICE
