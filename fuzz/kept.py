@@ -13,7 +13,9 @@ from typing import Any
 import llvmlite
 import numba
 from numba.core import config as settings
+from numba.core.dispatcher import Dispatcher
 
+from models.compiled.called import Inner
 from models.kept_folder import kept_folder
 from models.names_apart import name_apart
 
@@ -39,10 +41,10 @@ class Kept:
         return kept_folder(digest.hexdigest()[:24])
 
     @contextmanager
-    def kept_in(self) -> Iterator[bool]:
-        """Have numba keep what is compiled meanwhile in the folder; tells whether there is one."""
+    def kept_in(self, part: str = "") -> Iterator[bool]:
+        """Have numba keep what is compiled meanwhile in the folder, or a part of it; tells whether there is one."""
         before = config.CACHE_DIR
-        config.CACHE_DIR = "" if self.folder is None else str(self.folder)
+        config.CACHE_DIR = "" if self.folder is None else str(self.folder / part)
         try:
             yield self.folder is not None
         finally:
@@ -60,8 +62,15 @@ class Kept:
 
     def compiled(self, function: Callable[..., Any]) -> Any:
         """Compile a function by numba, when it is first called."""
-        with self.kept_in() as kept:
-            return numba.njit(cache=kept)(function)
+        outer: Any = numba.njit(function)
+        if not isinstance(outer, Dispatcher):
+            return outer
+        made = Inner(outer)
+        for each, called_from in ((made, ""), (outer, "python")):
+            with self.kept_in(called_from) as kept:
+                if kept:
+                    each.enable_caching()
+        return made
 
 
 name_apart()

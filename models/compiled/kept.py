@@ -24,6 +24,7 @@ from numba import core as numba_core
 from numba.core.caching import NullCache
 from numba.core.serialize import NumbaPickler
 
+from models.compiled.called import Inner
 from models.compiled.contents import Unknown, digest_of, digest_of_types
 from models.kept_folder import kept_folder
 from models.names_apart import name_apart
@@ -43,9 +44,12 @@ def compiled(function: Any = None, /, **options: Any) -> Any:
     """Compile a function by numba, with its options, when it is first called; the next process reads it."""
     if function is None:
         return lambda named: compiled(named, **options)
-    made: Any = numba.njit(function, **options)
-    if isinstance(made, core.dispatcher.Dispatcher):
-        made._cache = Keeping(made)
+    outer: Any = numba.njit(function, **options)
+    if not isinstance(outer, core.dispatcher.Dispatcher):
+        return outer
+    made = Inner(outer)
+    for each in (outer, made):
+        each._cache = Keeping(each)
     return made
 
 
