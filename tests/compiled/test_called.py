@@ -55,3 +55,11 @@ def test_what_is_refused_is_refused_from_python_too(functions: tuple[Any, Any]) 
         with pytest.raises(TypeError, match="argument"):
             below(1, 2, 3)
     assert below(20) == 6
+
+
+def test_python_is_led_in_once_for_each_types(functions: tuple[Any, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """From the second call on nobody looks for the way in again."""
+    below, _ = functions
+    assert (below(20), below(20.0)) == (6, 6.0)
+    monkeypatch.setattr(below, "outer", None)
+    assert (below(21), below(21.5)) == (7, 7.0)
