@@ -34,4 +34,5 @@ class Refusal(Enum):
     BLOCK_HELD = "a train is held in the block"
     STILL_CLAIMED = "the run still holds a block"
     PROCEDURE_NOT_OPEN = "no supervised procedure is open for this train"
+    STATEMENTS_DIFFER = "the two persons have stated different places"
     NO_STATEMENT = "the first person has not stated the same"

@@ -1,8 +1,8 @@
 """Supervised release: two persons on the spot account for a train whose unit cannot (T8, ours).
 
 The first isolates the unit, which begins a new life that no authority reaches, and states
-where the train stands; the second looks for himself and confirms.  Only then, and only while
-the signaller keeps the procedure open, is the statement taken for the train's own word.
+where the train stands; the second looks for himself and confirms the place.  Only if both say the
+same, and only while the signaller keeps the procedure open, is it taken for the train's own word.
 """
 
 from __future__ import annotations
@@ -35,26 +35,42 @@ def note_statement(centre: Centre, train: Train, life: UnitLife, epoch: Epoch, b
 
 
 def supervised_refusal(
-    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
+    layout: Layout,
+    centre: Centre,
+    train: Train,
+    life: UnitLife,
+    epoch: Epoch,
+    blocks: frozenset[Block],
+    run: Run,
 ) -> Refusal | None:
-    """Say why the second person's confirmation does not account for the train (T8)."""
+    """Say why the second person's confirmation does not account for the train (T8).
+
+    ``blocks``: where the second person has seen it.
+    """
     if train not in centre.supervised:
         return Refusal.PROCEDURE_NOT_OPEN
     said = centre.statements.get(train)
     if said is None or said.life != life:
         return Refusal.NO_STATEMENT
+    if said.blocks != blocks:
+        return Refusal.STATEMENTS_DIFFER
     return standing_refusal(layout, centre, train, life, epoch, run)
 
 
 def note_statement_confirmed(
-    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
+    layout: Layout,
+    centre: Centre,
+    train: Train,
+    life: UnitLife,
+    epoch: Epoch,
+    blocks: frozenset[Block],
+    run: Run,
 ) -> Centre:
-    """Account for the train as stated: the second person has confirmed it; the procedure closes (T8)."""
-    said = centre.statements.get(train)
-    if said is None or supervised_refusal(layout, centre, train, life, epoch, run) is not None:
+    """Account for the train as stated: the second person has seen it in the same blocks; the procedure closes (T8)."""
+    if supervised_refusal(layout, centre, train, life, epoch, blocks, run) is not None:
         return centre
     return replace(
-        account_for(layout, centre, said.blocks, run, Cause.SUPERVISED),
+        account_for(layout, centre, blocks, run, Cause.SUPERVISED),
         supervised=centre.supervised - {train},
         statements={other: words for other, words in centre.statements.items() if other != train},
     )

@@ -66,11 +66,14 @@ TRANSITIONS: tuple[Transition, ...] = (
     nature.start_rolling,
     nature.overrun,
     nature.come_to_rest,
+    nature.change_ends,
+    nature.head_misses,
     nature.car_moves,
     nature.car_follows,
     nature.car_leaves,
     nature.part,
     nature.take_over,
+    nature.correct_statement,
     nature.confirm_statement,
 )
 

@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from random import Random
 
-from kernel.names import Antenna, Read, Run, Tag
+from kernel.names import Read, Run, Tag
 from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
 from models.simulator.play import Play
-from models.world.assumptions import a_healthy_line_reaches_the_tail, a_pair_read_in_order_proves_the_exit
+from models.world.assumptions import (
+    a_healthy_line_reaches_the_tail,
+    a_missed_tag_is_overdue_before_the_tail_comes,
+    a_pair_passed_in_order_proves_the_exit,
+    a_tag_is_read_where_it_lies,
+)
 
 
 class NatureRefusedError(AssertionError):
@@ -62,13 +67,28 @@ class Drive:
             self.enters(train, run, what)
         elif what.kind == "leaves":
             self.must(self.play.take("car_leaves", car=what.car, block=what.block), what)
+        elif what.kind == "head reads" and self.random.random() < self.missed:
+            self.head_misses(train, what)
         elif self.random.random() < self.missed:
             self.seen["missed"] += 1
         elif what.kind == "head reads":
-            cab = self.play.site.formation.cab[what.car]
-            self.play.take("head_reads", train=train.name, cab=cab, tag=what.tag, in_window=True)
+            self.head_reads(train, what, what.tag, True)
         else:
             self.tail_reads(train, run, what)
+
+    def head_reads(self, train: OnRails, what: Happening, tag: Tag | None, in_window: bool) -> None:
+        """The head's antenna reads a tag."""
+        assert tag is not None
+        site, system = self.play.site, self.play.system
+        cab = system.track.facing[train.name]
+        self.must(a_tag_is_read_where_it_lies(site, system, cab, tag), what)
+        self.play.take("head_reads", train=train.name, cab=cab, tag=tag, in_window=in_window)
+
+    def head_misses(self, train: OnRails, what: Happening) -> None:
+        """The head passes a tag unread; by running distance it is overdue before the tail comes."""
+        self.seen["missed"] += 1
+        self.play.take("head_misses", train=train.name, tag=what.tag)
+        self.play.take("window_passes", train=train.name)
 
     def enters(self, train: OnRails, run: Run, what: Happening) -> None:
         """A front axle of a car comes into a block: under the run, or after a car that is ahead of it there."""
@@ -97,13 +117,10 @@ class Drive:
         healthy = self.reads_as_tail(train, what.tag)
         site, system = self.play.site, self.play.system
         read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
-        unit = system.units[run.train]
-        true = a_healthy_line_reaches_the_tail(site, system, run, Antenna.TAIL, cab, healthy)
-        if unit.tail_read is not None and unit.tail_cab == cab:
-            true = true and a_pair_read_in_order_proves_the_exit(site, system, run, what.car, unit.tail_read, read)
-        self.must(true, what)
-        event = {"antenna": Antenna.TAIL, "cab": cab, "healthy": healthy, "read": read}
-        self.play.take("tail_reads", run=run, car=what.car, **event)
+        self.must(a_healthy_line_reaches_the_tail(site, system, run, what.car, cab, healthy), what)
+        self.must(a_missed_tag_is_overdue_before_the_tail_comes(system, run.train), what)
+        self.must(a_pair_passed_in_order_proves_the_exit(site, system, run, what.car, read), what)
+        self.play.take("tail_reads", run=run, car=what.car, cab=cab, healthy=healthy, read=read)
 
     def must(self, allowed: bool, what: Happening) -> None:
         """Nature did it; the abstract world must allow it."""

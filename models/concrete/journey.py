@@ -102,6 +102,7 @@ class Journeys:
         if not self.faces(train, run):
             train.turn()
             self.drive.seen["turns"] += 1
+        play.take("change_ends", train=train.name, cab=play.site.formation.front[run])
         self.drive_through(train, run)
         return True
 
@@ -113,15 +114,15 @@ class Journeys:
         room = train.room_mm(drive.rails, destination, play.system.track.lies)
         left = room - self.random.randint(MARGIN_MM, MARGIN_MM + 60_000)
         speed = self.random.choice([8_000, 30_000, 120_000])
-        while left > 0 and play.system.units[train.name].orders[run].loop_closed:
+        while left > 0 and not play.system.units[train.name].loop_open:
             step = min(left, self.random.randint(1, speed))
             drive.move(train, run, step)
             left -= step
-            if self.random.random() < 0.05 and play.system.units[train.name].orders[run].loop_closed:
+            if self.random.random() < 0.05 and not play.system.units[train.name].loop_open:
                 self.stops_on_the_way(train, run)
             if self.random.random() < 0.2:
                 messages.report(play, train.name, self.random, 0.1)
-        if not play.system.units[train.name].orders[run].loop_closed:
+        if play.system.units[train.name].loop_open:
             self.brakes(train, run)
             return
         if self.random.random() < 0.2 and play.site.layout.overlap[run.route]:

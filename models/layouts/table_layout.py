@@ -274,7 +274,7 @@ class Track:
         laid = {tag: {other: frozenset({layout.tag_in[tag]})} for tag, other in layout.partner.items()}
         flank: dict[Route, dict[Block, dict[Block, Point]]] = {route: {} for route in layout.routes}
         shut = {block: frozenset(targets) for block, targets in held.items()}
-        return Ground(leads, dict(self.neighbours), dict(opens), turnout, flank, shut, laid)
+        return Ground(leads, dict(self.neighbours), dict(opens), turnout, flank, shut, dict(layout.tag_in), laid)
 
 
 def _turnouts(

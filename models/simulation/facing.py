@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from kernel.maps import Map
-from kernel.names import Cab, Car, Run, Tag, Train
+from kernel.names import Car, Run, Tag, Train
 from models.concrete.rails import Rails
 from models.concrete.train import OnRails
 from models.layouts.blocks import opposite
 from models.layouts.track import Cut, Heading, Joint
-from models.world.formations import ByRun
+from models.world.formations import ByRun, cabs, leading_cab
 from models.world.state import Formation
 
 
@@ -76,7 +76,8 @@ class Orders:
         known = frozenset(self.cars)
         return Formation(
             train_of={car: train for train, cars in self.cars.items() for car in cars},
+            front=ByRun(known, lambda run: leading_cab(order(run), order(run) == self.cars[run.train])),
             last=ByRun(known, lambda run: order(run)[-1]),
             ahead=ByRun(known, ahead),
-            cab={car: Cab(f"cab of {car}") for cars in self.cars.values() for car in cars},
+            **cabs(self.cars.values()),
         )

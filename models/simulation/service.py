@@ -330,6 +330,7 @@ class Service:
         vehicle.run = run
         vehicle.demanded(self.play)
         board.supervise(vehicle.demanded(self.play), True)
+        self.play.take("change_ends", train=self.train, cab=self.play.site.formation.front[run])
         self.play.take("start_rolling", run=run)
         vehicle.advance(self.line)
         self.become(Phase.RUNS)

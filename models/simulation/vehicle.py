@@ -191,14 +191,14 @@ class Line(Drive):
         if self._happens("tag_foreign"):
             self._head_reads(vehicle, what, Tag("foreign"), None)
         if self._happens("tag_missed_head"):
+            self.play.take("head_misses", train=vehicle.on_rails.name, tag=what.tag)
             return
         places = (ahead.tags_mm[what.tag] for ahead in vehicle.board.lists.values() if what.tag in ahead.tags_mm)
         self._head_reads(vehicle, what, what.tag, next(places, None))
 
     def _head_reads(self, vehicle: Vehicle, what: Happening, tag: Tag, place_mm: int | None) -> None:
         in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm)
-        cab, train = self.play.site.formation.cab[what.car], vehicle.on_rails.name
-        self.play.take("head_reads", train=train, cab=cab, tag=tag, in_window=in_window)
+        self.head_reads(vehicle.on_rails, what, tag, in_window)
         vehicle.demanded(self.play)
 
     def reads_as_tail(self, train: OnRails, tag: Tag) -> bool:

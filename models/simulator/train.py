@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from kernel.names import Antenna, Block, Cab, Car, Read, Route, Run, Tag, Train
+from kernel.names import Block, Cab, Car, Read, Route, Run, Tag, Train
 from models.simulator.play import Play
 
 
@@ -23,7 +23,7 @@ class OnTrack:
     joints: list[Tag] = field(default_factory=list)
 
     def turn(self, play: Play) -> None:
-        """Change ends: the other cab leads."""
+        """Change ends: the other car is in front."""
         self.front, self.rear = self.rear, self.front
         self.trail.reverse()
         self.joints = [play.site.layout.partner[tag] for tag in reversed(self.joints)]
@@ -54,7 +54,7 @@ def front_passes(play: Play, train: OnTrack, run: Run) -> bool:
     tag, target = boundary(play, run.route, block), layout.way[run.route].get(block)
     if tag is None or target is None:
         return False
-    cab = train.cab(play, train.front)
+    cab = play.site.formation.front[run]
     play.take("head_reads", train=train.train, cab=cab, tag=tag, in_window=True)
     if not play.take("car_moves", run=run, car=train.front, block=block, target=target):
         return False
@@ -101,7 +101,6 @@ def tail_reads(play: Play, train: OnTrack, run: Run, tag: Tag, healthy: bool) ->
         "tail_reads",
         run=run,
         car=train.rear,
-        antenna=Antenna.TAIL,
         cab=train.cab(play, train.rear),
         healthy=healthy,
         read=Read(tag, play.site.records.record[tag]),

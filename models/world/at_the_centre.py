@@ -129,9 +129,10 @@ def note_statement_confirmed(
     site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run
 ) -> System:
     """The second person's confirmation arrives (T8)."""
-    if (train, life, epoch) not in system.radio.confirmed_statements:
+    blocks = system.radio.confirmed_statements.get((train, life, epoch))
+    if blocks is None:
         return system
-    centre = supervision.note_statement_confirmed(site.layout, system.centre, train, life, epoch, run)
+    centre = supervision.note_statement_confirmed(site.layout, system.centre, train, life, epoch, blocks, run)
     if centre.newest == system.centre.newest:
         return replace(system, centre=centre)
     return replace(system, centre=centre, track=accounted_for(site, system, run))

@@ -5,8 +5,8 @@ A formation answers for every run there may ever be, so its maps are functions a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TypedDict, TypeVar
 
 from kernel.layout import Layout
 from kernel.maps import Map
@@ -18,6 +18,13 @@ V = TypeVar("V")
 
 Boundary = tuple[Block, Block]
 """Two neighbouring blocks, in running order."""
+
+
+class Cabs(TypedDict):
+    """Which car carries which cab, both ways."""
+
+    cab: dict[Car, Cab]
+    carried_by: dict[Cab, Car]
 
 
 class ByRun(Mapping[Run, V]):
@@ -53,6 +60,20 @@ class ByRun(Mapping[Run, V]):
         return ByRun(self._trains, lambda run: other[run] if run in other else self[run])
 
 
+def leading_cab(cars: Sequence[Car], along: bool) -> Cab:
+    """The cab that leads a train whose cars run in this order; a single car has one at each end."""
+    if len(cars) > 1:
+        return Cab(f"cab of {cars[0]}")
+    return Cab(f"{'first' if along else 'second'} cab of {cars[0]}")
+
+
+def cabs(trains: Iterable[Sequence[Car]]) -> Cabs:
+    """Which car carries which cab; the one at the tail of a single car is named after the car like any other."""
+    own = {car: Cab(f"cab of {car}") for cars in trains for car in cars}
+    ends = {leading_cab([car], along): car for car in own for along in (True, False)}
+    return {"cab": own, "carried_by": {cab: car for car, cab in own.items()} | ends}
+
+
 def formation(trains: Mapping[Train, Sequence[Car]], along: Callable[[Route], bool]) -> Formation:
     """The formation of trains given with their cars in order; the first leads in routes that run ``along``."""
 
@@ -67,9 +88,10 @@ def formation(trains: Mapping[Train, Sequence[Car]], along: Callable[[Route], bo
     known = frozenset(train for train, cars in trains.items() if cars)
     return Formation(
         train_of={car: train for train, cars in trains.items() for car in cars},
+        front=ByRun(known, lambda run: leading_cab(order(run), along(run.route))),
         last=ByRun(known, lambda run: order(run)[-1]),
         ahead=ByRun(known, ahead),
-        cab={car: Cab(f"cab of {car}") for cars in trains.values() for car in cars},
+        **cabs(trains.values()),
     )
 
 

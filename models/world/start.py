@@ -35,7 +35,7 @@ def silent_radio() -> Radio:
         standing_runs=frozenset(),
         terminal_lives=frozenset(),
         statements={},
-        confirmed_statements=frozenset(),
+        confirmed_statements={},
     )
 
 
@@ -46,10 +46,10 @@ def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, P
         answered=None,
         standing_in=frozenset(),
         orders=NO_ORDERS,
+        loop_open=False,
+        leading=None,
         head_tag=None,
-        head_cab=None,
         tail_read=None,
-        tail_cab=None,
         occupied=frozenset(),
     )
     terminal = Terminal(life=TerminalLife(0), holds=None, wanted=None, unlocked=False)
@@ -75,9 +75,17 @@ def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, P
             at=dict(at),
             under={},
             run_into=frozenset(),
+            entered=frozenset(),
+            gone=frozenset(),
             behind=frozenset(),
             rolling=frozenset(),
             slipping=frozenset(),
+            leavable=frozenset(),
+            facing={},
+            last_read={},
+            passed=frozenset(),
+            unread=frozenset(),
+            astray=frozenset(),
             lies=dict(lies),
             parted=frozenset(),
         ),

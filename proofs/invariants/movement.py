@@ -10,10 +10,17 @@ from proofs.invariants.vocabulary import genuine, reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
-    """Runs that a train rolls, slips or has moved under were permitted (T4)."""
+    """Runs that a train rolls, slips or has moved under were permitted; only a rolling train leaves a block (T4)."""
     return (
         all(run in system.radio.permits for run in system.track.rolling)
         and all(run in system.track.rolling for run in system.track.slipping)
+        and all(run in system.track.rolling for run, _block in system.track.leavable)
+        and all(
+            run in system.track.slipping
+            or run.route not in site.layout.way
+            or site.layout.way[run.route].get(block) not in site.layout.overlap[run.route]
+            for run, block in system.track.leavable
+        )
         and all(run in system.radio.permits for run in system.track.run_into)
     )
 
@@ -165,6 +172,106 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
     )
 
 
+def a_head_that_read_a_tag_was_there(site: Site, system: System) -> bool:
+    """Where a unit has noted that its head entered a block under a run, it has (T2)."""
+    return all(
+        run.route not in site.layout.routes or (run, block) in system.track.entered
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+        for block in order.entered
+    )
+
+
+def a_run_not_yet_begun_expects_its_first_tags(site: Site, system: System) -> bool:
+    """Until a run has begun its unit expects the tags at the end of its start block, the nearer one first (T5)."""
+    return all(
+        run.route not in site.layout.routes
+        or order.begun
+        or order.expected is None
+        or order.expected == site.layout.first_tag.get(run.route)
+        or (
+            run.route in site.layout.first_tag
+            and run.route in site.layout.tag_after
+            and order.expected == site.layout.tag_after[run.route].get(site.layout.first_tag[run.route])
+        )
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+    )
+
+
+def a_run_that_has_begun_is_led_by_its_front(site: Site, system: System) -> bool:
+    """A run of a route begins only with the cab leading that leads in it (T2, T5)."""
+    return all(
+        run.route not in site.layout.routes
+        or not order.begun
+        or (run in site.formation.front and order.led_by == site.formation.front[run])
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+    )
+
+
+def a_unit_knows_what_its_head_read_last(site: Site, system: System) -> bool:
+    """While its loop is closed, what a unit holds for the head's last tag was read last (T5)."""
+    return all(
+        unit.head_tag is None
+        or unit.loop_open
+        or (train in system.track.last_read and system.track.last_read[train] == unit.head_tag)
+        for train, unit in system.units.items()
+    )
+
+
+def what_is_behind_was_entered(site: Site, system: System) -> bool:
+    """A tail leaves for a run only a block that the train began in, or that its head has entered under it (T2, T6)."""
+    return all(
+        run.route not in site.layout.routes
+        or block == site.layout.start[run.route]
+        or (run, block) in system.track.entered
+        for run, block in system.track.behind
+    )
+
+
+def what_is_behind_is_left_once(site: Site, system: System) -> bool:
+    """Out of a block that its tail has left for a run no train is let again under that run (T2, T6)."""
+    return all(
+        (run, block) not in system.track.leavable
+        or (run, block) in system.track.gone
+        or run not in site.formation.front
+        or system.track.facing.get(run.train) != site.formation.front[run]
+        for run, block in system.track.behind
+    )
+
+
+def a_unit_knows_which_cab_leads(site: Site, system: System) -> bool:
+    """A unit takes no other cab for the head than the one that leads, and has a tail only if one does (T2)."""
+    return all(
+        (unit.leading is None or system.track.facing.get(train) == unit.leading)
+        and (unit.leading is not None or (unit.head_tag is None and unit.tail_read is None))
+        for train, unit in system.units.items()
+    )
+
+
+def the_tails_last_read_was_passed_last(site: Site, system: System) -> bool:
+    """What a unit with a closed loop holds of the tail is of a tag passed since the ends were changed (T2, T6)."""
+    return all(
+        unit.tail_read is None
+        or unit.loop_open
+        or train in system.track.unread
+        or site.records.record.get(unit.tail_read.tag) != unit.tail_read.record
+        or (train, unit.tail_read.tag) in system.track.passed
+        for train, unit in system.units.items()
+    )
+
+
+def a_train_astray_has_an_open_loop(site: Site, system: System) -> bool:
+    """In the life in which a tag was wrong, missing or late, the unit's second loop is open (T5)."""
+    return all(
+        train in system.units
+        and life <= system.units[train].life
+        and (life != system.units[train].life or system.units[train].loop_open)
+        for train, life in system.track.astray
+    )
+
+
 def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
     """While the word of a standing train is in the air, no run was offered to that life and none rolls (T8)."""
     return all(
@@ -189,9 +296,8 @@ def a_train_that_told_stands_there(site: Site, system: System) -> bool:
         for (train, life, epoch), blocks in system.radio.standings.items()
         if told(system, train, life, epoch)
     ) and all(
-        (train, life, epoch) in system.radio.statements
-        and stands_exactly(site, system, train, system.radio.statements[train, life, epoch])
-        for train, life, epoch in system.radio.confirmed_statements
+        stands_exactly(site, system, train, blocks)
+        for (train, life, epoch), blocks in system.radio.confirmed_statements.items()
         if told(system, train, life, epoch)
     )
 
@@ -216,15 +322,6 @@ def a_unit_taken_over_was_offered_nothing(site: Site, system: System) -> bool:
         or (train in system.centre.accounted and life <= system.centre.accounted[train])
         or all(run.train != train or run.life < life for run in system.radio.offers)
         for train, life, epoch in system.radio.statements
-    )
-
-
-def the_first_statement_noted_is_the_one_in_the_air(site: Site, system: System) -> bool:
-    """What the centre noted of a supervised train is what the first person stated in that life and epoch (T8)."""
-    return all(
-        (train, said.life, system.centre.epoch) in system.radio.statements
-        and system.radio.statements[train, said.life, system.centre.epoch] == said.blocks
-        for train, said in system.centre.statements.items()
     )
 
 

@@ -226,7 +226,7 @@ def two_procedures_are_open_at_once(steps: Steps) -> Scenario:
         word = {"train": train, "epoch": epoch, "life": life}
         scenario.does("take_over", blocks=frozenset({block}), **word)
         scenario.does("note_statement", **word)
-        said = {"radio": {"confirmed_statements": came((train, life, epoch))}}
+        said = {"radio": {"confirmed_statements": {(train, life, epoch): frozenset({block})}}}
         scenario.does("confirm_statement", said, **word)
     scenario.must(set(scenario.system.centre.statements) == {T1, T2}, "both statements are noted")
     return scenario

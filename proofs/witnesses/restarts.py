@@ -278,7 +278,7 @@ def two_persons_release_a_dead_train(steps: Steps) -> Scenario:
     again = UnitLife(life + 1)
     state(scenario, again, epoch, blocks_of(scenario, T1))
     wrong = next_run(scenario, T1, NO_ROUTE, life)
-    confirmed = {"radio": {"confirmed_statements": came((T1, again, epoch))}}
+    confirmed = {"radio": {"confirmed_statements": {(T1, again, epoch): blocks_of(scenario, T1)}}}
     scenario.does("confirm_statement", confirmed, train=T1, epoch=epoch, life=again)
     word = {"train": T1, "life": again, "epoch": epoch}
     scenario.refuses("note_statement_confirmed", Refusal.WRONG_LIFE, run=wrong, **word)
@@ -325,6 +325,24 @@ def a_statement_waits_for_the_procedure(steps: Steps) -> Scenario:
     scenario.does("note_statement", **event)
     scenario.does("open_procedure", {"centre": {"statements": {T1: GONE}}}, train=T1)
     scenario.refuses("note_statement_confirmed", Refusal.NO_STATEMENT, run=run, **event)
+    scenario.does("note_statement", **event)
+    scenario.does("note_statement_confirmed", run=run, **event)
+    holds(scenario, WEST, run)
+    return scenario
+
+
+def two_persons_must_name_the_same_place(steps: Steps) -> Scenario:
+    """The centre noted what was then corrected: the second person confirms another place, and neither counts (T8)."""
+    scenario, _ = recovered(steps, FACING_EAST)
+    life, epoch = UnitLife(3), scenario.system.centre.epoch
+    scenario.does("open_procedure", {"centre": {"supervised": came(T1)}}, train=T1)
+    state(scenario, life, epoch, frozenset({THROAT}))
+    event = {"train": T1, "epoch": epoch, "life": life}
+    corrected = {"radio": {"statements": {(T1, life, epoch): frozenset({WEST})}}}
+    scenario.does("correct_statement", corrected, blocks=frozenset({WEST}), **event)
+    scenario.does("confirm_statement", **event)
+    run = next_run(scenario, T1, NO_ROUTE, life)
+    scenario.refuses("note_statement_confirmed", Refusal.STATEMENTS_DIFFER, run=run, **event)
     scenario.does("note_statement", **event)
     scenario.does("note_statement_confirmed", run=run, **event)
     holds(scenario, WEST, run)

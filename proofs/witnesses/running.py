@@ -7,8 +7,8 @@ from itertools import pairwise
 from typing import Any
 
 from kernel.layout import Layout
-from kernel.names import Antenna, Block, Cab, Car, Cause, Point, Read, Run, Stage, Tag, Train
-from kernel.unit import Evidence
+from kernel.names import Block, Cab, Car, Cause, Point, Read, Route, Run, Stage, Tag, Train
+from kernel.unit import Evidence, Order
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
 from proofs.witnesses.telling import blocks_of
@@ -28,13 +28,33 @@ def pass_through(scenario: Scenario, run: Run, *blocks: Block) -> None:
 
 
 def roll(scenario: Scenario, run: Run) -> None:
-    """The train begins to roll."""
-    scenario.does("start_rolling", {"track": {"rolling": came(run)}}, run=run)
+    """The driver chooses the direction of the run, and the train begins to roll."""
+    faces(scenario, run)
+    layout, order = scenario.site.layout, scenario.system.units[run.train].orders[run]
+    way, overlap = layout.way[run.route], layout.overlap[run.route]
+    leavable = [b for b, target in way.items() if target not in overlap and not {b, target} & {*order.left}]
+    effect = {"track": {"rolling": came(run), "leavable": came(*((run, block) for block in leavable))}}
+    scenario.does("start_rolling", effect, run=run)
+
+
+def faces(scenario: Scenario, run: Run) -> None:
+    """The driver of a train at rest chooses the direction of a run, if the unit does not know it (T2)."""
+    cab, train = head_cab(scenario, run), run.train
+    unit, track = scenario.system.units[train], scenario.system.track
+    if unit.leading == cab:
+        return
+    effect: dict[str, Any] = {"units": {train: {"leading": cab, "head_tag": None, "tail_read": None}}}
+    if track.facing.get(train) != cab:
+        passed = [(other, tag) for other, tag in track.passed if other == train]
+        effect["track"] = {"facing": {train: cab}, "last_read": {train: GONE}, "passed": went(*passed)}
+    scenario.does("change_ends", effect, train=train, cab=cab)
 
 
 def rest(scenario: Scenario, run: Run) -> None:
     """The train comes to rest."""
-    scenario.does("come_to_rest", {"track": {"rolling": went(run), "slipping": went(run)}}, run=run)
+    leavable = [(other, block) for other, block in scenario.system.track.leavable if other == run]
+    effect = {"track": {"rolling": went(run), "slipping": went(run), "leavable": went(*leavable)}}
+    scenario.does("come_to_rest", effect, run=run)
 
 
 def pass_boundary(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
@@ -52,7 +72,13 @@ def crosses(scenario: Scenario, run: Run, car: Car, block: Block, target: Block)
 
 
 def enters(scenario: Scenario, run: Run, car: Car, block: Block, target: Block) -> None:
-    """The first axle of a car reaches the next block."""
+    """The first axle of a car reaches the next block, unless it is there: the front one leads, the others follow."""
+    if target in scenario.system.track.at[car]:
+        return
+    there = [other for other in in_order(scenario, run) if target in scenario.system.track.at[other]]
+    if there:
+        follows(scenario, car, there[0], target)
+        return
     effect = {"track": {"at": {car: came(target)}, "under": {car: {target: run}}, "run_into": came(run)}}
     scenario.does("car_moves", effect, run=run, car=car, block=block, target=target)
 
@@ -77,32 +103,71 @@ def in_order(scenario: Scenario, run: Run) -> list[Car]:
 
 
 def head_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
-    """The head reads both tags of a boundary, in order and in their windows."""
-    for tag in pair(scenario.site.layout, block, target):
-        head_reads(scenario, run, tag)
+    """The head reads the first tag of a boundary, comes into the next block, and reads the second there."""
+    first, second = pair(scenario.site.layout, block, target)
+    head_reads(scenario, run, first)
+    enters(scenario, run, in_order(scenario, run)[0], block, target)
+    head_reads(scenario, run, second)
 
 
 def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     """The head reads the tag it must read next, in every run that is permitted and expects it."""
-    layout, cab = scenario.site.layout, head_cab(scenario, run)
+    layout, cab, train = scenario.site.layout, head_cab(scenario, run), run.train
+    block = layout.tag_in[tag]
     orders: dict[Run, dict[str, Any]] = {}
-    for other, known in scenario.system.units[run.train].orders.items():
-        if known.permitted and not known.given_back and known.expected == tag:
-            orders[other] = {"expected": layout.tag_after[other.route].get(tag)}
-            if tag != layout.first_tag[other.route]:
-                orders[other]["begun"] = True
-    read = {"head_tag": tag, "head_cab": cab, "occupied": came(layout.tag_in[tag]), "orders": orders}
-    scenario.does("head_reads", {"units": {run.train: read}}, train=run.train, cab=cab, tag=tag, in_window=True)
+    known_orders = scenario.system.units[train].orders
+    on_the_way = any(expects(known, tag) and known.led_by is not None for known in known_orders.values())
+    for other, known in known_orders.items():
+        changed: dict[str, Any] = {}
+        begun, led_by = known.begun, known.led_by
+        if expects(known, tag) and (led_by is not None or not on_the_way):
+            begun, led_by = begun or tag != layout.first_tag[other.route], cab
+            changed |= {"expected": layout.tag_after[other.route].get(tag), "led_by": cab}
+            changed |= {"begun": True} if begun else {}
+        if led_by == cab and begun and block in _beyond_start(layout, other.route):
+            changed["entered"] = came(block)
+        if changed:
+            orders[other] = changed
+    read = {"head_tag": tag, "occupied": came(block), "orders": orders}
+    tail_read = scenario.system.units[train].tail_read
+    if tail_read is not None and tag in (tail_read.tag, layout.partner[tail_read.tag]):
+        read["tail_read"] = None
+    there = [
+        (other, block)
+        for other in scenario.system.radio.permits
+        if other.train == train
+        and scenario.site.formation.front[other] == cab
+        and block in _beyond_start(layout, other.route)
+    ]
+    passed = ((train, other) for other in (tag, layout.partner[tag]))
+    track = {"entered": came(*there), "last_read": {train: tag}, "passed": went(*passed)}
+    scenario.does("head_reads", {"units": {train: read}, "track": track}, train=train, cab=cab, tag=tag, in_window=True)
+
+
+def expects(order: Order, tag: Tag) -> bool:
+    """Whether this is the tag that the head must read next under a run."""
+    return order.permitted and not order.given_back and order.expected == tag
+
+
+def _beyond_start(layout: Layout, route: Route) -> frozenset[Block]:
+    """What a route claims beyond its start; nothing of a run that stands."""
+    return layout.claims[route] - {layout.start[route]} if route in layout.claims else frozenset()
 
 
 def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
-    """The tail reads both tags of a boundary, in order; the block is noted as left in every run the train is on."""
-    first, second = pair(scenario.site.layout, block, target)
+    """The tail reads both tags of a boundary, in order; the block is noted as left in every run the train was in it."""
+    layout = scenario.site.layout
+    first, second = pair(layout, block, target)
     tail_reads_first(scenario, run, first)
     event = tail_read(scenario, run, second)
     evidence = Evidence(genuine(scenario, first), event["read"])
-    orders = scenario.system.units[run.train].orders
-    noted = [other for other, order in orders.items() if order.begun and order.loop_closed]
+    noted = [
+        other
+        for other, order in scenario.system.units[run.train].orders.items()
+        if order.begun and (block in order.entered or layout.start.get(other.route) == block)
+    ]
+    front = scenario.site.formation.front
+    gone = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
     effect = {
         "units": {
             run.train: {
@@ -111,7 +176,11 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
                 "orders": {other: {"left": {block: evidence}} for other in noted},
             }
         },
-        "track": {"behind": came(*((other, block) for other in noted))},
+        "track": {
+            "behind": came(*((other, block) for other in noted)),
+            "gone": came(*((other, block) for other in gone)),
+            "passed": came((run.train, second)),
+        },
     }
     scenario.does("tail_reads", effect, **event)
 
@@ -119,7 +188,7 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
 def tail_reads_first(scenario: Scenario, run: Run, tag: Tag) -> None:
     """The tail antenna reads a tag that alone proves nothing."""
     event = tail_read(scenario, run, tag)
-    effect = {"units": {run.train: {"tail_read": event["read"], "tail_cab": event["cab"]}}}
+    effect = {"units": {run.train: {"tail_read": event["read"]}}, "track": {"passed": came((run.train, tag))}}
     scenario.does("tail_reads", effect, **event)
 
 
@@ -127,12 +196,12 @@ def tail_read(scenario: Scenario, run: Run, tag: Tag) -> dict[str, Any]:
     """The event that the tail antenna, on the last car, reads a tag as it was laid."""
     last = scenario.site.formation.last[run]
     cab, read = scenario.site.formation.cab[last], genuine(scenario, tag)
-    return {"run": run, "car": last, "antenna": Antenna.TAIL, "cab": cab, "healthy": True, "read": read}
+    return {"run": run, "car": last, "cab": cab, "healthy": True, "read": read}
 
 
 def head_cab(scenario: Scenario, run: Run) -> Cab:
     """The cab that leads in a run."""
-    return scenario.site.formation.cab[in_order(scenario, run)[0]]
+    return scenario.site.formation.front[run]
 
 
 def report(scenario: Scenario, run: Run, block: Block, target: Block) -> None:

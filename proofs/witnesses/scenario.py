@@ -99,7 +99,9 @@ class Scenario:
     def why_refused(self, step: str, event: Mapping[str, Any]) -> Refusal | None:
         """Ask the kernel why it refuses this step."""
         asked = self.steps[WHY_REFUSED[step]]
+        told = (event.get("train"), event.get("life"), event.get("epoch"))
         known = {
+            "blocks": self.system.radio.confirmed_statements.get(told, frozenset()),  # type: ignore[arg-type]
             **event,
             "layout": self.site.layout,
             "records": self.site.records,

@@ -108,10 +108,11 @@ def send_list(scenario: Scenario, run: Run) -> None:
     taken = Order(
         permitted=False,
         given_back=False,
-        loop_closed=True,
         begun=False,
         stopped=False,
         expected=scenario.site.layout.first_tag[run.route],
+        entered=frozenset(),
+        led_by=None,
         left={},
     )
     scenario.does("take_offer", {"units": {run.train: {"orders": {run: taken}}}}, run=run)

@@ -190,10 +190,116 @@ to = "line end"
 points = { K = "reverse" }
 """
 
+RING = """
+# --b52--[b2]--b23--[b3]--b34--[b4]--b45--[b5]--b52-- round again; [x] lies too close to [b2]
+format = "heisoku-layout-1"
+name = "Ring"
+trains = ["T1", "T2"]
+held_by_authority = "rest"
+fouling = [["b2", "x"]]
+
+[tracks.a]
+from = "n1"
+to = "n2"
+length_mm = 800_000
+boundaries = { b23 = 400_000 }
+[tracks.b]
+from = "n2"
+to = "n3"
+length_mm = 800_000
+boundaries = { b34 = 400_000 }
+[tracks.c]
+from = "n3"
+to = "n4"
+length_mm = 800_000
+boundaries = { b45 = 400_000 }
+[tracks.d]
+from = "n4"
+to = "n1"
+length_mm = 800_000
+boundaries = { b52 = 400_000 }
+[tracks.siding]
+from = "south stop"
+to = "north stop"
+length_mm = 800_000
+boundaries = { yx = 400_000 }
+
+[blocks]
+"b2" = { track = "a", at_mm = 10_000 }
+"b3" = { track = "b", at_mm = 10_000 }
+"b4" = { track = "c", at_mm = 10_000 }
+"b5" = { track = "d", at_mm = 10_000 }
+"y" = { track = "siding", at_mm = 10_000 }
+"x" = { track = "siding", at_mm = 500_000 }
+
+[routes."round"]
+from = "b34"
+direction = "forward"
+to = "b23"
+release_at = ["b45", "b52"]
+[routes."on"]
+from = "b23"
+direction = "forward"
+to = "b34"
+[routes."y to x"]
+from = "yx"
+direction = "forward"
+to = "north stop"
+[routes."x to y"]
+from = "yx"
+direction = "backward"
+to = "south stop"
+"""
+
+PLAIN_LINE = """
+# north end --[north]--A--[middle]--B--[south]-- south end
+format = "heisoku-layout-1"
+name = "Plain line"
+trains = ["T1", "T2"]
+held_by_authority = "rest"
+
+[tracks.line]
+from = "north end"
+to = "south end"
+length_mm = 1_500_000
+boundaries = { A = 500_000, B = 1_000_000 }
+[tracks.elsewhere]
+from = "first stop"
+to = "last stop"
+length_mm = 800_000
+boundaries = { E = 400_000 }
+
+[blocks]
+"north" = { track = "line", at_mm = 100_000 }
+"middle" = { track = "line", at_mm = 600_000 }
+"south" = { track = "line", at_mm = 1_100_000 }
+"here" = { track = "elsewhere", at_mm = 100_000 }
+"there" = { track = "elsewhere", at_mm = 500_000 }
+
+[routes."north to middle"]
+from = "A"
+direction = "forward"
+to = "B"
+[routes."middle to south"]
+from = "B"
+direction = "forward"
+to = "south end"
+[routes."middle to north"]
+from = "A"
+direction = "backward"
+to = "north end"
+[routes."south to middle"]
+from = "B"
+direction = "backward"
+to = "A"
+"""
+
 WEST, THROAT, ONE, TWO = Block("west"), Block("throat"), Block("one"), Block("two")
 OUTLET, EAST = Block("outlet"), Block("east")
 YARD_WEST, YARD_GATE, YARD_EAST = Block("yard west"), Block("yard gate"), Block("yard east")
 P1, P2 = Point("P1"), Point("P2")
+B2, B3, B4, B5, X, Y = map(Block, ("b2", "b3", "b4", "b5", "x", "y"))
+NORTH, MIDDLE, SOUTH, HERE = map(Block, ("north", "middle", "south", "here"))
 LINE, PLATFORM_1, PLATFORM_2 = Block("line"), Block("platform 1"), Block("platform 2")
 K = Point("K")
 
@@ -212,6 +318,16 @@ WEST_TO_ONE_ON, TWO_TO_WEST_ON = Route("west to one from throat"), Route("two to
 WEST_TO_EAST = Route("west to east")
 YARD_OUT = Route("yard out")
 ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depart 2")
+ROUND, ROUND_ON, Y_TO_X = Route("round"), Route("on"), Route("y to x")
+NORTH_TO_MIDDLE, MIDDLE_TO_SOUTH = Route("north to middle"), Route("middle to south")
+MIDDLE_TO_NORTH = Route("middle to north")
+LEADS: Mapping[str, Route] = {
+    PASSING_PLACE: WEST_TO_ONE,
+    TERMINUS: ARRIVE_1,
+    RING: ROUND,
+    PLAIN_LINE: NORTH_TO_MIDDLE,
+}
+"""A route of each station in which a1 leads."""
 NO_ROUTE = Route("standing")
 """What a run names that stands for a train at rest."""
 
@@ -229,7 +345,7 @@ def site_of(text: str) -> Site:
     station = imported(text)
     layout, ground = with_continuations(station.layout, station.ground)
     along = directions(layout, ground)
-    leading = along[Route("arrive 1" if text is TERMINUS else "west to one")]
+    leading = along[LEADS[text]]
     return Site(
         layout=layout,
         records=station.records,

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from kernel.centre import Grant
 from kernel.names import Block, Car, Cause, Point, Position, Route, Run, Serial, Stage, Train, UnitLife
-from kernel.unit import Order, Unit
+from kernel.restarts import restart_unit
+from kernel.unit import Order
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import B1, NO_ROUTE, PASSING_PLACE, PLATFORM_2, YARD_EAST, site_of, standing_at
@@ -66,7 +68,8 @@ def answer(scenario: Scenario, train: Train) -> UnitLife:
     if epoch not in scenario.system.radio.challenges:
         scenario.does("send_challenge", {"radio": {"challenges": came(epoch)}}, epoch=epoch)
     life = UnitLife(scenario.system.units[train].life + 1)
-    reborn = Unit(life, epoch, blocks, {}, None, None, None, None, blocks)
+    reborn = replace(restart_unit(scenario.system.units[train], life), answered=epoch, standing_in=blocks)
+    reborn = replace(reborn, leading=scenario.system.units[train].leading, occupied=blocks)
     event = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at_rest": True, "healthy": True}
     scenario.does("answer", {"units": {train: reborn}}, **event)
     told = {"radio": {"standings": {(train, life, epoch): blocks}}}
@@ -112,7 +115,16 @@ def accounted(scenario: Scenario, run: Run, blocks: frozenset[Block], cause: Cau
 def tell_back(scenario: Scenario, run: Run) -> None:
     """The centre tells the train under which run it stands."""
     scenario.does("send_standing_run", {"radio": {"standing_runs": came(run)}}, run=run)
-    stands = Order(permitted=False, given_back=True, loop_closed=True, begun=True, stopped=True, expected=None, left={})
+    stands = Order(
+        permitted=False,
+        given_back=True,
+        begun=True,
+        stopped=True,
+        expected=None,
+        entered=scenario.system.units[run.train].standing_in,
+        led_by=None,
+        left={},
+    )
     scenario.does("take_standing", {"units": {run.train: {"orders": {run: stands}}}}, run=run)
 
 

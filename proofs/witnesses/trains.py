@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.names import Antenna, Read, Record, Run, Stage, Tag
+from kernel.names import Read, Record, Run, Stage, Tag
 from kernel.refusal import Refusal
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
@@ -181,7 +181,8 @@ def a_train_slips_into_its_overlap(steps: Steps) -> Scenario:
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     roll(scenario, run)
     pass_through(scenario, run, WEST, THROAT, ONE)
-    scenario.does("overrun", {"track": {"slipping": came(run)}}, run=run)
+    effect = {"track": {"slipping": came(run), "leavable": came((run, ONE))}}
+    scenario.does("overrun", effect, run=run)
     enters(scenario, run, A1, ONE, OUTLET)
     scenario.refuses("note_stopped", run=run, within_destination=True)
     rest(scenario, run)
@@ -196,12 +197,8 @@ def a_foreign_tag_opens_the_loop(steps: Steps) -> Scenario:
     scenario, runs = recovered(steps, FACING_EAST)
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     roll(scenario, run)
-    first, second = pair(scenario.site.layout, WEST, THROAT)
     cab, wrong = head_cab(scenario, run), {"train": T1, "in_window": True, "tag": Tag("from elsewhere")}
-    open_loops = {"units": {T1: {"orders": {order: {"loop_closed": False} for order in (runs[T1], run)}}}}
-    scenario.does("head_reads", open_loops, cab=cab, **wrong)
-    scenario.refuses("head_reads", train=T1, cab=cab, tag=second, in_window=True)
-    scenario.must(first != second, "the pair has two tags")
+    scenario.does("head_reads", _loop_opened(scenario, Tag("from elsewhere")), cab=cab, **wrong)
     _rolls_on_without_authority(scenario, run)
     return scenario
 
@@ -227,7 +224,7 @@ def a_tag_read_early_opens_the_loop(steps: Steps) -> Scenario:
     again = {"train": T1, "cab": head_cab(scenario, run), "tag": pair(scenario.site.layout, WEST, THROAT)[1]}
     scenario.refuses("head_reads", **again, in_window=False)
     early = {**again, "tag": pair(scenario.site.layout, THROAT, ONE)[0]}
-    scenario.does("head_reads", _loops_opened(scenario), **early, in_window=False)
+    scenario.does("head_reads", _loop_opened(scenario, early["tag"]), **early, in_window=False)
     crosses(scenario, run, A1, WEST, THROAT)
     rest(scenario, run)
     scenario.refuses("start_rolling", run=run)
@@ -239,15 +236,17 @@ def an_overdue_tag_opens_the_loop(steps: Steps) -> Scenario:
     scenario, runs = recovered(steps, FACING_EAST)
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     roll(scenario, run)
-    scenario.does("window_passes", _loops_opened(scenario), train=T1)
+    scenario.does("window_passes", _loop_opened(scenario), train=T1)
     _rolls_on_without_authority(scenario, run)
     return scenario
 
 
-def _loops_opened(scenario: Scenario) -> dict[str, object]:
-    """Every order of the first train has lost its loop."""
-    orders = scenario.system.units[T1].orders
-    return {"units": {T1: {"orders": {run: {"loop_closed": False} for run in orders}}}}
+def _loop_opened(scenario: Scenario, tag: Tag | None = None) -> dict[str, object]:
+    """The first train's second loop is open for the rest of this life, perhaps for the tag that its head has read."""
+    track: dict[str, object] = {"astray": came((T1, scenario.system.units[T1].life))}
+    if tag is not None:
+        track["last_read"] = {T1: tag}
+    return {"units": {T1: {"loop_open": True}}, "track": track}
 
 
 def a_parted_train_releases_nothing(steps: Steps) -> Scenario:
@@ -283,11 +282,12 @@ def half_a_pair_proves_nothing(steps: Steps) -> Scenario:
     for car in (A1, A2):
         crosses(scenario, run, car, WEST, THROAT)
     first, second = pair(scenario.site.layout, WEST, THROAT)
-    for antenna in (Antenna.HEAD, Antenna.HEAD):
-        scenario.refuses("tail_reads", **tail_read(scenario, run, first) | {"antenna": antenna})
+    ahead = {"car": A1, "cab": head_cab(scenario, run)}
+    scenario.refuses("tail_reads", **tail_read(scenario, run, first) | ahead)
     tail_reads_first(scenario, run, first)
-    gone = {"units": {T1: {"tail_read": None}}}
-    scenario.does("tail_reads", gone, **tail_read(scenario, run, second) | {"healthy": False})
+    gone = {"gone": came((run, WEST)), "passed": came((T1, second))}
+    forgotten = {"units": {T1: {"tail_read": None}}, "track": gone}
+    scenario.does("tail_reads", forgotten, **tail_read(scenario, run, second) | {"healthy": False})
     tail_reads_first(scenario, run, second)
     scenario.refuses("send_tail_report", **reported(scenario, run, WEST, THROAT))
     scenario.must(not scenario.system.track.behind, "nothing counts as left")

@@ -174,8 +174,7 @@ def a_statement_was_confirmed(site: Site, system: System) -> bool:
     """Two persons' word, not yet taken, is in the air for this epoch, of a train that stands somewhere."""
     return any(
         epoch == system.centre.epoch and train not in system.centre.accounted and any(True for _ in blocks)
-        for (train, life, epoch), blocks in system.radio.statements.items()
-        if (train, life, epoch) in system.radio.confirmed_statements
+        for (train, life, epoch), blocks in system.radio.confirmed_statements.items()
     )
 
 

@@ -1,0 +1,130 @@
+"""Witnesses of attacks: what once freed a block around a train, or led it nowhere, ends in a refusal (T2, T5, T6)."""
+
+from __future__ import annotations
+
+from kernel.refusal import Refusal
+from proofs.witnesses.changes import came
+from proofs.witnesses.running import (
+    enters,
+    head_cab,
+    head_passes,
+    leaves,
+    pair,
+    pass_boundary,
+    report,
+    reported,
+    rest,
+    roll,
+    tail_passes,
+    tail_read,
+    tail_reads_first,
+)
+from proofs.witnesses.scenario import Scenario, Steps
+from proofs.witnesses.setting import holds, set_route
+from proofs.witnesses.stations import (
+    A1,
+    A2,
+    B1,
+    B2,
+    B3,
+    B4,
+    HERE,
+    MIDDLE,
+    MIDDLE_TO_NORTH,
+    MIDDLE_TO_SOUTH,
+    NORTH,
+    NORTH_TO_MIDDLE,
+    PLAIN_LINE,
+    RING,
+    ROUND,
+    T1,
+    T2,
+    Y_TO_X,
+    Y,
+)
+from proofs.witnesses.telling import next_run, recovered
+
+IN_THE_NORTH = {A1: frozenset({NORTH}), A2: frozenset({NORTH}), B1: frozenset({HERE})}
+
+
+def on_a_ring_the_tail_frees_no_block_ahead(steps: Steps) -> Scenario:
+    """A tail that leaves the block in which its own run will end frees it for the run before, not for this one (T6).
+
+    The block too close to it stays closed to the other train, since the first one is still to come there.
+    """
+    at = {A1: frozenset({B3}), A2: frozenset({B2}), B1: frozenset({Y})}
+    scenario, runs = recovered(steps, at, station=RING)
+    run = set_route(scenario, T1, ROUND, runs[T1])
+    roll(scenario, run)
+    head_passes(scenario, run, B3, B4)
+    enters(scenario, run, A2, B2, B3)
+    leaves(scenario, A2, B2)
+    tail_passes(scenario, run, B2, B3)
+    scenario.refuses("send_tail_report", **reported(scenario, run, B2, B3))
+    report(scenario, runs[T1], B2, B3)
+    holds(scenario, B2, run)
+    beside = next_run(scenario, T2, Y_TO_X)
+    scenario.refuses("request", Refusal.FOULING_BLOCK_HELD, run=beside, base=runs[T2])
+    return scenario
+
+
+def a_read_from_before_two_changes_of_ends_pairs_with_nothing(steps: Steps) -> Scenario:
+    """A train turns twice astride a boundary: what its tail read before pairs with nothing that it reads after (T2)."""
+    scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
+    out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
+    roll(scenario, out)
+    pass_boundary(scenario, out, NORTH, MIDDLE)
+    rest(scenario, out)
+    for run in (runs[T1], out):
+        report(scenario, run, NORTH, MIDDLE)
+    back = set_route(scenario, T1, MIDDLE_TO_NORTH, out)
+    roll(scenario, back)
+    head_passes(scenario, back, MIDDLE, NORTH)
+    rest(scenario, back)
+    on = set_route(scenario, T1, MIDDLE_TO_SOUTH, back)
+    roll(scenario, on)
+    enters(scenario, on, A2, NORTH, MIDDLE)
+    leaves(scenario, A2, NORTH)
+    tail_reads_first(scenario, on, pair(scenario.site.layout, NORTH, MIDDLE)[0])
+    for run in (out, back, on):
+        scenario.refuses("send_tail_report", **reported(scenario, run, MIDDLE, NORTH))
+    holds(scenario, MIDDLE, out, back, on)
+    return scenario
+
+
+def a_run_back_permitted_before_the_arrival_keeps_its_loop(steps: Steps) -> Scenario:
+    """The tag at which a way in ends begins the way back: read on the way in, it counts for the way in alone (T5)."""
+    scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
+    out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
+    back = set_route(scenario, T1, MIDDLE_TO_NORTH, out)
+    roll(scenario, out)
+    pass_boundary(scenario, out, NORTH, MIDDLE)
+    rest(scenario, out)
+    roll(scenario, back)
+    pass_boundary(scenario, back, MIDDLE, NORTH)
+    scenario.must(not scenario.system.units[T1].loop_open, "every tag was the expected one")
+    report(scenario, back, MIDDLE, NORTH)
+    return scenario
+
+
+def a_tag_missed_by_the_head_is_overdue_before_the_tail_comes(steps: Steps) -> Scenario:
+    """A head that reads nothing at a boundary: the tag is overdue, and what the tail reads there frees nothing (T5)."""
+    scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
+    out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
+    roll(scenario, out)
+    first, second = pair(scenario.site.layout, NORTH, MIDDLE)
+    scenario.does("head_misses", {"track": {"unread": came(T1)}}, train=T1, tag=first)
+    for car in (A1, A2):
+        enters(scenario, out, car, NORTH, MIDDLE)
+    for car in (A1, A2):
+        leaves(scenario, car, NORTH)
+    scenario.refuses("tail_reads", **tail_read(scenario, out, first))
+    scenario.does("window_passes", train=T1)
+    tail_reads_first(scenario, out, first)
+    scenario.does("tail_reads", **tail_read(scenario, out, second))
+    for run in (runs[T1], out):
+        scenario.refuses("send_tail_report", **reported(scenario, run, NORTH, MIDDLE))
+    rest(scenario, out)
+    scenario.refuses("start_rolling", run=out)
+    scenario.must(head_cab(scenario, out) == scenario.system.units[T1].leading, "the unit still knows its ends")
+    return scenario
