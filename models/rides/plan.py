@@ -52,11 +52,10 @@ PLAN = Plan(
     length=LengthBounds(
         line_maximum_mm=200_000,
         last_vehicle_mm=20_000,
-        averaging_mm=782,
-        sensor_mm=5_000,
         front_overhang_mm=0,
         rear_overhang_mm=0,
         window_mm=2 * TAG_ERROR_MM,
+        width_mm=20_000,
     ),
 )
 """Brake: an emergency brake of 0.6 m/s² at the least, net of a gradient of 35 per mille, within 1.5 s (ours)."""
