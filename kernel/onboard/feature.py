@@ -10,8 +10,8 @@ Curvatures are in 1/10**6 m, with sign: a left curve is no right curve, a crest 
 and v in mm/s, κ is 1000 ω / v; bands are compared with it after multiplication by v, so nothing is divided.
 
 Ours: the three parts as check points, each met in at least one cycle; no fix below the feature's least
-speed, while the wheel slips, after the wheel has turned back, or on a reading out of range.  Ranges of readings: rates to 1000 rad/s,
-speeds to 200 m/s, ways to 10**9 mm; bands to 1 / m.
+speed, while the wheel slips, after the wheel has turned back, or on a reading out of range.  Ranges of
+readings: rates to 1000 rad/s, speeds to 200 m/s, ways to 10**9 mm; bands to 1 / m.
 """
 
 from __future__ import annotations
