@@ -153,17 +153,17 @@ def head_reads(site: Track, system: Trailing, uid: int, at: Way) -> Trailing:
         return system
     if not the_odometer_contains_the_way(system, at):
         return system
-    after = replace(system, spacing=machine.note_head_read(system.spacing, uid, at), head_newest=uid)
-    if uid != site.tag:
-        return replace(after, since=system.since + 1 if uid != system.head_newest else system.since)
+    ours = uid == site.tag
     return replace(
-        after,
-        head_has_read=True,
-        since=0,
-        known=is_told(at),
-        least_mm=at.least_mm,
-        most_mm=at.most_mm,
-        caught=system.caught or system.tail_is_on,
+        system,
+        spacing=machine.note_head_read(system.spacing, uid, at),
+        head_newest=uid,
+        head_has_read=system.head_has_read or ours,
+        since=0 if ours else (system.since if uid == system.head_newest else system.since + 1),
+        known=is_told(at) if ours else system.known,
+        least_mm=at.least_mm if ours else system.least_mm,
+        most_mm=at.most_mm if ours else system.most_mm,
+        caught=system.caught or (ours and system.tail_is_on),
     )
 
 
