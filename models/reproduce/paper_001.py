@@ -203,7 +203,8 @@ def length_rows(found: Sequence[Measured]) -> tuple[Row, ...]:
             min(used) >= TRUE_M if used else None, "never less than 120 m"),
         Row("trains measured again and found of another length", "ours", "not given",
             f"{sum(each.contradicts for each in found)} of {sum(each.again for each in found)}",
-            not any(each.contradicts for each in found), "none: vehicles neither come nor go"),
+            not any(each.contradicts for each in found) if any(each.again for each in found) else None,
+            "none: vehicles neither come nor go"),
     )  # fmt: skip
 
 
