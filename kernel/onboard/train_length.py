@@ -37,7 +37,6 @@ from enum import Enum
 from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up, larger
 
 GREATEST_PLACE_MM = 10_000_000_000
-GREATEST_MEASURE_MM = 1_000_000
 AVERAGING_MM = 782
 """Paper 001, table 2, says 0.78 m; here 2.5 km/h/s · (1.5 s)² / 2, rounded up (P8)."""
 SENSOR_MM = 5_000
