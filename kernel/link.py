@@ -4,6 +4,9 @@ Machine of the centre, of units and of terminals alike.  A session is a life of 
 life of the receiver; lives only grow, so a session that is over never returns, and within one the
 numbers only grow.  The paper asks for numbers, an error-correcting code and repeated transmission
 (000, 3.5.3); sender, lives, freshness and authentication are ours.
+
+What arrives comes with the code that stood in it and the code that the own key gives for the same
+bytes.  Whether they are equal is asked here and nowhere else, so that no host can hand in the answer.
 """
 
 from __future__ import annotations
@@ -18,6 +21,8 @@ Life = NewType("Life", int)
 """The time of a machine from one restart to the next, counted in lasting memory; T8, T11."""
 Content = NewType("Content", str)
 """What a telegram says: its kind and payload, as ``kernel.telegram`` writes them; T11."""
+Code = NewType("Code", str)
+"""A code of authentication, hexadecimal, as ``kernel.telegram`` makes it; T11."""
 
 LAST_SEQUENCE = 2**32 - 1
 """The greatest number of a telegram in a session; a link at it sends no more until a restart (T11, ours)."""
@@ -39,6 +44,19 @@ class Telegram(NamedTuple):
     sequence: int
     sent_at_ms: int
     content: Content
+
+
+@dataclass(frozen=True)
+class Arrived:
+    """A telegram as it arrived (T11).
+
+    ``code``: its code of authentication, as it came.  ``expected``: what the key of this pair gives for
+    the very bytes that it came in.
+    """
+
+    telegram: Telegram
+    code: Code
+    expected: Code
 
 
 class Outcome(Enum):
@@ -127,12 +145,18 @@ def is_of_the_session(link: Link, telegram: Telegram) -> bool:
     )
 
 
-def judge(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> Outcome:
+def is_authentic(arrived: Arrived) -> bool:
+    """Tell whether what arrived bears the code that the own key gives for it (T11, ours)."""
+    return arrived.code == arrived.expected
+
+
+def judge(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> Outcome:
     """Say what becomes of a telegram that arrives when the own clock shows ``now_ms`` (T11).
 
-    ``authentic``: its code of authentication is right.  Only what is DELIVERED may be acted on.
+    Only what is DELIVERED may be acted on.
     """
-    if not authentic:
+    telegram = arrived.telegram
+    if not is_authentic(arrived):
         return Outcome.NOT_AUTHENTIC
     if telegram.sender != link.peer:
         return Outcome.OTHER_SENDER
@@ -151,22 +175,22 @@ def judge(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic
     return Outcome.DELIVERED
 
 
-def is_delivered(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> bool:
+def is_delivered(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> bool:
     """Tell whether a telegram that arrives is to be acted on (T11)."""
-    return judge(limits, link, telegram, now_ms, authentic) == Outcome.DELIVERED
+    return judge(limits, link, arrived, now_ms) == Outcome.DELIVERED
 
 
-def take(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> Link:
+def take(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> Link:
     """Note a telegram that arrives (T11).
 
     What is not delivered still tells the life of the peer, if it is authentic: that is how two
     machines that have restarted find each other (ours).
     """
-    noted = note_time(link, now_ms)
-    if not authentic or telegram.sender != link.peer or telegram.receiver != link.me:
+    telegram, noted = arrived.telegram, note_time(link, now_ms)
+    if not is_authentic(arrived) or telegram.sender != link.peer or telegram.receiver != link.me:
         return noted
     met = meet(noted, telegram.sender_life)
-    if not is_delivered(limits, link, telegram, now_ms, authentic):
+    if not is_delivered(limits, link, arrived, now_ms):
         return met
     return replace(met, newest=telegram, missed=met.missed + telegram.sequence - newest_sequence(met) - 1)
 

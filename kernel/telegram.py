@@ -31,7 +31,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from kernel.error_correction import Damaged, protect, restore
-from kernel.link import LAST_SEQUENCE, Content, Life, Link, Party, Telegram, sends
+from kernel.link import LAST_SEQUENCE, Arrived, Code, Content, Life, Link, Party, Telegram, sends
 
 FORMAT = 1
 NAME_BYTES = 16
@@ -59,14 +59,13 @@ LONGEST = SHORTEST + PAYLOAD_BYTES
 
 
 class Rejection(Enum):
-    """Why a telegram cannot be encoded, or is not believed (T11)."""
+    """Why a telegram cannot be encoded or read (T11); whether what was read is authentic the link asks."""
 
     KEY_TOO_SHORT = "key too short"
     TOO_SHORT = "shorter than a telegram without payload"
     TOO_LONG = "longer than a telegram with the longest payload"
     NOT_CORRECTABLE = "more errors than can be corrected"
     CRC_WRONG = "CRC does not match"
-    MAC_WRONG = "not made with the key of this pair"
     FORMAT_UNKNOWN = "format unknown"
     LENGTH_WRONG = "payload is not as long as it says"
     NAME_OUT_OF_RANGE = "a name is not 1 to 16 visible ASCII characters"
@@ -176,8 +175,16 @@ def encode(key: bytes, telegram: Telegram) -> bytes | Rejection:
     return sealed(key, body)
 
 
-def opened(key: bytes, raw: bytes) -> bytes | Rejection:
-    """The fields of what arrived, mended if need be, or why it is not believed; never raises (T11)."""
+class Opened(NamedTuple):
+    """The fields of what arrived, its code of authentication, and the code that the own key gives for it (T11)."""
+
+    body: bytes
+    code: Code
+    expected: Code
+
+
+def opened(key: bytes, raw: bytes) -> Opened | Rejection:
+    """Open what arrived, mended if need be, or say why it cannot be read; never raises (T11)."""
     if len(key) < KEY_BYTES:
         return Rejection.KEY_TOO_SHORT
     if len(raw) < 2 * SHORTEST:
@@ -191,9 +198,7 @@ def opened(key: bytes, raw: bytes) -> bytes | Rejection:
     body = covered[:-CRC_BYTES]
     if zlib.crc32(body) != int.from_bytes(covered[-CRC_BYTES:], "big"):
         return Rejection.CRC_WRONG
-    if not hmac.compare_digest(code_of(key, covered), code):
-        return Rejection.MAC_WRONG
-    return body
+    return Opened(body, Code(code.hex()), Code(code_of(key, covered).hex()))
 
 
 def name_in(field: bytes) -> Party | None:
@@ -207,14 +212,15 @@ def number_in(body: bytes, start: int, size: int) -> int:
     return int.from_bytes(body[start : start + size], "big")
 
 
-def decode(key: bytes, raw: bytes) -> Telegram | Rejection:
-    """What arrived, or why it is not believed; never raises (T11).
+def decode(key: bytes, raw: bytes) -> Arrived | Rejection:
+    """Read what arrived, with both codes, or say why it cannot be read; never raises (T11).
 
-    A telegram that is given back is authentic: made by who has the key, bit for bit.
+    Anybody may have written it: ``kernel.link.judge`` compares the codes, and says whether to act on it.
     """
-    body = opened(key, raw)
-    if isinstance(body, Rejection):
-        return body
+    read = opened(key, raw)
+    if isinstance(read, Rejection):
+        return read
+    body = read.body
     if body[0] != FORMAT or body[1] > 1:
         return Rejection.FORMAT_UNKNOWN
     if number_in(body, LENGTH_AT, LENGTH_BYTES) != len(body) - PAYLOAD_AT:
@@ -234,4 +240,4 @@ def decode(key: bytes, raw: bytes) -> Telegram | Rejection:
         content=Content((body[KIND_AT : KIND_AT + 1] + body[PAYLOAD_AT:]).hex()),
     )
     refused = out_of_range(telegram)
-    return telegram if refused is None else refused
+    return Arrived(telegram, read.code, read.expected) if refused is None else refused

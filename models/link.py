@@ -1,8 +1,8 @@
 """The world of the radio link: everything ever sent, by anyone, and clocks that are nearly right (T11).
 
-Any telegram may arrive anywhere, any number of times, at any moment, or never.  So may telegrams
-that nobody sent; those have no valid code of authentication.  One key for all machines would do
-here: that a key belongs to one pair is not used.
+Any telegram may arrive anywhere, any number of times, at any moment, or never, and with any code of
+authentication.  So may telegrams that nobody sent; only, nobody without the key hits the code that it
+gives for them.  One key for all machines would do here: that a key belongs to one pair is not used.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.link import (
+    Arrived,
     Life,
     Limits,
     Link,
@@ -86,14 +87,13 @@ class System:
 # ---- what is assumed
 
 
-def only_the_holder_of_the_key_makes_a_valid_mac(
-    site: Site, system: System, telegram: Telegram, authentic: bool
-) -> bool:
-    """A valid code of authentication is made by a machine that has the key, for what it sends; by nobody else.
+def only_the_holder_of_the_key_makes_a_valid_mac(site: Site, system: System, arrived: Arrived) -> bool:
+    """The code that the key gives for a text stands in it only if a machine that has the key has sent that text.
 
-    Keys stay within the machines, and HMAC-SHA-256, 16 bytes of it, is not forged.
+    Keys stay within the machines, and HMAC-SHA-256, 16 bytes of it, is not forged.  What the receiver
+    makes of the two codes is its own matter.
     """
-    return not authentic or telegram in system.sent
+    return arrived.code != arrived.expected or arrived.telegram in system.sent
 
 
 def clocks_agree_within_the_bound(site: Site, reading_ms: int, true_ms: int) -> bool:
@@ -121,22 +121,21 @@ def send(site: Site, system: System, me: Party, peer: Party, telegram: Telegram)
     )
 
 
-def arrive(
-    site: Site, system: System, me: Party, peer: Party, telegram: Telegram, reading_ms: int, authentic: bool
-) -> System:
+def arrive(site: Site, system: System, me: Party, peer: Party, arrived: Arrived, reading_ms: int) -> System:
     """Something arrives at an end of a link: sent, repeated, late, for another, damaged or forged (T11)."""
     if (me, peer) not in system.ends:
         return system
-    if not only_the_holder_of_the_key_makes_a_valid_mac(site, system, telegram, authentic):
+    if not only_the_holder_of_the_key_makes_a_valid_mac(site, system, arrived):
         return system
     if not clocks_agree_within_the_bound(site, reading_ms, system.now_ms):
         return system
     end = system.ends[me, peer]
     highest_ms = reading_ms if reading_ms > end.highest_ms else end.highest_ms
-    link = take(site.limits, end.link, telegram, reading_ms, authentic)
+    link = take(site.limits, end.link, arrived, reading_ms)
     noted = replace(system, ends=system.ends | {(me, peer): End(link=link, highest_ms=highest_ms)})
-    if not is_delivered(site.limits, end.link, telegram, reading_ms, authentic):
+    if not is_delivered(site.limits, end.link, arrived, reading_ms):
         return noted
+    telegram = arrived.telegram
     delivery = Delivery(
         me=me,
         peer=peer,

@@ -41,7 +41,11 @@ TOLD: Mapping[str, Mapping[str, str]] = {
 Of a site a field with all that is in it; of a state only which keys there are.
 """
 
-NOTED: Mapping[str, Mapping[str, str]] = {}
+NOTED: Mapping[str, Mapping[str, str]] = {
+    "antenna_spacing": {
+        "head_newest": "a tag is numbered by where it lies; that it was read is what the machine is told"
+    },
+}
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""
 
 

@@ -10,7 +10,7 @@ from random import Random
 from typing import Any
 
 from fuzz.channel.threats import Rates
-from kernel.link import LAST_SEQUENCE, Content, Life, Limits, Outcome, Party, Telegram, begin, judge
+from kernel.link import LAST_SEQUENCE, Arrived, Code, Content, Life, Limits, Outcome, Party, Telegram, begin, judge
 from models.link import End, Site, System
 from proofs.onboard.link import THEORY
 
@@ -85,7 +85,7 @@ class Channel:
         if step != "arrive" or (event["me"], event["peer"]) not in self.system.ends:
             return NO_OUTCOME
         link = self.system.ends[event["me"], event["peer"]].link
-        found = judge(LIMITS, link, event["telegram"], event["reading_ms"], event["authentic"])
+        found = judge(LIMITS, link, event["arrived"], event["reading_ms"])
         return OUTCOMES.index(found)
 
     def _strikes(self, threat: str) -> bool:
@@ -162,7 +162,8 @@ class Channel:
 
     def _arrives(self, telegram: Telegram, me: Party, peer: Party, authentic: bool = True) -> None:
         reading_ms = self._reading()
-        self.take("arrive", me=me, peer=peer, telegram=telegram, reading_ms=reading_ms, authentic=authentic)
+        arrived = Arrived(telegram, Code("5a" if authentic else "a5"), Code("5a"))
+        self.take("arrive", me=me, peer=peer, arrived=arrived, reading_ms=reading_ms)
 
     def _changed(self, telegram: Telegram) -> Telegram:
         """One field arrives changed."""

@@ -7,16 +7,16 @@ distance (paper 000, 3.5.2); only then does it count.
 
 Ours: a train may be longer than the ways between its tags, so the head's last eight reads are
 remembered: tags lie in pairs, so that is four boundaries within one train.  To remember only the nearest
-would leave the tail's other reads unchecked.  A read that cannot be compared makes the line not
-healthy, until one can be; one that does not fit, or comes before the head's, is latched until staff
-presets the distance anew.
+would leave the tail's other reads unchecked.  A read that cannot be compared, or only by a way known worse
+than is written, makes the line not healthy, until one can be; one that does not fit, or comes before the
+head's, is latched until staff presets the distance anew.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.way import UNKNOWN, Way, between
+from kernel.onboard.way import UNKNOWN, Way, between, is_within_width
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,11 @@ class SpacingLimits:
 
     ``tolerance_mm``: how far from the preset distance the way between the two reads of a tag may be: the
     error of presetting, and the read window (513 mm: half of it at either antenna).
+    ``width_mm``: how wide the odometry's range of that way may be for the two reads to be compared.
     """
 
     tolerance_mm: int
+    width_mm: int
 
 
 @dataclass(frozen=True)
@@ -156,12 +158,13 @@ def fits(limits: SpacingLimits, preset_mm: int, way: Way) -> bool:
 def note_tail_read(limits: SpacingLimits, spacing: Spacing, uid: int, at: Way) -> Spacing:
     """Hold a tag that the tail has read against the head's read of it (T3, T13)."""
     way = between(place_of_read(spacing.reads, uid), at)
+    checked = way.known and is_within_width(way, limits.width_mm)
     return replace(
         spacing,
         tail_read=True,
         tail_uid=uid,
-        checked=way.known,
-        broken=spacing.broken or (way.known and not fits(limits, spacing.preset_mm, way)),
+        checked=checked,
+        broken=spacing.broken or (checked and not fits(limits, spacing.preset_mm, way)),
     )
 
 

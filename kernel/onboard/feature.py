@@ -10,8 +10,8 @@ Curvatures are in 1/10**6 m, with sign: a left curve is no right curve, a crest 
 and v in mm/s, κ is 1000 ω / v; bands are compared with it after multiplication by v, so nothing is divided.
 
 Ours: the three parts as check points, each met in at least one cycle; no fix below the feature's least
-speed, while the wheel slips, or on a reading out of range.  Ranges of readings: rates to 1000 rad/s,
-speeds to 200 m/s, ways to 10**9 mm; bands to 1 / m.
+speed, while the wheel slips, after the wheel has turned back, or on a reading out of range.  Ranges of
+readings: rates to 1000 rad/s, speeds to 200 m/s, ways to 10**9 mm; bands to 1 / m.
 """
 
 from __future__ import annotations
@@ -116,17 +116,18 @@ class Readings:
 class Detection:
     """What is known of the feature awaited (P3).
 
-    ``from_mm``: the tachometer's way where the present straight or curve began.
+    ``from_mm``: the tachometer's way where the present straight or curve began; ``way_mm``: in the newest cycle.
     ``fix_least_mm``, ``fix_most_mm``: the front is in there, in the cycle of the fix.
     """
 
     stage: Progress
     from_mm: int
+    way_mm: int
     fix_least_mm: int
     fix_most_mm: int
 
 
-AWAITED = Detection(Progress.WAITING, 0, 0, 0)
+AWAITED = Detection(Progress.WAITING, 0, 0, 0, 0)
 """A registered feature ahead of the train is awaited: no detection has begun (P3)."""
 
 
@@ -149,6 +150,11 @@ def is_usable(feature: Feature, readings: Readings) -> bool:
         and 0 <= readings.way_mm <= GREATEST_WAY_MM
         and -GREATEST_RATE_URAD_S <= rate_urad_s(feature, readings) <= GREATEST_RATE_URAD_S
     )
+
+
+def has_turned_back(state: Detection, readings: Readings) -> bool:
+    """Tell whether the wheel's way is less than in the cycle before: what was matched is run over again (P3)."""
+    return readings.way_mm < state.way_mm
 
 
 def is_within(band: Band, feature: Feature, readings: Readings) -> bool:
@@ -244,6 +250,17 @@ def leave(bounds: SensorBounds, feature: Feature, state: Detection, readings: Re
     )
 
 
+def matched(bounds: SensorBounds, feature: Feature, state: Detection, readings: Readings) -> Detection:
+    """Take a cycle that can be matched, by the stage before (P3)."""
+    if state.stage == Progress.WAITING:
+        return wait(feature, state, readings)
+    if state.stage == Progress.ENTRY_STRAIGHT:
+        return enter(feature, state, readings)
+    if state.stage == Progress.EXIT_STRAIGHT:
+        return leave(bounds, feature, state, readings)
+    return turn(feature, state, readings)
+
+
 def note_cycle(bounds: SensorBounds, feature: Feature, state: Detection, readings: Readings) -> Detection:
     """Take the readings of one cycle (P2, P3)."""
     stage = state.stage
@@ -251,15 +268,9 @@ def note_cycle(bounds: SensorBounds, feature: Feature, state: Detection, reading
         return replace(state, stage=Progress.PASSED)
     if stage == Progress.PASSED or stage == Progress.FAILED:
         return state
-    if not is_usable(feature, readings):
+    if not is_usable(feature, readings) or has_turned_back(state, readings):
         return state if stage == Progress.WAITING else failed(state)
-    if stage == Progress.WAITING:
-        return wait(feature, state, readings)
-    if stage == Progress.ENTRY_STRAIGHT:
-        return enter(feature, state, readings)
-    if stage == Progress.EXIT_STRAIGHT:
-        return leave(bounds, feature, state, readings)
-    return turn(feature, state, readings)
+    return replace(matched(bounds, feature, state, readings), way_mm=readings.way_mm)
 
 
 def has_fix(state: Detection) -> bool:

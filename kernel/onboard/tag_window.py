@@ -3,7 +3,7 @@
 The plan says how far it is to the next tag (the record of the last one, or the route's list), the
 odometry between which bounds the way is that was run since (paper 000, 3.4.2).  A tag is early only if
 it certainly is, and late only if it certainly is: the odometry's error widens the window, and no tag
-in its place opens the loop.
+in its place opens the loop.  Ours: up to a written width; what is known worse is not known.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from kernel.onboard.way import Way, is_known
+from kernel.onboard.way import Way, is_known, is_within_width
 
 GREATEST_DISTANCE_MM = 2**28 - 1
 """The longest distance that a tag's record can hold (T1)."""
@@ -24,7 +24,7 @@ class Verdict(Enum):
     EARLY = 1
     LATE = 2
     UNKNOWN = 3
-    """No tag is awaited, or the way or the plan is not known."""
+    """No tag is awaited, or the plan is not known, or the way is not known well enough."""
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,11 @@ class WindowLimits:
 
     ``tolerance_mm``: how far from the plan the ways between two reads may be: the error of laying tags,
     and the read window of the antenna (513 mm: half of it at either tag).
+    ``width_mm``: how wide the odometry's range of the way may be for a tag to be held against it.
     """
 
     tolerance_mm: int
+    width_mm: int
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ def has_a_plan(window: Window) -> bool:
 
 def judge(limits: WindowLimits, window: Window, way: Way) -> Verdict:
     """Tell whether the next tag may come here; ``way``: run since the last (T5)."""
-    if not has_a_plan(window) or not is_known(way):
+    if not has_a_plan(window) or not is_known(way) or not is_within_width(way, limits.width_mm):
         return Verdict.UNKNOWN
     if way.most_mm < window.least_mm - limits.tolerance_mm:
         return Verdict.EARLY
@@ -89,7 +91,7 @@ def in_window(limits: WindowLimits, window: Window, way: Way) -> bool:
 def note_cycle(limits: WindowLimits, window: Window, way: Way) -> Window:
     """Note how far the train has come without the next tag (T5).
 
-    Where the way is not known any more, the tag is taken for overdue.
+    Where the way is not known well enough any more, the tag is taken for overdue.
     """
     verdict = judge(limits, window, way)
     overdue = window.expected and (verdict == Verdict.LATE or verdict == Verdict.UNKNOWN)

@@ -18,7 +18,15 @@ Until both have passed one point, the line's greatest length is used; so it is a
 formation.  Due before the main line (3.3); ours: a length measured later is as good.  Ours: what is
 measured above the line's greatest length is used as it is, and shown as a contradiction.
 
-Ranges of readings: places to 10,000 km, speeds to 200 m/s; what is beyond is no pass.
+Ours: at every later point the length is measured again, and held against the one in use.  If no length
+is within the errors of both, a bound was broken, or vehicles were coupled untold: the line's greatest
+length is used, or what was measured if that is more, until staff tells the formation.
+
+Ours: places are compared by one kilometrage.  After a change of ends, or when the train is located anew,
+the head's pass counts no more; and no train is shorter than its last vehicle.
+
+Ranges of readings: places to 10,000 km, speeds to 200 m/s; what is beyond, or a front known less well
+than the written width, is no pass.
 """
 
 from __future__ import annotations
@@ -29,7 +37,6 @@ from enum import Enum
 from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up, larger
 
 GREATEST_PLACE_MM = 10_000_000_000
-GREATEST_MEASURE_MM = 1_000_000
 AVERAGING_MM = 782
 """Paper 001, table 2, says 0.78 m; here 2.5 km/h/s · (1.5 s)² / 2, rounded up (P8)."""
 SENSOR_MM = 5_000
@@ -50,18 +57,18 @@ class LengthBounds:
     """The written measures and bounds, each from 0 to a kilometre (P4, T3).
 
     ``line_maximum_mm``: no train of the line is longer: the operator's duty; it may be more.
-    ``last_vehicle_mm``: L_c.  ``averaging_mm``, ``sensor_mm``: of E(v).
+    ``last_vehicle_mm``: L_c.
     ``front_overhang_mm``, ``rear_overhang_mm``: from the antennas to the train's ends.
     ``window_mm``: how far apart one tag's reads by the two antennas may be from where the tag lies.
+    ``width_mm``: the widest range of the front, by odometry, in which a pass still counts.
     """
 
     line_maximum_mm: int
     last_vehicle_mm: int
-    averaging_mm: int
-    sensor_mm: int
     front_overhang_mm: int
     rear_overhang_mm: int
     window_mm: int
+    width_mm: int
 
 
 @dataclass(frozen=True)
@@ -70,8 +77,7 @@ class Passing:
 
     ``point``: the feature's or the tag's number, the only one of its kind on the line.
     ``time_ms``: GPS time of the pass.
-    ``front_least_mm``, ``front_most_mm``: the range of the train's front at that time, by odometry.  For
-    the tail's pass a later moment does too: the front has run on, and the length comes out longer.
+    ``front_least_mm``, ``front_most_mm``: the range of the train's front at that time, by odometry.
     ``speed_most_mm_s``: the most that the speed was then.
     """
 
@@ -88,24 +94,28 @@ class Length:
     """What is known of the length of this formation (P4).
 
     ``head_passed``: the head has passed a point, ``head``, and the tail is awaited.
-    ``measured``: the tail has passed the same; ``measured_mm``: the most that the length can be then.
+    ``measured``: the tail has passed the same; ``least_mm``, ``most_mm``: the length is between them then.
+    ``contradicted``: latched; measured again, the length could not be the same.
     """
 
     head_passed: bool
     head: Passing
     measured: bool
-    measured_mm: int
+    least_mm: int
+    most_mm: int
+    contradicted: bool
 
 
 NOWHERE = Passing(PointKind.FEATURE, 0, 0, 0, 0, 0)
-UNMEASURED = Length(head_passed=False, head=NOWHERE, measured=False, measured_mm=0)
+UNMEASURED = Length(head_passed=False, head=NOWHERE, measured=False, least_mm=0, most_mm=0, contradicted=False)
 """At power-on and after every change of the formation: the line's greatest length is used (P4)."""
 
 
-def fits(passing: Passing) -> bool:
-    """Tell whether a pass is within the ranges of readings (P4)."""
+def fits(bounds: LengthBounds, passing: Passing) -> bool:
+    """Tell whether a pass is within the ranges of readings, and the front known well enough (P4)."""
     return (
         -GREATEST_PLACE_MM <= passing.front_least_mm <= passing.front_most_mm <= GREATEST_PLACE_MM
+        and passing.front_most_mm - passing.front_least_mm <= bounds.width_mm
         and 0 <= passing.speed_most_mm_s <= GREATEST_SPEED_MM_S
     )
 
@@ -116,10 +126,10 @@ def cycle_way_mm(speed_mm_s: int) -> int:
 
 
 def error_mm(bounds: LengthBounds, kind: PointKind, speed_mm_s: int) -> int:
-    """Give E(v), the most that the way between the passes may come out short (P8; 13.0 m at 130 km/h)."""
+    """Give E(v), the most that the way between the passes may come out short, or long (P8; 13.0 m at 130 km/h)."""
     if kind == PointKind.TAG:
         return cycle_way_mm(speed_mm_s) + bounds.window_mm
-    return cycle_way_mm(speed_mm_s) + cycle_way_mm(speed_mm_s) + bounds.averaging_mm + bounds.sensor_mm
+    return cycle_way_mm(speed_mm_s) + cycle_way_mm(speed_mm_s) + AVERAGING_MM + SENSOR_MM
 
 
 def beyond_the_sensors_mm(bounds: LengthBounds, kind: PointKind) -> int:
@@ -129,9 +139,9 @@ def beyond_the_sensors_mm(bounds: LengthBounds, kind: PointKind) -> int:
     return bounds.last_vehicle_mm
 
 
-def note_head_pass(state: Length, passing: Passing) -> Length:
+def note_head_pass(bounds: LengthBounds, state: Length, passing: Passing) -> Length:
     """Note that the head has passed a point; the tail is awaited there, and nowhere else (P4, T3)."""
-    return replace(state, head_passed=fits(passing), head=passing)
+    return replace(state, head_passed=fits(bounds, passing), head=passing)
 
 
 def is_same_point(state: Length, passing: Passing) -> bool:
@@ -150,20 +160,32 @@ def is_same_point(state: Length, passing: Passing) -> bool:
 def note_tail_pass(bounds: LengthBounds, state: Length, passing: Passing) -> Length:
     """Note that the tail has passed a point; if the head did before, the length is measured (P4, T3).
 
-    Once measured, a length stays until the formation changes (paper 001, 3.1).  Tag reads count only
-    over a healthy through line: the caller's duty (T2, T13).
+    Once measured, a length stays until the formation changes (paper 001, 3.1), or is contradicted.  Tag
+    reads count only over a healthy through line: the caller's duty (T2, T13).
     """
-    if state.measured or not is_same_point(state, passing) or not fits(passing):
+    if not is_same_point(state, passing) or not fits(bounds, passing):
         return state
-    speed_mm_s = larger(state.head.speed_most_mm_s, passing.speed_most_mm_s)
-    return replace(
-        state,
-        measured=True,
-        measured_mm=passing.front_most_mm
-        - state.head.front_least_mm
-        + beyond_the_sensors_mm(bounds, passing.kind)
-        + error_mm(bounds, passing.kind, speed_mm_s),
-    )
+    error_most_mm = error_mm(bounds, passing.kind, larger(state.head.speed_most_mm_s, passing.speed_most_mm_s))
+    beyond_mm = beyond_the_sensors_mm(bounds, passing.kind)
+    least_mm = passing.front_least_mm - state.head.front_most_mm + beyond_mm - error_most_mm
+    most_mm = passing.front_most_mm - state.head.front_least_mm + beyond_mm + error_most_mm
+    if state.measured:
+        return note_measured_again(state, least_mm, most_mm)
+    if most_mm < bounds.last_vehicle_mm:
+        return state
+    return replace(state, measured=True, least_mm=least_mm, most_mm=most_mm)
+
+
+def note_measured_again(state: Length, least_mm: int, most_mm: int) -> Length:
+    """Hold a measurement against the one in use: no length within both contradicts it, for good (P4; ours)."""
+    if least_mm <= state.most_mm and state.least_mm <= most_mm:
+        return state
+    return replace(state, most_mm=larger(state.most_mm, most_mm), contradicted=True)
+
+
+def note_kilometrage_changed(state: Length) -> Length:
+    """Forget the head's pass: ends were changed, or the train was located anew; the length stays (P4; ours)."""
+    return replace(state, head_passed=False)
 
 
 def note_formation_changed(state: Length) -> Length:
@@ -173,7 +195,14 @@ def note_formation_changed(state: Length) -> Length:
 
 def length_mm(bounds: LengthBounds, state: Length) -> int:
     """Give the length to be used: never less than the true one (P4)."""
-    return state.measured_mm if state.measured else bounds.line_maximum_mm
+    if state.contradicted:
+        return larger(state.most_mm, bounds.line_maximum_mm)
+    return state.most_mm if state.measured else bounds.line_maximum_mm
+
+
+def contradicts_itself(state: Length) -> bool:
+    """Tell whether a length measured again could not be the one measured before: a monitor (P4; ours)."""
+    return state.contradicted
 
 
 def contradicts_the_line(bounds: LengthBounds, state: Length) -> bool:

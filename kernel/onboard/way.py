@@ -30,6 +30,11 @@ def is_known(way: Way) -> bool:
     return way.known and -GREATEST_MM <= way.least_mm <= way.most_mm <= GREATEST_MM
 
 
+def is_within_width(way: Way, width_mm: int) -> bool:
+    """Tell whether a range is no wider than so much (P7)."""
+    return way.most_mm - way.least_mm <= width_mm
+
+
 def between(then: Way, now: Way) -> Way:
     """Give the way from a place to another (P7)."""
     return Way(

@@ -12,8 +12,12 @@ from dataclasses import dataclass, replace
 
 from kernel.onboard import antenna_spacing as machine
 from kernel.onboard.antenna_spacing import Spacing, SpacingLimits
-from kernel.onboard.arithmetic import magnitude
-from kernel.onboard.way import Way, between
+from kernel.onboard.way import Way
+
+FARTHEST_KNOWN_MM = 1_000_000_000
+"""The odometry claims no place beyond 1,000 km from where the line begins."""
+REMEMBERED = 8
+"""Tags lie in pairs at each boundary (T2), and four boundaries may lie within one train (T13; ours)."""
 
 
 @dataclass(frozen=True)
@@ -24,14 +28,12 @@ class Track:
     ``tag``: one tag, any one, that history looks at.
     ``read_mm``: how long an antenna's read window is; a tag is read in it, half before and half behind.
     ``preset_error_mm``: how far a preset antenna distance may be from the true one.
-    ``error_mm``: how wide the odometry's range of a place may be.
     """
 
     limits: SpacingLimits
     tag: int
     read_mm: int
     preset_error_mm: int
-    error_mm: int
 
 
 @dataclass(frozen=True)
@@ -42,17 +44,27 @@ class Trailing:
     ``head_mm``: the head antenna; ``apart_mm``: how far behind it is the antenna that speaks for the tail.
     The rest is history, since the distance was preset or the unit restarted.
     ``whole``: it was preset, and the antenna for the tail is still the same, and where it was.
-    ``head_has_read``: the head has read the one tag.
+    ``head_newest``: the tag that the head has read last, of any number before the first.
+    ``head_has_read``: the head has read the one tag; ``since``: as many others since, not counting the same
+    twice running; by the odometry it was between ``least_mm`` and ``most_mm`` then, if that was known at all.
+    ``tail_has_read``: the tail has read some tag; ``tail_is_on``: the last was the one tag.
     ``tail_mm``: how far apart the two antennas were at the tail's newest read.
-    ``caught``: a tail that was false has read a tag whose read by the head was remembered; or the
-    head has read a tag after the tail.
+    ``caught``: a tail that was false has read the one tag, which was among the head's last eight, where the
+    odometry knew the way between as well as is written; or the head has read it after the tail.
     """
 
     spacing: Spacing
     head_mm: int
     apart_mm: int
     whole: bool
+    head_newest: int
     head_has_read: bool
+    since: int
+    known: bool
+    least_mm: int
+    most_mm: int
+    tail_has_read: bool
+    tail_is_on: bool
     tail_mm: int
     caught: bool
 
@@ -70,17 +82,12 @@ def the_tolerance_covers_preset_and_read_window(site: Track) -> bool:
 
 def a_tag_is_read_in_the_read_window(site: Track, antenna_mm: int, uid: int) -> bool:
     """An antenna reads a tag only near the place where the one tag of this number lies (paper 000, 5; T1, T16)."""
-    return 2 * magnitude(antenna_mm - uid) <= site.read_mm
+    return -site.read_mm <= 2 * (antenna_mm - uid) <= site.read_mm
 
 
 def the_odometer_contains_the_way(system: Trailing, at: Way) -> bool:
     """A range that the odometry claims contains the place of the train; what it proves of itself (P7)."""
     return not at.known or at.least_mm <= system.head_mm <= at.most_mm
-
-
-def the_odometer_is_fine_enough(site: Track, at: Way) -> bool:
-    """A range that the odometry claims is no wider than the error reckoned with, which fixes at tags bound (P1, P7)."""
-    return not at.known or at.most_mm - at.least_mm <= site.error_mm
 
 
 def the_train_runs_forward(system: Trailing, to_mm: int) -> bool:
@@ -90,7 +97,7 @@ def the_train_runs_forward(system: Trailing, to_mm: int) -> bool:
 
 def the_preset_is_near(site: Track, system: Trailing, preset_mm: int) -> bool:
     """The distance is measured at a supervised place, within its error (paper 000, 3.5; T3)."""
-    return magnitude(preset_mm - system.apart_mm) <= site.preset_error_mm
+    return -site.preset_error_mm <= preset_mm - system.apart_mm <= site.preset_error_mm
 
 
 def the_antennas_lie_apart(site: Track, apart_mm: int) -> bool:
@@ -118,9 +125,25 @@ def come_apart(site: Track, system: Trailing, apart_mm: int) -> Trailing:
 
 def is_false(site: Track, system: Trailing) -> bool:
     """Tell whether the tail is farther from the preset distance than could pass unseen (T13)."""
+    off_mm = system.apart_mm - system.spacing.preset_mm
+    unseen_mm = site.limits.tolerance_mm + site.read_mm + site.limits.width_mm
+    return off_mm > unseen_mm or off_mm < -unseen_mm
+
+
+def is_told(at: Way) -> bool:
+    """Tell whether the odometry claims a place within its own limits."""
+    return at.known and -FARTHEST_KNOWN_MM <= at.least_mm <= at.most_mm <= FARTHEST_KNOWN_MM
+
+
+def can_be_compared(site: Track, system: Trailing, uid: int, at: Way) -> bool:
+    """Tell whether the tail reads the one tag, and how far the train has run since the head read it is known."""
     return (
-        magnitude(system.apart_mm - system.spacing.preset_mm)
-        > site.limits.tolerance_mm + site.read_mm + 2 * site.error_mm
+        uid == site.tag
+        and system.head_has_read
+        and system.since < REMEMBERED
+        and system.known
+        and is_told(at)
+        and at.most_mm - at.least_mm + system.most_mm - system.least_mm <= site.limits.width_mm
     )
 
 
@@ -128,14 +151,19 @@ def head_reads(site: Track, system: Trailing, uid: int, at: Way) -> Trailing:
     """The head antenna reads a tag; the odometry tells where the train is (T13)."""
     if not a_tag_is_read_in_the_read_window(site, system.head_mm, uid):
         return system
-    if not the_odometer_contains_the_way(system, at) or not the_odometer_is_fine_enough(site, at):
+    if not the_odometer_contains_the_way(system, at):
         return system
-    spacing = machine.note_head_read(system.spacing, uid, at)
+    ours = uid == site.tag
     return replace(
         system,
-        spacing=spacing,
-        head_has_read=system.head_has_read or uid == site.tag,
-        caught=system.caught or (system.spacing.tail_read and system.spacing.tail_uid == uid),
+        spacing=machine.note_head_read(system.spacing, uid, at),
+        head_newest=uid,
+        head_has_read=system.head_has_read or ours,
+        since=0 if ours else (system.since if uid == system.head_newest else system.since + 1),
+        known=is_told(at) if ours else system.known,
+        least_mm=at.least_mm if ours else system.least_mm,
+        most_mm=at.most_mm if ours else system.most_mm,
+        caught=system.caught or (ours and system.tail_is_on),
     )
 
 
@@ -143,15 +171,15 @@ def tail_reads(site: Track, system: Trailing, uid: int, at: Way) -> Trailing:
     """The antenna that speaks for the tail reads a tag (T13)."""
     if not a_tag_is_read_in_the_read_window(site, system.head_mm - system.apart_mm, uid):
         return system
-    if not the_odometer_contains_the_way(system, at) or not the_odometer_is_fine_enough(site, at):
+    if not the_odometer_contains_the_way(system, at):
         return system
-    spacing = machine.note_tail_read(site.limits, system.spacing, uid, at)
-    remembered = between(machine.place_of_read(system.spacing.reads, uid), at).known
     return replace(
         system,
-        spacing=spacing,
+        spacing=machine.note_tail_read(site.limits, system.spacing, uid, at),
+        tail_has_read=True,
+        tail_is_on=uid == site.tag,
         tail_mm=system.apart_mm,
-        caught=system.caught or (remembered and is_false(site, system)),
+        caught=system.caught or (can_be_compared(site, system, uid, at) and is_false(site, system)),
     )
 
 
@@ -176,4 +204,14 @@ def restart(site: Track, system: Trailing) -> Trailing:
 
 def begun(system: Trailing) -> Trailing:
     """Begin the history anew."""
-    return replace(system, whole=False, head_has_read=False, caught=False)
+    return replace(
+        system,
+        whole=False,
+        head_newest=0,
+        head_has_read=False,
+        since=0,
+        known=False,
+        tail_has_read=False,
+        tail_is_on=False,
+        caught=False,
+    )

@@ -1,7 +1,8 @@
 """A train that runs over features, or over something like them, and the machine that looks for one (P2, P3).
 
 Places are in µm; the train may be anywhere and turn in any manner.  History is kept in runs: a straight,
-a curve, a straight, each as long as usable readings say alike; it knows nothing of the machine's stages.
+a curve, a straight, each as long as readings say alike, by the feature as registered.  It knows nothing of
+the machine: neither its stages nor what it makes of readings.
 """
 
 from __future__ import annotations
@@ -9,11 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import feature as machine
-from kernel.onboard.arithmetic import magnitude
-from kernel.onboard.feature import Detection, Feature, Progress, Readings
-from kernel.onboard.odometry import SensorBounds, way_error_mm
+from kernel.onboard.feature import Band, Detection, Feature, Progress, Readings, TurnAxis
+from kernel.onboard.odometry import SensorBounds
 
 UM_A_MM = 1_000
+NM_A_UM = 1_000
+NM_A_MM = 1_000_000
 NONE_MM = -1
 """The length of a run that was not seen."""
 
@@ -31,7 +33,8 @@ class Runs:
     """What the readings have shown, without a break, up to this cycle.
 
     ``usable``: the newest could be used.  ``straight``: the present run is one, else it is a curve.
-    ``from_mm``, ``from_um``: the wheel's way and the true front where it began.  ``way_mm``: the wheel's way now.
+    ``from_mm``, ``from_um``: the wheel's way and the true front where it began; ``from_least_mm``: the least place
+    of the front by odometry there.  ``way_mm``: the wheel's way now.
     ``before_mm``: the length of the run before; ``first_mm``: of the one before that.
     ``in_band``: every cycle of the last curve was in the band of its part.
     ``met_second``: a cycle of it was in that part; ``met_third``: the newest of it was in that one.
@@ -41,6 +44,7 @@ class Runs:
     straight: bool
     from_mm: int
     from_um: int
+    from_least_mm: int
     way_mm: int
     before_mm: int
     first_mm: int
@@ -81,6 +85,7 @@ NO_RUNS = Runs(
     straight=False,
     from_mm=0,
     from_um=0,
+    from_least_mm=0,
     way_mm=0,
     before_mm=NONE_MM,
     first_mm=NONE_MM,
@@ -98,15 +103,54 @@ def parts_follow_one_another(site: Registered) -> bool:
     return site.feature.second_from_mm > 0
 
 
+# ---- readings, by the feature as registered
+
+
+def rate_urad_s(site: Registered, readings: Readings) -> int:
+    """Give the angular rate about the axis that the feature turns the train about."""
+    return readings.yaw_urad_s if site.feature.axis == TurnAxis.YAW else readings.pitch_urad_s
+
+
+def is_of_use(site: Registered, readings: Readings) -> bool:
+    """Tell whether a cycle shows a curvature: after the begin of detection, rolling, fast enough, all in range.
+
+    Ranges: speeds to 200 m/s, ways to 10⁹ mm, rates to 1000 rad/s.
+    """
+    valid = readings.yaw_valid if site.feature.axis == TurnAxis.YAW else readings.pitch_valid
+    return (
+        valid
+        and readings.rolling
+        and readings.front_least_mm >= site.feature.begin_mm
+        and site.feature.speed_least_mm_s <= readings.speed_mm_s <= 200_000
+        and 0 <= readings.way_mm <= 1_000_000_000
+        and -1_000_000_000 <= rate_urad_s(site, readings) <= 1_000_000_000
+    )
+
+
+def curves_within(site: Registered, band: Band, readings: Readings) -> bool:
+    """Tell whether the curvature κ = ω / v (paper 001, 2.2.2), in 1/10⁶ m, is in a band."""
+    turned = 1_000 * rate_urad_s(site, readings)
+    return band.least * readings.speed_mm_s <= turned and turned <= band.most * readings.speed_mm_s
+
+
+def curves_as_part(site: Registered, since_mm: int, readings: Readings) -> bool:
+    """Tell whether the curvature is in the band of the part of the curve, so far from its beginning."""
+    feature = site.feature
+    if since_mm < feature.second_from_mm:
+        return curves_within(site, feature.first, readings)
+    return curves_within(site, feature.second if since_mm < feature.third_from_mm else feature.third, readings)
+
+
 # ---- history
 
 
 def runs_after(site: Registered, runs: Runs, front_um: int, readings: Readings) -> Runs:
-    """Write the history on by one cycle; what cannot be used breaks it off."""
-    if not machine.is_usable(site.feature, readings):
+    """Write the history on by one cycle; what is of no use breaks it off, a wheel that turns back begins it anew."""
+    if not is_of_use(site, readings):
         return NO_RUNS
-    straight = machine.is_straight(site.feature, readings)
-    if runs.usable and straight == runs.straight:
+    straight = curves_within(site, site.feature.straight, readings)
+    goes_on = runs.usable and readings.way_mm >= runs.way_mm
+    if goes_on and straight == runs.straight:
         return with_part(site, replace(runs, way_mm=readings.way_mm), readings)
     begun = replace(
         runs,
@@ -114,9 +158,11 @@ def runs_after(site: Registered, runs: Runs, front_um: int, readings: Readings) 
         straight=straight,
         from_mm=readings.way_mm,
         from_um=front_um,
+        from_least_mm=readings.front_least_mm,
         way_mm=readings.way_mm,
-        before_mm=readings.way_mm - runs.from_mm if runs.usable else NONE_MM,
-        first_mm=runs.before_mm,
+        before_mm=readings.way_mm - runs.from_mm if goes_on else NONE_MM,
+        first_mm=runs.before_mm if goes_on else NONE_MM,
+        in_band=runs.in_band and goes_on,
     )
     if straight:
         return begun
@@ -130,12 +176,13 @@ def with_part(site: Registered, runs: Runs, readings: Readings) -> Runs:
     """
     if runs.straight:
         return runs
-    part = machine.part_at(site.feature, readings.way_mm - runs.from_mm)
+    since_mm = readings.way_mm - runs.from_mm
+    in_third = since_mm >= site.feature.second_from_mm and since_mm >= site.feature.third_from_mm
     return replace(
         runs,
-        in_band=runs.in_band and machine.matches(site.feature, part, readings),
-        met_second=runs.met_second or part == Progress.SECOND_PART,
-        met_third=part == Progress.THIRD_PART,
+        in_band=runs.in_band and curves_as_part(site, since_mm, readings),
+        met_second=runs.met_second or (since_mm >= site.feature.second_from_mm and not in_third),
+        met_third=in_third,
     )
 
 
@@ -164,31 +211,24 @@ def all_stages_match(site: Registered, runs: Runs) -> bool:
 def what_matches_in_every_stage_is_the_feature(site: Registered, system: Looking, runs: Runs) -> bool:
     """Where every stage matched, the curve's end was found within its error of the registered place (P3).
 
-    Features are surveyed, and chosen such that nothing else after their begin looks like them, whichever
-    way the train may go there.
+    Features are surveyed, and chosen such that nothing else from their begin to their end looks like them,
+    whichever way the train may go there.  Of what comes where the odometry shows the train beyond the end
+    nothing is said.
     """
-    return not all_stages_match(site, runs) or (
-        magnitude(runs.from_um - UM_A_MM * site.feature.end_mm) <= UM_A_MM * site.feature.end_error_mm
-    )
+    off_um, error_um = runs.from_um - UM_A_MM * site.feature.end_mm, UM_A_MM * site.feature.end_error_mm
+    beyond = runs.from_least_mm > site.feature.end_mm + site.feature.end_error_mm
+    return not all_stages_match(site, runs) or beyond or -error_um <= off_um <= error_um
 
 
 def a_rolling_wheel_counts_the_way(site: Registered, system: Looking, front_um: int, runs: Runs) -> bool:
-    """Over an exit straight, the wheel's way is the train's within the odometer's error of its greatest length (P1).
+    """Over an exit straight, the wheel's way is the train's within creep and diameter error, and one pulse (P1).
 
-    The error grows with the way, and slips are told by odometry.
+    The error is that of the greatest length of the exit straight; slips are told by odometry.
     """
     since_mm = runs.way_mm - runs.from_mm
     off_um = front_um - runs.from_um - UM_A_MM * since_mm
-    return (
-        not runs.usable
-        or since_mm > site.feature.exit_most_mm
-        or magnitude(off_um) <= UM_A_MM * way_error_mm(site.bounds, site.feature.exit_most_mm)
-    )
-
-
-def a_rolling_wheels_way_only_grows(site: Registered, system: Looking, readings: Readings) -> bool:
-    """Odometry does not trust a wheel whose way has gone back: it is not rolling then (P1)."""
-    return not system.runs.usable or not readings.rolling or readings.way_mm >= system.runs.way_mm
+    error_nm = site.feature.exit_most_mm * site.bounds.scale_ppm + NM_A_MM * site.bounds.pulse_mm
+    return not runs.usable or since_mm > site.feature.exit_most_mm or -error_nm <= NM_A_UM * off_um <= error_nm
 
 
 # ---- what happens
@@ -200,8 +240,6 @@ def run_a_cycle(site: Registered, system: Looking, front_um: int, readings: Read
     if not what_matches_in_every_stage_is_the_feature(site, system, runs):
         return system
     if not a_rolling_wheel_counts_the_way(site, system, front_um, runs):
-        return system
-    if not a_rolling_wheels_way_only_grows(site, system, readings):
         return system
     state = machine.note_cycle(site.bounds, site.feature, system.state, readings)
     cycle = system.cycle + 1

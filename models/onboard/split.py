@@ -9,8 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import split as machine
-from kernel.onboard.arithmetic import CYCLE_MS, larger, magnitude
-from kernel.onboard.split import EMPTY, SAMPLES, Acceleration, Readings, Split, SplitLimits, Window
+from kernel.onboard.split import Acceleration, Readings, Split, SplitLimits, Window
+
+CYCLE_MS = 100
+"""Paper 001, table 2: sampled every 100 ms."""
+SAMPLES = 15
+"""Paper 001, 4.3.3: the moving average of 1.5 s, at a sample in every 100 ms."""
+FASTEST_MM_S2 = 100_000
+"""Sensors show accelerations to 100 m/s²; what is beyond is no reading (ours)."""
+NO_DIFFERENCES: Window = (0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
 
 
 @dataclass(frozen=True)
@@ -74,6 +81,56 @@ def errors_are_not_negative(site: Coupled) -> bool:
     return site.head_error_mm_s2 >= 0 and site.tail_error_mm_s2 >= 0
 
 
+# ---- arithmetic
+
+
+def magnitude(value: int) -> int:
+    """Give a value without its sign."""
+    return value if value >= 0 else -value
+
+
+def longer(one: int, other: int) -> int:
+    """Give the longer of two times."""
+    return one if one >= other else other
+
+
+def moved_up(window: Window, newest: int) -> Window:
+    """Put the newest of 15 in front, and leave the oldest out."""
+    a, b, c, d, e, f, g, h, i, j, k, m, n, o, _ = window
+    return (newest, a, b, c, d, e, f, g, h, i, j, k, m, n, o)
+
+
+def added_up(window: Window) -> int:
+    """Add up all 15."""
+    a, b, c, d, e, f, g, h, i, j, k, m, n, o, p = window
+    return a + b + c + d + e + f + g + h + i + j + k + m + n + o + p
+
+
+# ---- what a telegram is worth
+
+
+def gives_a_number(sensor: Acceleration) -> bool:
+    """Tell whether a sensor says that it has a reading, and the reading can be one."""
+    return sensor.valid and -FASTEST_MM_S2 <= sensor.mm_s2 <= FASTEST_MM_S2
+
+
+def can_be_compared(site: Coupled, readings: Readings) -> bool:
+    """Tell whether a telegram has come that is not too old, of sensors that all give numbers, left as right (P6)."""
+    return (
+        readings.arrived
+        and 0 <= readings.age_ms <= site.limits.age_ms
+        and gives_a_number(readings.head)
+        and gives_a_number(readings.left)
+        and gives_a_number(readings.right)
+        and not left_and_right_disagree(site, readings)
+    )
+
+
+def left_and_right_disagree(site: Coupled, readings: Readings) -> bool:
+    """Tell whether the tail's two sensors differ by more than is written (P6)."""
+    return magnitude(readings.left.mm_s2 - readings.right.mm_s2) > site.limits.disagreement_mm_s2
+
+
 # ---- assumptions
 
 
@@ -116,14 +173,14 @@ def doubled_error_mm_s2(site: Coupled) -> int:
 
 def is_far_over(site: Coupled, truths_mm_s2: Window) -> bool:
     """Tell whether the mean true difference is over the threshold by more than the errors (P5)."""
-    return 2 * magnitude(machine.total(truths_mm_s2)) > SAMPLES * (
+    return 2 * magnitude(added_up(truths_mm_s2)) > SAMPLES * (
         2 * site.limits.threshold_mm_s2 + doubled_error_mm_s2(site)
     )
 
 
 def is_about_over(site: Coupled, truths_mm_s2: Window) -> bool:
     """Tell whether the mean true difference is over the threshold, or below by no more than the errors (P5)."""
-    return 2 * magnitude(machine.total(truths_mm_s2)) > SAMPLES * (
+    return 2 * magnitude(added_up(truths_mm_s2)) > SAMPLES * (
         2 * site.limits.threshold_mm_s2 - doubled_error_mm_s2(site)
     )
 
@@ -153,7 +210,7 @@ def shock_was_there(site: Coupled, head_mm_s2: int, tail_mm_s2: int, readings: R
         is_shaken(site, tail_mm_s2, readings.left)
         or is_shaken(site, tail_mm_s2, readings.right)
         or (
-            machine.counts(site.limits, readings)
+            can_be_compared(site, readings)
             and 2 * magnitude(head_mm_s2 - tail_mm_s2) > 2 * site.limits.shock_mm_s2 + doubled_error_mm_s2(site)
         )
     )
@@ -165,7 +222,7 @@ def shock_may_be_seen(site: Coupled, head_mm_s2: int, tail_mm_s2: int, readings:
         may_be_shaken(site, tail_mm_s2, readings.left)
         or may_be_shaken(site, tail_mm_s2, readings.right)
         or (
-            machine.counts(site.limits, readings)
+            can_be_compared(site, readings)
             and 2 * magnitude(head_mm_s2 - tail_mm_s2) > 2 * site.limits.shock_mm_s2 - doubled_error_mm_s2(site)
         )
     )
@@ -189,11 +246,11 @@ def run_a_cycle(
         return system
     if not a_telegram_is_hardly_older_than_it_looks(site, system, measured_ms, readings):
         return system
-    counted = machine.counts(site.limits, readings)
+    counted = can_be_compared(site, readings)
     now_ms = system.now_ms + CYCLE_MS
     state = machine.note_cycle(site.limits, system.state, readings)
-    truths_mm_s2 = machine.with_newest(system.truths_mm_s2, head_mm_s2 - tail_mm_s2) if counted else system.truths_mm_s2
-    noted_ms = machine.with_newest(system.noted_ms, now_ms) if counted else system.noted_ms
+    truths_mm_s2 = moved_up(system.truths_mm_s2, head_mm_s2 - tail_mm_s2) if counted else system.truths_mm_s2
+    noted_ms = moved_up(system.noted_ms, now_ms) if counted else system.noted_ms
     return Watched(
         now_ms=now_ms,
         state=state,
@@ -206,13 +263,8 @@ def run_a_cycle(
         or is_about_over(site, truths_mm_s2)
         or shock_may_be_seen(site, head_mm_s2, tail_mm_s2, readings),
         disagreed=left_and_right_disagree(site, readings) if readings.arrived else system.disagreed,
-        unheard_ms=larger(system.unheard_ms, now_ms - noted_ms[0]),
+        unheard_ms=longer(system.unheard_ms, now_ms - noted_ms[0]),
     )
-
-
-def left_and_right_disagree(site: Coupled, readings: Readings) -> bool:
-    """Tell whether the tail's two sensors differ by more than is written (P6)."""
-    return magnitude(readings.left.mm_s2 - readings.right.mm_s2) > site.limits.disagreement_mm_s2
 
 
 def make_up(site: Coupled, system: Watched) -> Watched:
@@ -238,7 +290,7 @@ def begun(site: Coupled, system: Watched) -> Watched:
     now_ms = system.now_ms
     return replace(
         system,
-        truths_mm_s2=EMPTY,
+        truths_mm_s2=NO_DIFFERENCES,
         noted_ms=(
             now_ms,
             now_ms,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import tag_reader as machine
-from kernel.onboard.tag_reader import NO_FRAME, Frame, Level, Reader, ReaderLimits
+from kernel.onboard.tag_reader import Frame, Level, Reader, ReaderLimits
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,7 @@ class Slot:
     below: Frame
 
 
+NO_FRAME = Frame(valid=False, uid=0, block=0, distance_mm=0, kind=0)
 NOTHING = Slot(heard=NO_FRAME, below=NO_FRAME)
 
 

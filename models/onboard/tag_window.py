@@ -8,9 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import tag_window as machine
-from kernel.onboard.arithmetic import magnitude
-from kernel.onboard.tag_window import GREATEST_DISTANCE_MM, Window, WindowLimits
-from kernel.onboard.way import GREATEST_MM, Way
+from kernel.onboard.tag_window import Window, WindowLimits
+from kernel.onboard.way import Way
+
+FARTHEST_PLANNED_MM = 268_435_455
+"""The distance in a tag's record has 28 bits, in mm (T1)."""
+FARTHEST_KNOWN_MM = 1_000_000_000
+"""The odometry claims no range beyond 1,000 km from where it began."""
 
 
 @dataclass(frozen=True)
@@ -20,13 +24,11 @@ class Stretch:
     ``limits``: as written.
     ``laying_mm``: how far from the plan the distance between two tags may be.
     ``read_mm``: how far the way between two reads may be from the tags' distance: the read window.
-    ``error_mm``: how wide the odometry's range of the way may be, at the longest distance of tags.
     """
 
     limits: WindowLimits
     laying_mm: int
     read_mm: int
-    error_mm: int
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,11 @@ class Expecting:
     ``window``: what the machine knows.  ``way_mm``: truly run since the last tag was read.
     The rest is history, since the next tag is awaited.
     ``late``, ``missed``: at the end of some cycle the train had truly come farther than planned by more
-    than the tolerance; by more than tolerance and odometry's error.
-    ``lost``: the odometry claimed no range then.
+    than the tolerance; by more than tolerance and the widest range of the way that counts.
+    ``lost``: the odometry claimed no range then, or a wider one.
     ``taken``: what the machine says of the tag that was read; ``in_place``: the tag lay where the plan says,
     within the error of laying, and the odometry knew the way; ``out_of_place``: it lay elsewhere, by
-    more than tolerance, odometry's error and read window together, or none was awaited.
+    more than tolerance, that width and read window together, or none was awaited.
     """
 
     window: Window
@@ -63,7 +65,7 @@ def the_tolerance_covers_laying_and_read_window(site: Stretch) -> bool:
 
 def nothing_is_negative(site: Stretch) -> bool:
     """No error is below zero (T5)."""
-    return site.laying_mm >= 0 and site.read_mm >= 0 and site.error_mm >= 0
+    return site.laying_mm >= 0 and site.read_mm >= 0 and site.limits.width_mm >= 0
 
 
 # ---- assumptions
@@ -74,14 +76,9 @@ def the_odometer_contains_the_way(way_mm: int, way: Way) -> bool:
     return not way.known or way.least_mm <= way_mm <= way.most_mm
 
 
-def the_odometer_is_fine_enough(site: Stretch, way: Way) -> bool:
-    """A range that the odometry claims is no wider than reckoned with; it grows with the way from tag to tag (P1)."""
-    return not way.known or way.most_mm - way.least_mm <= site.error_mm
-
-
 def a_tag_is_read_in_the_read_window(site: Stretch, way_mm: int, lies_mm: int) -> bool:
     """An antenna reads a tag only while the tag is in its window, half of it before and behind (paper 000, 5; T16)."""
-    return magnitude(way_mm - lies_mm) <= site.read_mm
+    return -site.read_mm <= way_mm - lies_mm <= site.read_mm
 
 
 # ---- what happens
@@ -91,41 +88,42 @@ def run_a_cycle(site: Stretch, system: Expecting, way_mm: int, way: Way) -> Expe
     """The train runs on for a cycle, or back, or stands; the odometry tells the way (T5)."""
     if not the_odometer_contains_the_way(way_mm, way):
         return system
-    if not the_odometer_is_fine_enough(site, way):
-        return system
     over_mm = way_mm - system.window.most_mm - site.limits.tolerance_mm
     return replace(
         system,
         window=machine.note_cycle(site.limits, system.window, way),
         way_mm=way_mm,
         late=system.late or over_mm > 0,
-        missed=system.missed or over_mm > site.error_mm,
-        lost=system.lost or not claims(way),
+        missed=system.missed or over_mm > site.limits.width_mm,
+        lost=system.lost or not claims(site, way),
     )
 
 
-def claims(way: Way) -> bool:
-    """Tell whether the odometry claims a range within its own limits."""
-    return way.known and way.least_mm >= -GREATEST_MM and way.most_mm <= GREATEST_MM
+def claims(site: Stretch, way: Way) -> bool:
+    """Tell whether the odometry claims a range, within its own limits, no wider than is written."""
+    return (
+        way.known
+        and way.least_mm >= -FARTHEST_KNOWN_MM
+        and way.most_mm <= FARTHEST_KNOWN_MM
+        and way.most_mm - way.least_mm <= site.limits.width_mm
+    )
 
 
 def read_a_tag(site: Stretch, system: Expecting, way_mm: int, way: Way, lies_mm: int) -> Expecting:
     """The antenna reads a tag, ``lies_mm`` from the last one: the next, a foreign one, or one laid wrong (T5)."""
     if not the_odometer_contains_the_way(way_mm, way):
         return system
-    if not the_odometer_is_fine_enough(site, way):
-        return system
     if not a_tag_is_read_in_the_read_window(site, way_mm, lies_mm):
         return system
     least_mm, most_mm = system.window.least_mm, system.window.most_mm
-    unseen_mm = site.limits.tolerance_mm + site.error_mm + site.read_mm
+    unseen_mm = site.limits.tolerance_mm + site.limits.width_mm + site.read_mm
     return replace(
         system,
         taken=machine.in_window(site.limits, system.window, way),
         way_mm=way_mm,
         in_place=system.window.expected
-        and claims(way)
-        and 0 <= least_mm <= most_mm <= GREATEST_DISTANCE_MM
+        and claims(site, way)
+        and 0 <= least_mm <= most_mm <= FARTHEST_PLANNED_MM
         and least_mm - site.laying_mm <= lies_mm <= most_mm + site.laying_mm,
         out_of_place=not system.window.expected or lies_mm < least_mm - unseen_mm or lies_mm > most_mm + unseen_mm,
     )

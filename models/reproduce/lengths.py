@@ -17,6 +17,7 @@ from kernel.onboard.train_length import (
     AVERAGING_MM,
     SENSOR_MM,
     UNMEASURED,
+    Length,
     LengthBounds,
     Passing,
     PointKind,
@@ -35,22 +36,26 @@ PLAN = Registering(sensor_m=SENSOR_MM / 1000 / 2**0.5)
 BOUNDS = LengthBounds(
     line_maximum_mm=200_000,
     last_vehicle_mm=TRUE_MM - round(1000 * SENSORS_APART_M),
-    averaging_mm=AVERAGING_MM,
-    sensor_mm=SENSOR_MM,
     front_overhang_mm=0,
     rear_overhang_mm=0,
     window_mm=0,
+    width_mm=0,
 )
 """The last vehicle is 20 m long; the line's maximum (ours) is ten cars'."""
 
 
 @dataclass(frozen=True)
 class Measured:
-    """One measurement: raw as in the paper's formula (3), the one that the kernel uses, and at which speed."""
+    """One measurement: raw as in the paper's formula (3), the one that the kernel uses, and at which speed.
+
+    ``again``: the train was measured before.  ``contradicts``: that was another length.
+    """
 
     raw_m: float
     used_m: float
     speed_m_s: float
+    again: bool
+    contradicts: bool
 
 
 def tail_yaw(runs: Runs, seed: int, gyro: float = 1.0) -> tuple[Places, Places]:
@@ -73,6 +78,7 @@ def lengths(plan: Registering, rides: Sequence[Ridden], most: int, seed: int, gy
     apart_mm = round(1000 * SENSORS_APART_M)
     for each in rides:
         runs = each.runs
+        known: dict[int, Length] = {}
         head, tail = measured_yaw(runs, gyro), tail_yaw(runs, seed, gyro)
         for point, one in enumerate(awaited(plan, runs, runs.track.features)):
             if len(found) >= most:
@@ -80,13 +86,16 @@ def lengths(plan: Registering, rides: Sequence[Ridden], most: int, seed: int, gy
             first = looked_for(each, one, *head)
             second = looked_for(each, one, *tail, shift_mm=apart_mm)
             if first.fixed and second.fixed:
-                found.append(measured(runs, point, one.run, first.found, second.found))
+                before = known.get(one.run, UNMEASURED)
+                passes = passings(runs, point, one.run, first.found, second.found)
+                known[one.run] = noted(before, passes)
+                found.append(measured(passes, before.measured, machine.contradicts_itself(known[one.run])))
     return found
 
 
-def measured(runs: Runs, point: int, run: int, head: int, tail: int) -> Measured:
-    """Let the kernel measure from the two cycles in which head and tail found the curve's end (P4)."""
-    passes = [
+def passings(runs: Runs, point: int, run: int, head: int, tail: int) -> list[Passing]:
+    """The two passes, from the cycles in which head and tail found the curve's end (P4)."""
+    return [
         Passing(
             kind=PointKind.FEATURE,
             point=point,
@@ -97,9 +106,20 @@ def measured(runs: Runs, point: int, run: int, head: int, tail: int) -> Measured
         )
         for cycle in (head, tail)
     ]
-    state = machine.note_tail_pass(BOUNDS, machine.note_head_pass(UNMEASURED, passes[0]), passes[1])
-    raw_mm = passes[1].front_most_mm - passes[0].front_least_mm + BOUNDS.last_vehicle_mm
-    return Measured(raw_mm / 1000, machine.length_mm(BOUNDS, state) / 1000, passes[1].speed_most_mm_s / 1000)
+
+
+def noted(state: Length, passes: Sequence[Passing]) -> Length:
+    """Tell the kernel of the head's pass, and of the tail's."""
+    head, tail = passes
+    return machine.note_tail_pass(BOUNDS, machine.note_head_pass(BOUNDS, state, head), tail)
+
+
+def measured(passes: Sequence[Passing], again: bool, contradicts: bool) -> Measured:
+    """Let the kernel measure by these two passes alone (P4)."""
+    head, tail = passes
+    raw_mm = tail.front_most_mm - head.front_least_mm + BOUNDS.last_vehicle_mm
+    used_mm = machine.length_mm(BOUNDS, noted(UNMEASURED, passes))
+    return Measured(raw_mm / 1000, used_mm / 1000, tail.speed_most_mm_s / 1000, again, contradicts)
 
 
 @dataclass(frozen=True)

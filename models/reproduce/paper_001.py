@@ -201,6 +201,10 @@ def length_rows(found: Sequence[Measured]) -> tuple[Row, ...]:
         Row("train length used by the kernel", "ours", "not given",
             f"{min(used):.1f} to {max(used):.1f} m" if used else "none",
             min(used) >= TRUE_M if used else None, "never less than 120 m"),
+        Row("trains measured again and found of another length", "ours", "not given",
+            f"{sum(each.contradicts for each in found)} of {sum(each.again for each in found)}",
+            not any(each.contradicts for each in found) if any(each.again for each in found) else None,
+            "none: vehicles neither come nor go"),
     )  # fmt: skip
 
 

@@ -47,16 +47,15 @@ PLAN = Plan(
     split=SPLIT_LIMITS,
     brake=BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700),
     reader=ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=8),
-    window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM),
-    spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM),
+    window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=1_000_000),
+    spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=20_000),
     length=LengthBounds(
         line_maximum_mm=200_000,
         last_vehicle_mm=20_000,
-        averaging_mm=782,
-        sensor_mm=5_000,
         front_overhang_mm=0,
         rear_overhang_mm=0,
         window_mm=2 * TAG_ERROR_MM,
+        width_mm=20_000,
     ),
 )
 """Brake: an emergency brake of 0.6 m/s² at the least, net of a gradient of 35 per mille, within 1.5 s (ours)."""

@@ -53,6 +53,7 @@ note_head_read, note_tail_read = MADE.antenna_spacing.note_head_read, MADE.anten
 preset, is_healthy = MADE.antenna_spacing.preset, MADE.antenna_spacing.is_healthy
 note_head_pass, note_tail_pass = MADE.train_length.note_head_pass, MADE.train_length.note_tail_pass
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
+contradicts_itself = MADE.train_length.contradicts_itself
 UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
 note_yaw, is_over, AWAITED = MADE.feature.note_cycle, MADE.feature.is_over, MADE.feature.AWAITED
 Feature, Band, Turning = MADE.feature.Feature, MADE.feature.Band, MADE.feature.Readings
@@ -162,7 +163,7 @@ def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
         away_mm = trace.tags_mm[tag + 1] - trace.tags_mm[tag]
         window = await_tag(away_mm, away_mm)
     if motion.loss == LOCATED:
-        length = note_head_pass(length, passing(motion, tag, cycle))
+        length = note_head_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
     spacing = note_head_read(ends.spacing, tag + 1, place(motion))
     return motion, Ends(window, place(motion), spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
 
@@ -180,7 +181,7 @@ def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
         if motion.loss == LOCATED and is_healthy(spacing):
             length = note_tail_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
             out[tally.LENGTHS] += length.measured and not ends.length.measured
-            out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length)
+            out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length) or contradicts_itself(length)
     return Ends(ends.window, ends.last_at, spacing, length, ends.head_reader, reader, ends.next_head, tag + 1)
 
 

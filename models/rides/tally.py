@@ -42,7 +42,7 @@ MONITORS: Mapping[str, str] = {
     "tag_overdue": "a tag was overdue (T5)",
     "tag_outside_window": "a tag came outside its window (T5)",
     "spacing_broken": "head's and tail's reads did not fit (T13)",
-    "length_contradicts": "a length above the line's greatest was measured (P4)",
+    "length_contradicts": "a length above the line's greatest was measured, or another than before (P4)",
     "brake_accused": "the train was faster than motors and brake allow (T12)",
 }
 """What the machines on board noticed."""

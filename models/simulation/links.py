@@ -181,21 +181,21 @@ class Links:
         """Bytes arrive: believe them or not, and act on what is delivered."""
         me, peer = packet.receiver, packet.sender
         clock_ms, link = self.clock_ms(me), self._end(me, peer)
-        telegram = decode(self._key(me, peer), packet.raw)
-        if isinstance(telegram, Rejection):
+        arrived = decode(self._key(me, peer), packet.raw)
+        if isinstance(arrived, Rejection):
             self._ends[me, peer] = note_time(link, clock_ms)
-            self._refused(packet, telegram.value)
+            self._refused(packet, arrived.value)
             return
         self.mended += packet.damaged
-        outcome = judge(LIMITS, link, telegram, clock_ms, True)
-        self._ends[me, peer] = take(LIMITS, link, telegram, clock_ms, True)
+        outcome = judge(LIMITS, link, arrived, clock_ms)
+        self._ends[me, peer] = take(LIMITS, link, arrived, clock_ms)
         if outcome is not Outcome.DELIVERED:
             self._refused(packet, outcome.value)
             if outcome is Outcome.OTHER_SESSION:
                 self.say(me, peer, LIFE_SIGN)
             return
         self.outcomes[outcome.value] += 1
-        said = said_in(telegram.content)
+        said = said_in(arrived.telegram.content)
         message = None if isinstance(said, Rejection) else self.wording.read(said)
         self.post.delivered(me, peer, self._now_ms, packet.origin, message)
         if message is not None and message[0] != LIFE_SIGN:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from kernel.onboard import antenna_spacing as machine
-from kernel.onboard.antenna_spacing import HeadRead
-from kernel.onboard.arithmetic import magnitude
+from kernel.onboard.antenna_spacing import HeadRead, HeadReads
+from models.onboard import antenna_spacing as world
 from models.onboard.antenna_spacing import (
     Track,
     Trailing,
@@ -24,21 +24,27 @@ from proofs.theory import Theory, by_name
 
 def the_unit_has_just_started(site: Track, system: Trailing) -> bool:
     """At the start the antenna distance has yet to be preset (T3, T8)."""
-    return system.spacing == machine.restarted() and not system.whole and not system.caught
+    return (
+        system.spacing == machine.restarted()
+        and not system.whole
+        and not system.head_has_read
+        and not system.tail_has_read
+        and not system.tail_is_on
+        and not system.caught
+    )
 
 
 # ---- safety
 
 
 def a_false_tail_is_found(site: Track, system: Trailing) -> bool:
-    """Healthy: at the tail's newest read it was as far behind as preset, but for tolerance, windows and odometry (T13).
+    """Healthy: at the tail's newest read it was as far behind as preset, but for tolerance, window and width (T13).
 
     A rear cab that poses as the tail of a split train, and a train that has stretched, are beyond that.
     """
+    unseen_mm = site.limits.tolerance_mm + site.read_mm + site.limits.width_mm
     return (
-        not machine.is_healthy(system.spacing)
-        or magnitude(system.tail_mm - system.spacing.preset_mm)
-        <= site.limits.tolerance_mm + site.read_mm + 2 * site.error_mm
+        not machine.is_healthy(system.spacing) or -unseen_mm <= system.tail_mm - system.spacing.preset_mm <= unseen_mm
     )
 
 
@@ -50,7 +56,7 @@ def unhealthy_is_latched(site: Track, system: Trailing) -> bool:
 def healthy_only_after_a_check(site: Track, system: Trailing) -> bool:
     """Healthy: the tail has read since the preset, and its newest tag, any one, the head had read before (T13)."""
     return not machine.is_healthy(system.spacing) or (
-        system.spacing.tail_read and (system.spacing.tail_uid != site.tag or system.head_has_read)
+        system.tail_has_read and (not system.tail_is_on or system.head_has_read)
     )
 
 
@@ -73,7 +79,8 @@ def what_is_caught_is_broken(site: Track, system: Trailing) -> bool:
 def a_whole_train_is_near_its_preset(site: Track, system: Trailing) -> bool:
     """While the train is as it was preset, its antennas are as far apart as that, and farther than a window (T3)."""
     return not system.whole or (
-        magnitude(system.spacing.preset_mm - system.apart_mm) <= site.preset_error_mm and system.apart_mm > site.read_mm
+        -site.preset_error_mm <= system.spacing.preset_mm - system.apart_mm <= site.preset_error_mm
+        and system.apart_mm > site.read_mm
     )
 
 
@@ -92,7 +99,6 @@ def is_a_read(site: Track, system: Trailing, read: HeadRead) -> bool:
         (read.uid != site.tag or system.head_has_read)
         and 2 * (read.uid - read.at.most_mm) <= site.read_mm
         and 2 * (read.at.least_mm - read.uid) <= site.read_mm
-        and read.at.most_mm - read.at.least_mm <= site.error_mm
     )
 
 
@@ -111,6 +117,59 @@ def what_is_remembered_was_read(site: Track, system: Trailing) -> bool:
     )
 
 
+def the_tails_newest_read_is_noted(site: Track, system: Trailing) -> bool:
+    """The machine knows whether the tail has read, and which tag last (T13)."""
+    return (
+        system.spacing.tail_read == system.tail_has_read
+        and (not system.tail_has_read or system.tail_is_on == (system.spacing.tail_uid == site.tag))
+        and (system.tail_has_read or not system.tail_is_on)
+    )
+
+
+def is_the_newest_of(site: Track, system: Trailing, read: HeadRead) -> bool:
+    """Tell whether what is remembered is the head's newest read of the one tag."""
+    return read.uid == site.tag and (
+        read.at.known and read.at.least_mm == system.least_mm and read.at.most_mm == system.most_mm
+        if system.known
+        else True
+    )
+
+
+def stands_at_its_place(site: Track, system: Trailing, reads: HeadReads) -> bool:
+    """Tell whether the one tag is remembered behind as many others as the head has read since."""
+    tag, since = site.tag, system.since
+    return (
+        (reads.first.uid == tag) == (since == 0)
+        and (since != 0 or is_the_newest_of(site, system, reads.first))
+        and (since < 2 or reads.second.uid != tag)
+        and (since != 1 or is_the_newest_of(site, system, reads.second))
+        and (since < 3 or reads.third.uid != tag)
+        and (since != 2 or is_the_newest_of(site, system, reads.third))
+        and (since < 4 or reads.fourth.uid != tag)
+        and (since != 3 or is_the_newest_of(site, system, reads.fourth))
+        and (since < 5 or reads.fifth.uid != tag)
+        and (since != 4 or is_the_newest_of(site, system, reads.fifth))
+        and (since < 6 or reads.sixth.uid != tag)
+        and (since != 5 or is_the_newest_of(site, system, reads.sixth))
+        and (since < 7 or reads.seventh.uid != tag)
+        and (since != 6 or is_the_newest_of(site, system, reads.seventh))
+        and (since != 7 or is_the_newest_of(site, system, reads.eighth))
+    )
+
+
+def the_heads_last_eight_are_remembered(site: Track, system: Trailing) -> bool:
+    """The one tag, if it is among the head's last eight, is remembered as it was read last (T13)."""
+    reads = system.spacing.reads
+    return not system.head_has_read or (
+        system.since >= 0
+        and reads.first.uid == system.head_newest
+        and (
+            not system.known or -world.FARTHEST_KNOWN_MM <= system.least_mm <= system.most_mm <= world.FARTHEST_KNOWN_MM
+        )
+        and stands_at_its_place(site, system, reads)
+    )
+
+
 INITIAL = (the_unit_has_just_started,)
 SAFETY = (
     a_false_tail_is_found,
@@ -124,6 +183,8 @@ INVARIANTS = (
     a_whole_train_is_near_its_preset,
     a_whole_train_has_passed_what_its_tail_read,
     what_is_remembered_was_read,
+    the_tails_newest_read_is_noted,
+    the_heads_last_eight_are_remembered,
 )
 PREMISES = (the_tolerance_covers_preset_and_read_window,)
 STEPS = (run, come_apart, head_reads, tail_reads, preset, turn, restart)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from kernel.onboard import feature as machine
 from kernel.onboard.feature import Progress
-from kernel.onboard.odometry import GREATEST_WAY_MM
 from models.onboard import feature as world
 from models.onboard.feature import UM_A_MM, Looking, Registered
 from proofs.theory import Theory, by_name
@@ -46,8 +45,8 @@ def a_feature_gives_one_fix(site: Registered, system: Looking) -> bool:
 
 
 def ways_fit_the_processor(site: Registered, system: Looking) -> bool:
-    """Every way that is kept was a reading in range (P3)."""
-    return 0 <= system.state.from_mm <= GREATEST_WAY_MM
+    """Every way that is kept was a reading in range, up to 1,000 km (P3)."""
+    return 0 <= system.state.from_mm <= 1_000_000_000 and 0 <= system.state.way_mm <= 1_000_000_000
 
 
 # ---- what it follows from
@@ -94,6 +93,7 @@ def an_exit_straight_was_seen(site: Registered, system: Looking) -> bool:
         and system.runs.first_mm >= site.feature.entry_least_mm
         and world.curve_matches(site, system.runs)
         and site.feature.length_least_mm <= system.runs.before_mm <= site.feature.length_most_mm
+        and system.runs.from_least_mm <= site.feature.end_mm + site.feature.end_error_mm
     )
 
 
@@ -113,6 +113,13 @@ def stages_come_in_order(site: Registered, system: Looking) -> bool:
         and (stage != Progress.SECOND_PART or order.second == system.cycle)
         and (not leaving or order.third < order.leaving == system.cycle)
     )
+
+
+def the_newest_way_is_kept(site: Registered, system: Looking) -> bool:
+    """While something is matched, the machine keeps the way of the newest cycle (P3)."""
+    stage = system.state.stage
+    matching = is_in_curve(stage) or stage == Progress.ENTRY_STRAIGHT or stage == Progress.EXIT_STRAIGHT
+    return not matching or (system.runs.usable and system.runs.way_mm == system.state.way_mm)
 
 
 def the_way_has_grown(site: Registered, system: Looking) -> bool:
@@ -141,6 +148,7 @@ INVARIANTS = (
     its_parts_were_met,
     an_exit_straight_was_seen,
     stages_come_in_order,
+    the_newest_way_is_kept,
     the_way_has_grown,
     after_a_fix_it_is_over,
 )

@@ -5,7 +5,7 @@ Times are true ones; ``2 * offset`` is how far two healthy clocks can differ.
 
 from __future__ import annotations
 
-from kernel.link import LAST_SEQUENCE, newest_sequence
+from kernel.link import Link
 from models.link import (
     Site,
     System,
@@ -45,6 +45,11 @@ def every_link_is_new(site: Site, system: System) -> bool:
 
 
 # ---- the claims
+
+
+def heard(link: Link) -> int:
+    """Give the number of the newest telegram that a link was given in its session, 0 before the first."""
+    return 0 if link.newest is None else link.newest.sequence
 
 
 def delivered_was_sent_by_that_sender_in_this_session(site: Site, system: System) -> bool:
@@ -97,7 +102,7 @@ def deletion_is_noticed(site: Site, system: System) -> bool:
         or telegram.greeting
         or telegram.sender_life != end.link.peer_life
         or telegram.receiver_life != end.link.life
-        or telegram.sequence > newest_sequence(end.link)
+        or telegram.sequence > heard(end.link)
         or telegram in system.delivered
         for (me, peer), end in system.ends.items()
         for telegram in system.sent
@@ -136,8 +141,23 @@ def a_clock_set_back_makes_nothing_fresh(site: Site, system: System) -> bool:
 
 
 def a_number_never_wraps(site: Site, system: System) -> bool:
-    """Numbers run from 1 to the last, and then no more is sent."""
-    return all(telegram.sequence >= 1 and telegram.sequence <= LAST_SEQUENCE for telegram in system.sent)
+    """Numbers run from 1 to 4,294,967,295, which four bytes hold (ours), and then no more is sent."""
+    return all(1 <= telegram.sequence <= 4_294_967_295 for telegram in system.sent)
+
+
+def only_the_peer_tells_its_life(site: Site, system: System) -> bool:
+    """The life that a link takes for the peer's stands in a telegram that the peer has sent to it (masquerade).
+
+    So no stranger ends a session, nor makes a link silent, by a life that never was.
+    """
+    return all(
+        end.link.peer_life is None
+        or any(
+            telegram.sender == peer and telegram.receiver == me and telegram.sender_life == end.link.peer_life
+            for telegram in system.sent
+        )
+        for (me, peer), end in system.ends.items()
+    )
 
 
 # ---- what they rest on
@@ -219,7 +239,7 @@ def the_newest_is_the_greatest(site: Site, system: System) -> bool:
             and end.link.peer_life is not None
             and (
                 telegram.sender_life < end.link.peer_life
-                or (telegram.sender_life == end.link.peer_life and telegram.sequence <= newest_sequence(end.link))
+                or (telegram.sender_life == end.link.peer_life and telegram.sequence <= heard(end.link))
             )
         )
         for telegram, delivery in system.delivered.items()
@@ -250,6 +270,7 @@ SAFETY = (
     silence_is_noticed,
     a_clock_set_back_makes_nothing_fresh,
     a_number_never_wraps,
+    only_the_peer_tells_its_life,
 )
 INVARIANTS = (
     *SAFETY,

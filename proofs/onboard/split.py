@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from kernel.onboard import split as machine
-from kernel.onboard.arithmetic import CYCLE_MS, magnitude
-from kernel.onboard.split import EMPTY, SAMPLES, Window
+from kernel.onboard.split import Window
 from models.onboard import split as world
-from models.onboard.split import Coupled, Watched
+from models.onboard.split import CYCLE_MS, FASTEST_MM_S2, NO_DIFFERENCES, SAMPLES, Coupled, Watched, magnitude
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -20,7 +19,7 @@ def the_train_was_just_made_up(site: Coupled, system: Watched) -> bool:
 def nothing_has_happened(site: Coupled, system: Watched) -> bool:
     """History is empty; a restart counts as a reason for an alarm (P5)."""
     return (
-        system.truths_mm_s2 == EMPTY
+        system.truths_mm_s2 == NO_DIFFERENCES
         and all_are(system.noted_ms, system.now_ms)
         and not system.found
         and not system.shocked
@@ -113,7 +112,7 @@ def the_window_fits_the_processor(site: Coupled, system: Watched) -> bool:
 
 def fits(difference_mm_s2: int) -> bool:
     """Tell whether a doubled difference is of readings in range."""
-    return magnitude(difference_mm_s2) <= 4 * machine.GREATEST_ACCELERATION_MM_S2
+    return magnitude(difference_mm_s2) <= 4 * FASTEST_MM_S2
 
 
 # ---- what it follows from

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.onboard import tag_window as machine
 from models.onboard.tag_window import (
+    FARTHEST_PLANNED_MM,
     Expecting,
     Stretch,
     expect_a_tag,
@@ -33,12 +34,12 @@ def no_tag_is_awaited(site: Stretch, system: Expecting) -> bool:
 
 
 def a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused(site: Stretch, system: Expecting) -> bool:
-    """A tag is not taken that lies elsewhere than planned, by more than tolerance, error and read window (T5)."""
+    """A tag is not taken that lies elsewhere than planned, by more than tolerance, width and read window (T5)."""
     return not system.out_of_place or not system.taken
 
 
 def a_missing_tag_is_noticed_within_a_bounded_way(site: Stretch, system: Expecting) -> bool:
-    """At the end of a cycle in which the train is beyond the plan by tolerance and error, the tag is overdue (T5).
+    """At the end of a cycle in which the train is beyond the plan by tolerance and width, the tag is overdue (T5).
 
     The way to that end of a cycle is the bound: what the train runs in 100 ms comes to it.
     """
@@ -49,19 +50,14 @@ def a_missing_tag_is_noticed_within_a_bounded_way(site: Stretch, system: Expecti
 
 
 def a_tag_in_its_place_is_never_refused(site: Stretch, system: Expecting) -> bool:
-    """A tag that lies as planned is taken, however bad the odometry, while it knows the way (T5)."""
+    """A tag that lies as planned is taken, while the odometry knows the way as well as is written (T5)."""
     return not system.in_place or system.taken
 
 
 def no_tag_still_ahead_is_called_missing(site: Stretch, system: Expecting) -> bool:
     """A tag is overdue only if the train has truly come farther than the tolerance allows, or is lost (T5)."""
     least_mm, most_mm = system.window.least_mm, system.window.most_mm
-    return (
-        not system.window.passed
-        or system.lost
-        or system.late
-        or not 0 <= least_mm <= most_mm <= machine.GREATEST_DISTANCE_MM
-    )
+    return not system.window.passed or system.lost or system.late or not 0 <= least_mm <= most_mm <= FARTHEST_PLANNED_MM
 
 
 INITIAL = (no_tag_is_awaited,)

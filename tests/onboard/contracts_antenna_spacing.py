@@ -14,16 +14,16 @@ from kernel.onboard.antenna_spacing import (
 )
 from kernel.onboard.way import UNKNOWN, Way
 
-LIMITS = SpacingLimits(tolerance_mm=1_013)
+LIMITS = SpacingLimits(tolerance_mm=1_013, width_mm=4_000)
 FRESH = preset(120_000)
 
 
 def a_whole_train_is_healthy(place_mm: int, off_mm: int, behind_mm: int, ahead_mm: int) -> None:
-    """However wide the odometry's ranges (T13)."""
+    """Up to the width that is written (T13)."""
     assert -(10**8) <= place_mm <= 10**8
     assert -1_013 <= off_mm <= 1_013
-    assert 0 <= behind_mm <= 10**6
-    assert 0 <= ahead_mm <= 10**6
+    assert 0 <= behind_mm <= 1_000
+    assert 0 <= ahead_mm <= 1_000
     head = note_head_read(FRESH, 7, Way(True, place_mm - behind_mm, place_mm + ahead_mm))
     now_mm = place_mm + 120_000 + off_mm
     assert is_healthy(note_tail_read(LIMITS, head, 7, Way(True, now_mm - behind_mm, now_mm + ahead_mm)))
@@ -43,6 +43,17 @@ def a_read_that_the_head_did_not_make_proves_nothing(uid: int, place_mm: int) ->
     """And accuses nobody (T13)."""
     assert uid != 7
     after = note_tail_read(LIMITS, note_head_read(FRESH, 7, Way(True, 0, 0)), uid, Way(True, place_mm, place_mm))
+    assert not is_healthy(after)
+    assert not after.broken
+
+
+def a_way_known_badly_proves_nothing(width_mm: int, apart_mm: int) -> None:
+    """And accuses nobody, wherever the tail is (T13, P7)."""
+    assert 4_000 < width_mm <= 10**6
+    assert -(10**6) <= apart_mm <= 10**6
+    after = note_tail_read(
+        LIMITS, note_head_read(FRESH, 7, Way(True, 0, 0)), 7, Way(True, apart_mm, apart_mm + width_mm)
+    )
     assert not is_healthy(after)
     assert not after.broken
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from kernel.link import (
     LAST_SEQUENCE,
+    Arrived,
+    Code,
     Content,
     Life,
     Limits,
@@ -32,16 +34,21 @@ def telegram_of(sender_life: int, receiver_life: int, sequence: int, sent_at_ms:
     return Telegram(PEER, ME, greeting, Life(sender_life), Life(receiver_life), sequence, sent_at_ms, Content("01"))
 
 
+def genuine(telegram: Telegram) -> Arrived:
+    """With the code that the key gives for it."""
+    return Arrived(telegram, Code("a5"), Code("a5"))
+
+
 def comes(telegram: Telegram, now_ms: int) -> bool:
     """Whether the link delivers it."""
-    return is_delivered(LIMITS, LINK, telegram, now_ms, True)
+    return is_delivered(LIMITS, LINK, genuine(telegram), now_ms)
 
 
 def nothing_unauthentic_changes_more_than_the_clock(sender_life: int, sequence: int, now_ms: int) -> None:
     """Whatever a telegram without a valid code says (T11)."""
     assert isinstance(sender_life, int)
     telegram = telegram_of(sender_life, 8, sequence, now_ms, False)
-    after = take(LIMITS, LINK, telegram, now_ms, False)
+    after = take(LIMITS, LINK, Arrived(telegram, Code("a5"), Code("a6")), now_ms)
     assert after.clock_ms == (now_ms if now_ms > 9_500 else 9_500)
     assert after.newest == NEWEST
     assert after.peer_life == 3
@@ -69,16 +76,16 @@ def what_is_delivered_is_not_delivered_again(
     """Repeated at any moment (T11)."""
     assert comes(telegram_of(sender_life, 8, sequence, sent_at_ms, False), now_ms)
     telegram = telegram_of(sender_life, 8, sequence, sent_at_ms, False)
-    after = take(LIMITS, LINK, telegram, now_ms, True)
+    after = take(LIMITS, LINK, genuine(telegram), now_ms)
     assert after.newest == telegram
-    assert judge(LIMITS, after, telegram, later_ms, True) == Outcome.REPEATED
+    assert judge(LIMITS, after, genuine(telegram), later_ms) == Outcome.REPEATED
 
 
 def a_gap_is_counted(sequence: int, now_ms: int) -> None:
     """As many as were passed over (T11)."""
     assert 41 <= sequence <= LAST_SEQUENCE
     assert 9_500 <= now_ms <= 11_000
-    after = take(LIMITS, LINK, telegram_of(3, 8, sequence, 9_400, False), now_ms, True)
+    after = take(LIMITS, LINK, genuine(telegram_of(3, 8, sequence, 9_400, False)), now_ms)
     assert after.missed == sequence - 41
     assert newest_sequence(after) == sequence
 

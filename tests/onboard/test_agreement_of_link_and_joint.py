@@ -67,7 +67,7 @@ FUNCTIONS = {
     for name, function in functions(module).items()
 }
 DRAWS = {
-    kernel.link: 240,
+    kernel.link: 720,
     kernel.onboard.authority_end: 40,
     models.link: 60,
     models.onboard.joint: 14,

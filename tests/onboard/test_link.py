@@ -13,6 +13,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 
 from kernel.link import (
     LAST_SEQUENCE,
+    Arrived,
     Content,
     Life,
     Limits,
@@ -33,6 +34,7 @@ from kernel.telegram import Rejection, decode, encode, next_telegram
 from models.link import End, Site, System
 from proofs.onboard.link import THEORY
 from proofs.onboard.witnesses import link as witnesses
+from proofs.onboard.witnesses.link import forged, genuine
 from proofs.onboard.witnesses.play import Play
 
 CENTRE, UNIT, OTHER = Party("centre"), Party("unit-7"), Party("unit-8")
@@ -105,12 +107,12 @@ def fired(monkeypatch: pytest.MonkeyPatch, witness: Callable[[], None]) -> set[s
 )
 def test_what_becomes_of_a_telegram(change: dict[str, object], now_ms: int, outcome: Outcome) -> None:
     telegram = Telegram(**{**SAMPLE._asdict(), **change})
-    assert judge(LIMITS, LINK, telegram, now_ms, True) == outcome
-    assert judge(LIMITS, LINK, telegram, now_ms, False) == Outcome.NOT_AUTHENTIC
+    assert judge(LIMITS, LINK, genuine(telegram), now_ms) == outcome
+    assert judge(LIMITS, LINK, forged(telegram), now_ms) == Outcome.NOT_AUTHENTIC
 
 
 def test_silence_begins_a_millisecond_after_its_limit() -> None:
-    link = take(LIMITS, LINK, SAMPLE, 10_000, True)
+    link = take(LIMITS, LINK, genuine(SAMPLE), 10_000)
     assert not is_silent(LIMITS, link, 11_000)
     assert is_silent(LIMITS, link, 11_001)
     assert is_silent(LIMITS, link, 9_999)
@@ -151,8 +153,8 @@ def test_a_claim_falls_without_the_guard(
 ) -> None:
     """Deliver what the guard would refuse, in the run that shows the refusal."""
 
-    def lax(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> bool:
-        return judge(limits, link, telegram, now_ms, authentic) in (Outcome.DELIVERED, dropped)
+    def lax(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> bool:
+        return judge(limits, link, arrived, now_ms) in (Outcome.DELIVERED, dropped)
 
     only_look_at(monkeypatch, claim)
     monkeypatch.setattr("kernel.link.is_delivered", lax)
@@ -169,8 +171,8 @@ def test_a_silence_that_is_not_noticed_is_a_broken_claim(monkeypatch: pytest.Mon
 
 
 def test_a_deletion_that_is_not_counted_is_a_broken_claim(monkeypatch: pytest.MonkeyPatch) -> None:
-    def uncounted(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> Link:
-        return replace(take(limits, link, telegram, now_ms, authentic), missed=0)
+    def uncounted(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> Link:
+        return replace(take(limits, link, arrived, now_ms), missed=0)
 
     only_look_at(monkeypatch, "deletion_is_noticed")
     monkeypatch.setattr("models.link.take", uncounted)
@@ -215,7 +217,8 @@ def test_every_claim_holds_in_drawn_worlds(events: list[tuple[str, int, int, int
             telegram = air[-1 - pick % len(air)]
             telegram = telegram._replace(sequence=telegram.sequence + 1) if change == 0 else telegram
             reading_ms = now_ms + off_ms % 30
-            play.step("arrive", me=me, peer=peer, telegram=telegram, reading_ms=reading_ms, authentic=change != 1)
+            arrived = forged(telegram) if change == 1 else genuine(telegram)
+            play.step("arrive", me=me, peer=peer, arrived=arrived, reading_ms=reading_ms)
 
 
 # ---- drawn channels on bytes
@@ -327,7 +330,7 @@ class Channel(RuleBasedStateMachine):
             return
         link = self.links[pair]
         telegram = Telegram(link.peer, link.me, False, Life(99), link.life, LAST_SEQUENCE, link.clock_ms, Content("ff"))
-        assert is_delivered(LIMITS, link, telegram, link.clock_ms, True)
+        assert is_delivered(LIMITS, link, genuine(telegram), link.clock_ms)
         raw = encode(forger, telegram)
         assert isinstance(raw, bytes)
         self.receive(pair, raw, None)
@@ -335,17 +338,18 @@ class Channel(RuleBasedStateMachine):
     def receive(self, pair: tuple[Party, Party], raw: bytes, index: int | None) -> None:
         """Decode and take what comes, and compare with the list."""
         link, machine, clock_ms = self.links[pair], self.machines[pair], self.clock_ms(pair)
-        telegram = decode(key_of(*pair), raw)
-        if isinstance(telegram, Rejection):
+        arrived = decode(key_of(*pair), raw)
+        if isinstance(arrived, Rejection) or judge(LIMITS, link, arrived, clock_ms) == Outcome.NOT_AUTHENTIC:
             self.links[pair] = note_time(link, clock_ms)
+            assert isinstance(arrived, Rejection) or take(LIMITS, link, arrived, clock_ms) == self.links[pair]
             genuine = index is not None and {*pair} == {self.post[index].me, self.post[index].peer}
             assert not genuine or index is None or raw != self.post[index].raw
             return
-        assert index is not None, "a forged telegram was decoded"
+        assert index is not None, "a forged telegram was taken for authentic"
         posted = self.post[index]
-        assert encode(key_of(*pair), telegram) == posted.raw
-        delivered = is_delivered(LIMITS, link, telegram, clock_ms, True)
-        self.links[pair] = take(LIMITS, link, telegram, clock_ms, True)
+        assert encode(key_of(*pair), arrived.telegram) == posted.raw
+        delivered = is_delivered(LIMITS, link, arrived, clock_ms)
+        self.links[pair] = take(LIMITS, link, arrived, clock_ms)
         lawful = (
             pair == (posted.peer, posted.me)
             and posted.lives[1] == machine.life

@@ -27,7 +27,7 @@ KILLED = [
     "kernel.onboard.odometry.located: update",
     "kernel.onboard.braking.supervise: and-operand stops_before",
     "kernel.onboard.braking.reach_nm: term",
-    "kernel.link.judge: guard if not authentic",
+    "kernel.link.judge: guard if not is_authentic",
     "models.onboard.odometry.take_fix: guard",
     "models.onboard.braking.run_a_cycle: guard",
     "models.link.arrive: guard",

@@ -178,7 +178,7 @@ def test_a_detection_that_began_late_fails_for_what_made_it_late() -> None:
         pitch_valid=False,
         pitch_urad_s=0,
     )
-    short, long = (Detection(Progress.ENTRY_STRAIGHT, 400_000 - way, 0, 0) for way in (20_000, 60_000))
+    short, long = (Detection(Progress.ENTRY_STRAIGHT, 400_000 - way, 0, 0, 0) for way in (20_000, 60_000))
     slow, band, other = passing.FAILS_SLOW, passing.FAILS_BAND, passing.FAILS_OTHER
     assert passing.reason(curve, AWAITED, bent, slow) == slow
     assert passing.reason(curve, AWAITED, bent, "") == other

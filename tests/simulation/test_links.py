@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel import link as kernel_link
-from kernel.link import Limits, Link, Outcome, Party, Telegram
+from kernel.link import Arrived, Limits, Link, Outcome, Party
 from kernel.telegram import Rejection, Said
 from models.simulation import links as ends
 from models.simulation.faults import BY_NAME, NO_FAULT, Chosen, Setting
@@ -30,7 +30,7 @@ OFTEN: Chosen = {
 }
 REFUSED = {
     Rejection.NOT_CORRECTABLE.value,
-    Rejection.MAC_WRONG.value,
+    Outcome.NOT_AUTHENTIC.value,
     Outcome.OTHER_SENDER.value,
     Outcome.OTHER_SESSION.value,
     Outcome.REPEATED.value,
@@ -139,8 +139,8 @@ def test_an_outage_is_told_as_silence_and_ends() -> None:
 def lax(dropped: Outcome) -> Any:
     """A judge that delivers what it should refuse for one reason."""
 
-    def judge(limits: Limits, link: Link, telegram: Telegram, now_ms: int, authentic: bool) -> Outcome:
-        found = kernel_link.judge(limits, link, telegram, now_ms, authentic)
+    def judge(limits: Limits, link: Link, arrived: Arrived, now_ms: int) -> Outcome:
+        found = kernel_link.judge(limits, link, arrived, now_ms)
         return Outcome.DELIVERED if found is dropped else found
 
     return judge
@@ -166,7 +166,7 @@ def test_a_check_that_is_left_out_is_noticed(monkeypatch: pytest.MonkeyPatch, dr
 
 
 def test_a_code_of_authentication_that_is_not_looked_at_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kernel.telegram.hmac.compare_digest", lambda _one, _other: True)
+    monkeypatch.setattr("kernel.link.is_authentic", lambda _arrived: True)
     sim = line({"radio_forgery": Setting(0.3, 0, 0)})
     sim.run()
     assert broken(sim) == {ONLY_WHAT_WAS_SENT}

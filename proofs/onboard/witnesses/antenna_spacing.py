@@ -14,13 +14,20 @@ from proofs.onboard.witnesses.play import Play
 TAGS = (0, 1_000, 30_000, 31_000, 60_000, 61_000, 90_000, 91_000)
 """Four boundaries, two tags at each; numbered by their places."""
 APART_MM = 120_000
-SITE = Track(limits=SpacingLimits(tolerance_mm=1_013), tag=0, read_mm=513, preset_error_mm=500, error_mm=2_000)
+SITE = Track(limits=SpacingLimits(tolerance_mm=1_013, width_mm=4_000), tag=0, read_mm=513, preset_error_mm=500)
 JUST_STARTED = Trailing(
     spacing=machine.restarted(),
     head_mm=-200_000,
     apart_mm=APART_MM,
     whole=False,
+    head_newest=0,
     head_has_read=False,
+    since=0,
+    known=False,
+    least_mm=0,
+    most_mm=0,
+    tail_has_read=False,
+    tail_is_on=False,
     tail_mm=0,
     caught=False,
 )
@@ -29,9 +36,9 @@ JUST_STARTED = Trailing(
 class Train(Play[Track, Trailing]):
     """A train just made up and preset."""
 
-    def __init__(self, preset_mm: int = APART_MM) -> None:
-        """Begin."""
-        super().__init__(THEORY, SITE, JUST_STARTED)
+    def __init__(self, preset_mm: int = APART_MM, tag: int = 0) -> None:
+        """Begin; history looks at one tag."""
+        super().__init__(THEORY, replace(SITE, tag=tag), JUST_STARTED)
         self.step("preset", preset_mm=preset_mm)
         assert self.system.whole
         assert self.system.spacing == machine.preset(preset_mm)
@@ -85,7 +92,7 @@ def the_worst_of_all_errors() -> None:
 
 def a_cab_poses_as_the_tail() -> None:
     """After a split the rear cab of what remains reads the tags: it is found at its first, before it counts."""
-    train = Train()
+    train = Train(tag=90_000)
     for tag in TAGS:
         train.head(tag)
     assert train.tail(0)
@@ -99,6 +106,7 @@ def a_cab_poses_as_the_tail() -> None:
     assert not train.tail(91_000), "latched, though it fits again"
     train.head(299_000)
     assert train.system.caught
+    assert train.system.since == 2
     train.step("restart")
     train.head(300_000)
     assert not train.tail(300_000), "nor does a restart mend it"
@@ -163,6 +171,37 @@ def nothing_to_hold_it_against() -> None:
     assert not train.system.spacing.broken
 
 
+def a_way_known_badly() -> None:
+    """A way as wide as is written is compared; by a wider one a false tail is not found, and does not count (T13)."""
+    train = Train()
+    train.head(0, behind_mm=1_000, ahead_mm=1_000)
+    assert train.tail(0, behind_mm=2_000)
+    for apart_mm in (APART_MM, 60_000):
+        train = Train()
+        train.head(0, behind_mm=1_000, ahead_mm=1_000)
+        train.step("come_apart", apart_mm=apart_mm)
+        assert not train.tail(0, behind_mm=1_000, ahead_mm=1_001)
+        assert not train.system.spacing.broken
+        assert not train.system.caught
+        assert train.tail(0) == (apart_mm == APART_MM)
+
+
+def a_ninth_tag_pushes_out_the_first() -> None:
+    """A false tail is found by a tag that is among the head's last eight, and by an older one not; nor does it count.
+
+    Two tags that the head reads in turn are as many reads.
+    """
+    for others, found in ((7, True), (8, False)):
+        train = Train(tag=-199_000)
+        train.head(-199_000)
+        for number in range(others):
+            train.head(-198_000 + 1_000 * number)
+        train.step("come_apart", apart_mm=60_000)
+        assert not train.tail(-199_000)
+        assert train.system.spacing.broken == found
+        assert train.system.caught == found
+
+
 def a_place_beyond_the_range() -> None:
     """A range that cannot be is none."""
     limits = SITE.limits
@@ -202,16 +241,14 @@ def a_train_turns() -> None:
 
 
 def what_nature_does_not_do() -> None:
-    """No tag is read outside the window, no odometer is worse than written, no train rolls back."""
+    """No tag is read outside the window, no range leaves the train out, no train rolls back."""
     train = Train()
     before = train.system
     train.step("head_reads", uid=0, at=UNKNOWN)
     train.step("tail_reads", uid=0, at=UNKNOWN)
     train.step("head_reads", uid=-200_000, at=Way(True, -199_999, 0))
     train.step("head_reads", uid=-50_000, at=Way(True, -201_000, -200_001))
-    train.step("head_reads", uid=-200_000, at=Way(True, -202_001, -200_000))
     train.step("tail_reads", uid=-320_000, at=Way(True, -199_999, 0))
-    train.step("tail_reads", uid=-320_000, at=Way(True, -202_001, -200_000))
     train.step("run", to_mm=-200_001)
     train.step("preset", preset_mm=APART_MM + 501)
     assert train.system == before
@@ -228,6 +265,8 @@ WITNESSES = (
     a_stretched_train,
     the_tail_came_first,
     nothing_to_hold_it_against,
+    a_way_known_badly,
+    a_ninth_tag_pushes_out_the_first,
     a_place_beyond_the_range,
     a_train_that_stands_on_a_tag,
     a_train_turns,

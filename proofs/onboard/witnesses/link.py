@@ -10,6 +10,8 @@ from dataclasses import replace
 
 from kernel.link import (
     LAST_SEQUENCE,
+    Arrived,
+    Code,
     Content,
     Life,
     Limits,
@@ -30,7 +32,18 @@ CENTRE, UNIT, OTHER = Party("centre"), Party("unit-7"), Party("unit-8")
 LIMITS = Limits(fresh_ms=2_000, silence_ms=5_000, offset_ms=50)
 START_MS = 10_000
 FIRST, SECOND, THIRD = Life(1), Life(2), Life(3)
+OF_THE_KEY, OTHER_CODE = Code("5a"), Code("a5")
 HELLO, GO, STOP = Content("00"), Content("01"), Content("02")
+
+
+def genuine(telegram: Telegram) -> Arrived:
+    """A telegram with the code that the key gives for it."""
+    return Arrived(telegram, OF_THE_KEY, OF_THE_KEY)
+
+
+def forged(telegram: Telegram) -> Arrived:
+    """A telegram with another code."""
+    return Arrived(telegram, OTHER_CODE, OF_THE_KEY)
 
 
 class Radio:
@@ -71,14 +84,16 @@ class Radio:
         assert self.link(me, peer).sent == link.sent + 1
         return telegram
 
-    def arrive(
-        self, me: Party, peer: Party, telegram: Telegram, fast_ms: int = 0, *, authentic: bool = True
-    ) -> Outcome:
-        """Let something arrive at an end whose clock is fast by so much, and say what becomes of it."""
-        before = self.play.system
+    def arrive(self, me: Party, peer: Party, telegram: Telegram, fast_ms: int = 0) -> Outcome:
+        """Let a telegram arrive as it was sent, at an end whose clock is fast by so much; say what becomes of it."""
+        return self.comes(me, peer, genuine(telegram), fast_ms)
+
+    def comes(self, me: Party, peer: Party, arrived: Arrived, fast_ms: int = 0) -> Outcome:
+        """Let anything arrive, and say what becomes of it."""
+        before, telegram = self.play.system, arrived.telegram
         reading_ms = before.now_ms + fast_ms
-        outcome = judge(LIMITS, self.link(me, peer), telegram, reading_ms, authentic)
-        self.play.step("arrive", me=me, peer=peer, telegram=telegram, reading_ms=reading_ms, authentic=authentic)
+        outcome = judge(LIMITS, self.link(me, peer), arrived, reading_ms)
+        self.play.step("arrive", me=me, peer=peer, arrived=arrived, reading_ms=reading_ms)
         after = self.play.system
         assert after.ends[me, peer].highest_ms >= reading_ms
         if outcome == Outcome.DELIVERED:
@@ -187,9 +202,9 @@ def corruption_ends_in_refusal() -> None:
     order = radio.send(CENTRE, UNIT, STOP)
     before = radio.play.system
     changed = order._replace(content=GO)
-    radio.play.step("arrive", me=UNIT, peer=CENTRE, telegram=changed, reading_ms=before.now_ms, authentic=True)
+    radio.play.step("arrive", me=UNIT, peer=CENTRE, arrived=genuine(changed), reading_ms=before.now_ms)
     assert radio.play.system == before
-    assert radio.arrive(UNIT, CENTRE, changed, authentic=False) == Outcome.NOT_AUTHENTIC
+    assert radio.comes(UNIT, CENTRE, forged(changed)) == Outcome.NOT_AUTHENTIC
 
 
 def delay_ends_in_refusal() -> None:
@@ -206,10 +221,10 @@ def delay_ends_in_refusal() -> None:
 def masquerade_ends_in_refusal() -> None:
     """A forged telegram, another machine's, and the own one thrown back are refused."""
     radio = acquainted()
-    forged = radio.send(CENTRE, UNIT, GO)._replace(sequence=99, sender_life=THIRD)
+    another = radio.send(CENTRE, UNIT, GO)._replace(sequence=99, sender_life=THIRD)
     radio.wait(1)
     before = radio.link(UNIT, CENTRE)
-    assert radio.arrive(UNIT, CENTRE, forged, authentic=False) == Outcome.NOT_AUTHENTIC
+    assert radio.comes(UNIT, CENTRE, forged(another)) == Outcome.NOT_AUTHENTIC
     assert radio.link(UNIT, CENTRE) == replace(before, clock_ms=before.clock_ms + 1)
     own = radio.send(UNIT, CENTRE, HELLO)
     assert radio.arrive(UNIT, CENTRE, own) == Outcome.OTHER_SENDER
@@ -296,7 +311,7 @@ def a_fast_senders_clock_does_not_hide_silence() -> None:
     radio = acquainted()
     order = radio.send(CENTRE, UNIT, GO, fast_ms=60_000)
     before = radio.play.system.now_ms
-    radio.play.step("arrive", me=UNIT, peer=CENTRE, telegram=order, reading_ms=before, authentic=True)
+    radio.play.step("arrive", me=UNIT, peer=CENTRE, arrived=genuine(order), reading_ms=before)
     radio.wait(5_201)
     assert not radio.trusts(UNIT, CENTRE)
 

@@ -13,11 +13,10 @@ from proofs.onboard.witnesses.play import Play
 BOUNDS = LengthBounds(
     line_maximum_mm=250_000,
     last_vehicle_mm=20_000,
-    averaging_mm=machine.AVERAGING_MM,
-    sensor_mm=machine.SENSOR_MM,
     front_overhang_mm=3_000,
     rear_overhang_mm=2_000,
     window_mm=513,
+    width_mm=20_000,
 )
 SITE = Railway(BOUNDS)
 LENGTH_MM = 120_000
@@ -30,8 +29,14 @@ JUST_STARTED = Formation(
     time_ms=0,
     front_um=0,
     speed_mm_s=0,
+    width_mm=0,
+    told_mm_s=0,
     tail_passed=False,
     both_passed=False,
+    untold=False,
+    measured_um=0,
+    open_um=0,
+    differed=False,
 )
 CURVE = Passing(PointKind.FEATURE, 7, 1_000, 0, 0, 36_112)
 """The head at 130 km/h, with the front known to a millimetre."""
@@ -105,9 +110,9 @@ def a_train_measured_as_short_as_can_be_is_not_underestimated() -> None:
     train = Train()
     train.head(CURVE)
     cycle = 3_611_200
-    short = Train.later(CURVE, 100_000 - 13_004)
-    train.tail(short, sampling=-cycle, skew=-cycle, averaging=-781_600, sensor=-5_000_000)
-    assert train.used_mm() == 120_002
+    short = Train.later(CURVE, 100_000 - 13_003)
+    train.tail(short, sampling=-cycle, skew=-cycle, averaging=-780_600, sensor=-5_000_000)
+    assert train.used_mm() == 120_003
 
 
 def a_train_is_measured_at_a_tag() -> None:
@@ -158,6 +163,105 @@ def a_measured_length_stays() -> None:
     train.head(slower)
     train.tail(train.later(slower, 180_000))
     assert train.used_mm() == 205_782
+
+
+def a_train_measured_again_contradicts_nothing() -> None:
+    """As long as can be at one point and as short as can be at the next: the errors of both cover it (P4, P8)."""
+    train = Train()
+    train.head(CURVE)
+    cycle = 3_611_200
+    train.tail(train.later(CURVE, 113_003), sampling=cycle, skew=cycle, averaging=780_600, sensor=5_000_000)
+    second = train.later(CURVE, 500_000)
+    train.head(second)
+    train.tail(train.later(second, 86_997), sampling=-cycle, skew=-cycle, averaging=-780_600, sensor=-5_000_000)
+    assert train.used_mm() == 120_000 + 13_003 + 13_006
+    assert not machine.contradicts_itself(train.system.state)
+
+
+def vehicles_coupled_untold_are_noticed_at_the_next_point() -> None:
+    """Three cars more, and nobody tells: too short until both ends have passed a point, the line's greatest then (P4).
+
+    It stays so, whatever is measured later, until staff tells the formation.
+    """
+    train = Train()
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 100_000))
+    train.step("change_formation_untold", length_um=180_000_000)
+    assert train.system.untold
+    assert train.used_mm() == 133_006
+    second = train.later(CURVE, 500_000)
+    train.head(second)
+    train.tail(train.later(second, 160_000))
+    assert train.system.differed
+    assert machine.contradicts_itself(train.system.state)
+    assert train.used_mm() == 250_000
+    train.tail(train.later(second, 160_000))
+    assert train.used_mm() == 250_000
+    train.step("change_formation", length_um=180_000_000)
+    train.head(second)
+    train.tail(train.later(second, 160_000))
+    assert train.used_mm() == 193_006
+    assert not machine.contradicts_itself(train.system.state)
+
+
+def cars_set_out_untold_are_noticed_too() -> None:
+    """A train that has become shorter was not underestimated; what it leaves behind is another matter (P4, P5)."""
+    train = Train()
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 100_000))
+    train.step("change_formation_untold", length_um=60_000_000)
+    second = train.later(CURVE, 500_000)
+    train.head(second)
+    train.tail(train.later(second, 40_000))
+    assert machine.contradicts_itself(train.system.state)
+    assert train.used_mm() == 250_000
+
+
+def another_measured_above_the_line_is_kept_the_longer() -> None:
+    """Where the second measurement is above the line's greatest length, it is used (P4; ours)."""
+    state = machine.note_head_pass(BOUNDS, machine.UNMEASURED, CURVE)
+    state = machine.note_tail_pass(BOUNDS, state, Train.later(CURVE, 100_000))
+    state = machine.note_tail_pass(BOUNDS, state, Train.later(CURVE, 280_000))
+    assert machine.length_mm(BOUNDS, state) == 313_006
+    assert machine.contradicts_itself(state)
+    assert machine.contradicts_the_line(BOUNDS, state)
+
+
+def a_jump_of_kilometrage_measures_nothing() -> None:
+    """Ends changed, or located anew, between the two passes: -118,000 mm were measured so, and were used (P4)."""
+    train = Train()
+    train.head(replace(CURVE, front_least_mm=900_000, front_most_mm=900_000))
+    train.step("change_kilometrage")
+    assert not train.system.head_passed
+    train.tail(train.later(CURVE, 100_000))
+    assert train.used_mm() == 250_000
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 100_000))
+    train.step("change_kilometrage")
+    assert train.used_mm() == 133_006
+
+
+def no_train_is_shorter_than_its_last_vehicle() -> None:
+    """A jump that nobody has told: what comes out shorter is no measurement (P4; ours)."""
+    state = machine.note_head_pass(BOUNDS, machine.UNMEASURED, CURVE)
+    assert not machine.note_tail_pass(BOUNDS, state, Train.later(CURVE, -13_007)).measured
+    assert machine.note_tail_pass(BOUNDS, state, Train.later(CURVE, -13_006)).measured
+
+
+def a_front_known_worse_than_is_written_is_no_pass() -> None:
+    """A range as wide as is written counts, at the head and at the tail; a wider one is not compared (P4, P7)."""
+    for more_mm, used_mm in ((0, 120_000 + 13_006 + 20_000), (1, 250_000)):
+        train = Train()
+        train.head(CURVE)
+        tail = train.later(CURVE, 120_000 + more_mm)
+        train.step(
+            "tail_passes", front_um=100_000_000, speed_mm_s=0, sampling_um=0, skew_um=0, averaging_um=0, sensor_um=0,
+            passing=replace(tail, front_least_mm=100_000),
+        )  # fmt: skip
+        assert train.used_mm() == used_mm
+        assert machine.note_head_pass(
+            BOUNDS, machine.UNMEASURED, replace(CURVE, front_most_mm=20_000 + more_mm)
+        ).head_passed == (more_mm == 0)
 
 
 def a_pass_of_the_old_formation_does_not_count() -> None:
@@ -215,16 +319,16 @@ def a_pass_out_of_range_is_none() -> None:
     )
     good = Train.later(CURVE, 100_000)
     for passing in wild:
-        noted = machine.note_head_pass(machine.UNMEASURED, passing)
+        noted = machine.note_head_pass(BOUNDS, machine.UNMEASURED, passing)
         assert not noted.head_passed
         assert not machine.note_tail_pass(BOUNDS, noted, good).measured
-        noted = machine.note_head_pass(machine.UNMEASURED, CURVE)
+        noted = machine.note_head_pass(BOUNDS, machine.UNMEASURED, CURVE)
         late = replace(passing, time_ms=CURVE.time_ms + 1)
         assert not machine.note_tail_pass(BOUNDS, noted, late).measured
         assert machine.note_tail_pass(BOUNDS, noted, good).measured
-    edge = replace(good, front_most_mm=far - 1, speed_most_mm_s=200_000)
-    begin = replace(CURVE, front_least_mm=1 - far)
-    assert machine.note_tail_pass(BOUNDS, machine.note_head_pass(machine.UNMEASURED, begin), edge).measured
+    edge = replace(good, front_least_mm=far - 1, front_most_mm=far - 1, speed_most_mm_s=200_000)
+    begin = replace(CURVE, front_least_mm=1 - far, front_most_mm=1 - far)
+    assert machine.note_tail_pass(BOUNDS, machine.note_head_pass(BOUNDS, machine.UNMEASURED, begin), edge).measured
 
 
 def more_than_the_line_allows_is_kept_and_shown() -> None:
@@ -254,7 +358,7 @@ def what_nature_does_not_do_does_not_happen() -> None:
         {"speed_mm_s": 36_113},
         {"sampling_um": -3_611_201},
         {"skew_um": -3_611_201},
-        {"averaging_um": -782_001},
+        {"averaging_um": -781_251},
         {"sensor_um": -5_000_001},
         {"sensor_um": -1},
     )
@@ -275,6 +379,13 @@ WITNESSES = (
     the_wider_range_and_the_higher_speed_count,
     a_pass_is_off_by_a_cycle_at_the_higher_speed,
     a_measured_length_stays,
+    a_train_measured_again_contradicts_nothing,
+    vehicles_coupled_untold_are_noticed_at_the_next_point,
+    cars_set_out_untold_are_noticed_too,
+    another_measured_above_the_line_is_kept_the_longer,
+    a_jump_of_kilometrage_measures_nothing,
+    no_train_is_shorter_than_its_last_vehicle,
+    a_front_known_worse_than_is_written_is_no_pass,
     a_pass_of_the_old_formation_does_not_count,
     only_the_heads_point_counts,
     the_head_waits_at_its_last_point,
