@@ -177,6 +177,7 @@ BOUNDS = SensorBounds(
     accelerates_mm_s2=1_500,
     brakes_mm_s2=1_700,
     agreement_cycles=20,
+    pace_mm_s=10_000,
 )
 """The odometry's bounds for these ranges.
 

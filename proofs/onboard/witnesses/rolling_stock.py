@@ -20,6 +20,7 @@ BOUNDS = SensorBounds(
     accelerates_mm_s2=1_200,
     brakes_mm_s2=1_800,
     agreement_cycles=10,
+    pace_mm_s=5_000,
 )
 SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_150, length_mm=120_000, length_used_mm=133_000)
 START_MM = 100_000
