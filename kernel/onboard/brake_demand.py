@@ -45,13 +45,13 @@ class Known:
 def is_demanded(limits: TrainLimits, known: Known, may_proceed: bool) -> bool:
     """Tell whether anything wants the emergency brake (T5, T12, P5).
 
-    A lost position, a broken bound of motors or brake, reverse movement, an overspeed, a split, an overdue
-    tag, or an order that does not let the train proceed: ``kernel.authority.may_proceed`` for its run.
+    A broken bound of motors or brake, reverse movement, an overspeed, which a train with a lost position may
+    always have, a split, an overdue tag, or an order that does not let the train proceed:
+    ``kernel.authority.may_proceed`` for its run.
     """
     motion = known.motion
     return (
-        not is_located(motion)
-        or known.watch.broken
+        known.watch.broken
         or known.movement.reversed
         or is_overspeed(
             limits.speeds,

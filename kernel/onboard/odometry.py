@@ -40,6 +40,7 @@ class SensorBounds:
     ``accelerates_mm_s2``, ``brakes_mm_s2``: what the train can do at most, on the steepest gradient.
     ``agreement_cycles``: how long the accelerations must agree before the wheel is trusted again.
     ``pace_mm_s``: a wheel is trusted again only while it is known to be no farther from the train's speed.
+    ``locked_mm_s``: one that shows none only of a train that is no faster, either way: it may be locked.
     """
 
     scale_ppm: int
@@ -53,6 +54,7 @@ class SensorBounds:
     brakes_mm_s2: int
     agreement_cycles: int
     pace_mm_s: int
+    locked_mm_s: int
 
 
 @dataclass(frozen=True)
@@ -261,6 +263,10 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
     plausible = (
         slowest_mm_s - speed_error <= readings.tachometer_mm_s <= fastest_mm_s + speed_error
         and fastest_mm_s - slowest_mm_s + speed_error <= bounds.pace_mm_s
+        and (
+            readings.tachometer_mm_s != 0
+            or (-bounds.locked_mm_s <= slowest_mm_s and fastest_mm_s <= bounds.locked_mm_s)
+        )
     )
     agreed = motion.agreed_cycles + 1 if agrees(bounds, motion, readings) and plausible else 0
     return replace(

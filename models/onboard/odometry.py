@@ -136,7 +136,7 @@ def the_inertial_sensor_keeps_its_bound(
 
 
 def a_tachometer_sticks_at_a_speed(system: Running, readings: Readings, sticks: bool) -> bool:
-    """One that fails and calls itself valid repeats the speed and pulses of the cycle before; at rest none fails (P1)."""
+    """One that fails and calls itself valid repeats speed and pulses of the cycle before; none fails at rest (P1)."""
     return not sticks or (
         readings.tachometer_mm_s != 0
         and readings.tachometer_mm_s == system.shown_mm_s
@@ -221,7 +221,10 @@ def is_told(system: Running, readings: Readings, sticks: bool) -> bool:
 
 
 def paced_cycles_after(site: Line, system: Running, readings: Readings, speed_um_s: int, told: bool) -> int:
-    """For how many cycles on end the wheel has now kept pace: nearly as fast, and gaining as much (P1)."""
+    """For how many cycles on end the wheel has now kept pace: nearly as fast, and gaining as much (P1).
+
+    One that stands keeps pace with a slow train alone: a locked wheel may stand for long under a fast one.
+    """
     gained_um_s = speed_um_s - system.speed_um_s
     wheel_um_s = 1000 * (readings.tachometer_mm_s - system.shown_mm_s)
     keeps_pace = (
@@ -229,6 +232,7 @@ def paced_cycles_after(site: Line, system: Running, readings: Readings, speed_um
         and system.told
         and magnitude(wheel_um_s - gained_um_s) < MS_A_CYCLE * site.jolt_mm_s2
         and magnitude(1000 * readings.tachometer_mm_s - speed_um_s) <= 1000 * site.bounds.pace_mm_s
+        and (readings.tachometer_mm_s != 0 or magnitude(speed_um_s) <= 1000 * site.bounds.locked_mm_s)
     )
     return system.paced_cycles + 1 if keeps_pace else 0
 
