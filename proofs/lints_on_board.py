@@ -41,7 +41,13 @@ TOLD: Mapping[str, Mapping[str, str]] = {
 Of a site a field with all that is in it; of a state only which keys there are.
 """
 
-NOTED: Mapping[str, Mapping[str, str]] = {}
+NOTED: Mapping[str, Mapping[str, str]] = {
+    "braking": {"demanded": "what is claimed of a demand is claimed of the one that the control was given"},
+    "brake_demand": {
+        "may_proceed": "what is claimed of an order is claimed of what the unit was told",
+        "acknowledged": "what is claimed of a release is claimed of what the driver did",
+    },
+}
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""
 
 

@@ -20,12 +20,15 @@ class Train:
 class Deciding:
     """One moment of the unit.
 
-    ``known``, ``may_proceed``: history: what was known when it last decided.
+    ``known``, ``may_proceed``, ``acknowledged``: history: what it last decided by.
+    ``was_applied``: history: whether the brake was applied before that.
     ``brake``: what the brake control knows.
     """
 
     known: Known
     may_proceed: bool
+    acknowledged: bool
+    was_applied: bool
     brake: Brake
 
 
@@ -34,5 +37,7 @@ def decide(site: Train, system: Deciding, known: Known, may_proceed: bool, ackno
     return Deciding(
         known=known,
         may_proceed=may_proceed,
+        acknowledged=acknowledged,
+        was_applied=system.brake.applied,
         brake=brake_demand.decide(site.limits, system.brake, known, may_proceed, acknowledged),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kernel.onboard.braking import stops_before
 from kernel.onboard.odometry import Loss
 from models.onboard.brake_demand import Deciding, Train, decide
 from proofs.theory import Theory, by_name
@@ -55,6 +56,28 @@ def an_order_that_does_not_let_it_proceed_brakes(site: Train, system: Deciding) 
     return system.brake.applied or system.may_proceed
 
 
+def a_train_that_might_not_stop_before_the_end_brakes(site: Train, system: Deciding) -> bool:
+    """By the farthest and the fastest that its range has (P7, T12)."""
+    motion = system.known.motion
+    return system.brake.applied or stops_before(
+        site.limits.brake, motion.front_most_mm, motion.speed_most_mm_s, system.brake.end_mm
+    )
+
+
+def no_brake_is_released_of_a_train_that_might_move(site: Train, system: Deciding) -> bool:
+    """By both ends of its range of speeds, and not unless the driver acknowledges (T12)."""
+    motion, standstill_mm_s = system.known.motion, site.limits.brake.standstill_mm_s
+    return (
+        system.brake.applied
+        or not system.was_applied
+        or (
+            system.acknowledged
+            and -standstill_mm_s <= motion.speed_least_mm_s
+            and motion.speed_most_mm_s <= standstill_mm_s
+        )
+    )
+
+
 INITIAL = (the_brake_is_applied,)
 SAFETY = (
     a_lost_position_brakes,
@@ -64,6 +87,8 @@ SAFETY = (
     a_split_brakes,
     an_overdue_tag_brakes,
     an_order_that_does_not_let_it_proceed_brakes,
+    a_train_that_might_not_stop_before_the_end_brakes,
+    no_brake_is_released_of_a_train_that_might_move,
 )
 STEPS = (decide,)
 

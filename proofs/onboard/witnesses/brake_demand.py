@@ -39,7 +39,7 @@ class Unit(Play[Train, Deciding]):
 
     def __init__(self) -> None:
         """Begin."""
-        super().__init__(THEORY, SITE, Deciding(AT_REST, True, Brake(applied=True, end_mm=5_000_000)))
+        super().__init__(THEORY, SITE, Deciding(AT_REST, True, False, True, Brake(True, 5_000_000)))
         assert not self.decides(AT_REST, acknowledged=True)
 
     def decides(self, known: Known, *, may_proceed: bool = True, acknowledged: bool = False) -> bool:
