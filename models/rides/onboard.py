@@ -72,10 +72,10 @@ TAIL_MOST_MM_S2 = 79 + 4 * 30 + 1
 @compiled
 def speed_bound_mm_s(tachometer_mm_s: int) -> float:
     """How far the speed of a rolling wheel may be from the train's, by the declared bounds (P1)."""
-    return abs(tachometer_mm_s) * SENSORS.scale_ppm / 1_000_000 + SENSORS.tachometer_mm_s
+    return float(abs(tachometer_mm_s) * SENSORS.scale_ppm / 1_000_000 + SENSORS.tachometer_mm_s)
 
 
 @compiled
 def way_bound_mm(since_mm: int) -> float:
     """How far the pulses of a rolling wheel may be from the way that the train ran, by the declared bounds (P1)."""
-    return abs(since_mm) * SENSORS.scale_ppm / 1_000_000 + SENSORS.pulse_mm
+    return float(abs(since_mm) * SENSORS.scale_ppm / 1_000_000 + SENSORS.pulse_mm)

@@ -91,9 +91,10 @@ def the_range_counts_at_both_its_ends() -> None:
     until = replace(WELL.limit, turnout_until_mm=998_000 - 120_000 - 1)
     assert not unit.decides(replace(WELL, limit=until))
     assert unit.decides(replace(WELL, limit=replace(until, turnout_until_mm=998_000 - 120_000)))
-    for far in ({"front_most_mm": 4_990_000}, {"speed_most_mm_s": 35_900, "front_most_mm": 4_100_000}):
+    for front_most_mm, speed_most_mm_s in ((4_990_000, 20_200), (4_100_000, 35_900)):
         unit = Unit()
-        assert unit.decides(replace(WELL, motion=replace(MOTION, **far)))
+        far = replace(MOTION, front_most_mm=front_most_mm, speed_most_mm_s=speed_most_mm_s)
+        assert unit.decides(replace(WELL, motion=far))
     unit = Unit()
     unit.decides(AT_REST, may_proceed=False)
     rolls_back = replace(MOTION, speed_least_mm_s=-26, speed_most_mm_s=0)

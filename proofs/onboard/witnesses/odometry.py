@@ -506,9 +506,8 @@ def what_nature_does_not_do_does_not_happen() -> None:
     )
     for what in refused:
         assert train.step("run_a_cycle", **{**event, **what}) == before
-    sticks = {"sticks": True, "readings": replace(good, way_mm=205_000)}
-    for what in ({"readings": replace(good, tachometer_mm_s=0)}, {"readings": replace(good, tachometer_mm_s=19_999)}):
-        assert train.step("run_a_cycle", **{**event, **sticks, **what}) == before
+    for stuck in (good, replace(good, way_mm=205_000, tachometer_mm_s=19_999), replace(good, tachometer_mm_s=0)):
+        assert train.step("run_a_cycle", **{**event, "sticks": True, "readings": stuck}) == before
     wide = replace(before, motion=replace(before.motion, front_least_mm=290_000, front_most_mm=310_000))
     train.system = before = wide
     for least_mm, most_mm in ((290_000, 299_999), (300_001, 310_000)):
