@@ -45,6 +45,11 @@ NOTED: Mapping[str, Mapping[str, str]] = {
     "antenna_spacing": {
         "head_newest": "a tag is numbered by where it lies; that it was read is what the machine is told"
     },
+    "braking": {"demanded": "what is claimed of a demand is claimed of the one that the control was given"},
+    "brake_demand": {
+        "may_proceed": "what is claimed of an order is claimed of what the unit was told",
+        "acknowledged": "what is claimed of a release is claimed of what the driver did",
+    },
 }
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""
 

@@ -13,12 +13,14 @@ from proofs.catalogue import INTERLOCKING
 from proofs.crossing import arrival, crossing, due
 from proofs.onboard import (
     antenna_spacing,
+    brake_demand,
     brake_watch,
     braking,
     feature,
     joint,
     link,
     odometry,
+    reverse_movement,
     speed_limit,
     split,
     tag_reader,
@@ -33,6 +35,8 @@ IN_ORDER: tuple[Theory, ...] = (
     odometry.THEORY,
     braking.THEORY,
     brake_watch.THEORY,
+    reverse_movement.THEORY,
+    brake_demand.THEORY,
     joint.THEORY,
     speed_limit.THEORY,
     split.THEORY,

@@ -30,7 +30,7 @@ def bench_odometry() -> Iterable[Figure]:
     rows[:, 0] = speed + slips * 3_000
     rows[:, 1] = np.cumsum(speed) // 10
     rows[:, 2] = np.diff(speed, prepend=speed[0]) * 10 + random.integers(-20, 21, CYCLES)
-    bounds = odometry.SensorBounds(5_000, 50, 100, 100, 400, 50, 500, 1_500, 4_000, 10)
+    bounds = odometry.SensorBounds(5_000, 50, 100, 100, 400, 50, 500, 1_500, 4_000, 10, 10_000, 5_000)
     machine = compile_machines([odometry]).odometry
     note_cycle, readings = machine.note_cycle, machine.Readings
 

@@ -40,12 +40,15 @@ def next_limit_mm_s(bounds: BrakeBounds, watch: BrakeWatch, applied: bool) -> in
 
 
 def note_cycle(
-    bounds: BrakeBounds, watch: BrakeWatch, applied: bool, speed_least_mm_s: int, speed_most_mm_s: int
+    bounds: BrakeBounds, watch: BrakeWatch, applied: bool, known: bool, speed_least_mm_s: int, speed_most_mm_s: int
 ) -> BrakeWatch:
-    """Take one cycle: whether the brake was commanded in it, and the range of speeds after it (T12)."""
+    """Take one cycle: whether the brake was commanded in it, and the range of speeds after it, if it is known (T12).
+
+    The brakes of a train that rolls back act forward, so the limit is not below 0.
+    """
     limit_mm_s = next_limit_mm_s(bounds, watch, applied)
     return BrakeWatch(
-        limit_mm_s=smaller(limit_mm_s, speed_most_mm_s),
+        limit_mm_s=larger(0, smaller(limit_mm_s, speed_most_mm_s)) if known else limit_mm_s,
         cycles=smaller(watch.cycles + 1, bounds.response_cycles) if applied else 0,
-        broken=watch.broken or speed_least_mm_s > limit_mm_s,
+        broken=watch.broken or (known and speed_least_mm_s > limit_mm_s),
     )

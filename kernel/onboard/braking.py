@@ -27,7 +27,7 @@ class BrakeBounds:
     ``gains_mm_s2``: the most that the train gains while the brake is not yet effective.
     ``slows_mm_s2``: the least that the brake slows it by, once effective.
     ``response_cycles``: from the command until then.
-    ``standstill_mm_s``: at speeds certainly below this the train counts as standing.
+    ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing.
     """
 
     gains_mm_s2: int
@@ -81,15 +81,24 @@ def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, 
 
 
 def supervise(
-    bounds: BrakeBounds, brake: Brake, front_most_mm: int, speed_most_mm_s: int, demanded: bool, acknowledged: bool
+    bounds: BrakeBounds,
+    brake: Brake,
+    front_most_mm: int,
+    speed_least_mm_s: int,
+    speed_most_mm_s: int,
+    demanded: bool,
+    acknowledged: bool,
 ) -> Brake:
     """Decide for the cycle that begins (T12).
 
-    ``demanded``: another machine wants the emergency brake: an open loop, a split, a lost position (T5, P5).
+    ``speed_least_mm_s``: below 0 if the train may roll back.
+    ``demanded``: another machine wants the emergency brake (``kernel.onboard.brake_demand``); while it does, the
+    numbers need not be true (T5, P5).
     ``acknowledged``: the driver has acknowledged it; it is released at a standstill, if nothing wants it any more.
     """
     safe = not demanded and stops_before(bounds, front_most_mm, speed_most_mm_s, brake.end_mm)
-    stands = acknowledged and speed_most_mm_s <= bounds.standstill_mm_s
+    still = -bounds.standstill_mm_s <= speed_least_mm_s and speed_most_mm_s <= bounds.standstill_mm_s
+    stands = acknowledged and still
     return replace(brake, applied=not safe or (brake.applied and not stands))
 
 

@@ -7,8 +7,10 @@ inertial sensor within the line's steepest gradient, and the anchor goes along (
 A fix narrows the range; one that lies outside it shows that a sensor is worse than its bound, and then
 no range is claimed any more.
 
-Ranges of readings: speeds to 200 m/s, ways to 10**9 mm, accelerations that the train can have on the
-steepest gradient; what is beyond is no reading.
+Speeds and pulses are signed: a train that rolls back is in its range as well.
+
+Ranges of readings: speeds to 200 m/s either way, ways to 10**9 mm and no farther in a cycle than at 200 m/s,
+accelerations that the train can have on the steepest gradient; what is beyond is no reading.
 """
 
 from __future__ import annotations
@@ -20,6 +22,8 @@ from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up,
 
 MILLION = 1_000_000
 GREATEST_WAY_MM = 10**9
+GREATEST_STEP_MM = CYCLE_MS * GREATEST_SPEED_MM_S // 1000
+"""So far pulses go in a cycle at most; a counter that jumps gives no reading (P1)."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,8 @@ class SensorBounds:
     ``slip_mm_s2``: T_a, from which on the accelerations differ.
     ``accelerates_mm_s2``, ``brakes_mm_s2``: what the train can do at most, on the steepest gradient.
     ``agreement_cycles``: how long the accelerations must agree before the wheel is trusted again.
+    ``pace_mm_s``: a wheel is trusted again only while it is known to be no farther from the train's speed.
+    ``locked_mm_s``: one that shows none only of a train that is no faster, either way: it may be locked.
     """
 
     scale_ppm: int
@@ -47,6 +53,8 @@ class SensorBounds:
     accelerates_mm_s2: int
     brakes_mm_s2: int
     agreement_cycles: int
+    pace_mm_s: int
+    locked_mm_s: int
 
 
 @dataclass(frozen=True)
@@ -55,7 +63,8 @@ class Readings:
 
     ``elapsed_ms``: since the cycle before, by the processor's clock.
     ``tachometer_valid``, ``inertial_valid``: the sensor's own diagnosis, and that it gave a number at all.
-    ``tachometer_mm_s``: speed of the wheel; ``way_mm``: its pulses as a way, counted since power-on.
+    ``tachometer_mm_s``: speed of the wheel, below 0 if it turns back.
+    ``way_mm``: its pulses as a way, counted since power-on, fewer again if it turns back.
     ``inertial_mm_s2``: along the track, gravity included.
     """
 
@@ -133,24 +142,32 @@ def is_located(motion: Motion) -> bool:
 
 def speed_error_mm_s(bounds: SensorBounds, tachometer_mm_s: int) -> int:
     """Give how far the speed of a rolling wheel's reading may be from the train's (P1)."""
-    return tachometer_mm_s * bounds.scale_ppm // MILLION + 1 + bounds.tachometer_mm_s
+    return magnitude(tachometer_mm_s) * bounds.scale_ppm // MILLION + 1 + bounds.tachometer_mm_s
 
 
 def way_error_mm(bounds: SensorBounds, way_mm: int) -> int:
     """Give how far the pulses of a rolling wheel may be from the way that the train ran (P1)."""
-    return way_mm * bounds.scale_ppm // MILLION + 1 + bounds.pulse_mm
+    return magnitude(way_mm) * bounds.scale_ppm // MILLION + 1 + bounds.pulse_mm
+
+
+def tachometer_is_heard(readings: Readings) -> bool:
+    """Tell whether the tachometer gives numbers to compare the next ones with: valid and in range (P1)."""
+    return (
+        readings.tachometer_valid
+        and -GREATEST_SPEED_MM_S <= readings.tachometer_mm_s <= GREATEST_SPEED_MM_S
+        and -GREATEST_WAY_MM <= readings.way_mm <= GREATEST_WAY_MM
+    )
 
 
 def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
-    """Tell whether the tachometer gives a reading: valid, in range, and its pulses only ever more (P1).
+    """Tell whether the tachometer gives a reading: heard, not stuck, and its pulses without a jump (P1).
 
     A speed without a pulse is no reading: a tachometer that is stuck repeats both.
     """
     return (
-        readings.tachometer_valid
+        tachometer_is_heard(readings)
         and (readings.tachometer_mm_s == 0 or readings.way_mm != motion.way_mm)
-        and 0 <= readings.tachometer_mm_s <= GREATEST_SPEED_MM_S
-        and motion.way_mm <= readings.way_mm <= GREATEST_WAY_MM
+        and motion.way_mm - GREATEST_STEP_MM <= readings.way_mm <= motion.way_mm + GREATEST_STEP_MM
     )
 
 
@@ -199,11 +216,16 @@ def least_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
     return larger(-bounds.brakes_mm_s2, readings.inertial_mm_s2 - bounds.gradient_mm_s2 - bounds.inertial_mm_s2)
 
 
-def most_mm_s2(bounds: SensorBounds, readings: Readings) -> int:
-    """Give the most acceleration that the train may have: the motors', or the inertial sensor's if it speaks (P1)."""
+def most_mm_s2(bounds: SensorBounds, motion: Motion, readings: Readings) -> int:
+    """Give the most acceleration that the train may have: the motors', or the inertial sensor's if it speaks (P1).
+
+    The brakes of a train that rolls back act forward.
+    """
+    back = motion.speed_least_mm_s < 0
+    most = larger(bounds.accelerates_mm_s2, bounds.brakes_mm_s2) if back else bounds.accelerates_mm_s2
     if not inertial_speaks(bounds, readings):
-        return bounds.accelerates_mm_s2
-    return smaller(bounds.accelerates_mm_s2, readings.inertial_mm_s2 + bounds.gradient_mm_s2 + bounds.inertial_mm_s2)
+        return most
+    return smaller(most, readings.inertial_mm_s2 + bounds.gradient_mm_s2 + bounds.inertial_mm_s2)
 
 
 # ---- one cycle
@@ -218,8 +240,8 @@ def roll(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
         motion,
         front_least_mm=motion.anchor_least_mm + since_mm - error_mm,
         front_most_mm=motion.anchor_most_mm + since_mm + error_mm,
-        speed_least_mm_s=larger(0, readings.tachometer_mm_s - speed_error),
-        speed_most_mm_s=readings.tachometer_mm_s + speed_error,
+        speed_least_mm_s=readings.tachometer_mm_s - speed_error,
+        speed_most_mm_s=larger(0, readings.tachometer_mm_s + speed_error),
         tachometer_mm_s=readings.tachometer_mm_s,
         way_mm=readings.way_mm,
         gradient_mm_s2=next_gradient_mm_s2(bounds, motion, readings),
@@ -230,15 +252,22 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
     """Go on without the wheel, from where the train was before: by inertia within its bounds (P1, P7).
 
     The anchor goes along.  Once the wheel has agreed long enough, at a speed that the train may
-    have, it is trusted again.
+    have, it is trusted again; not where the train may have so many speeds that this says little.
     """
-    slowest_mm_s = larger(0, motion.speed_least_mm_s + CYCLE_MS * least_mm_s2(bounds, readings) // 1000)
-    fastest_mm_s = motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, readings), 1000)
+    slowest_mm_s = motion.speed_least_mm_s + CYCLE_MS * least_mm_s2(bounds, readings) // 1000
+    fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, motion, readings), 1000))
     least_mm = motion.front_least_mm + CYCLE_MS * smaller(motion.speed_least_mm_s, slowest_mm_s) // 1000
     most_mm = motion.front_most_mm + divided_up(CYCLE_MS * larger(motion.speed_most_mm_s, fastest_mm_s), 1000)
-    speaks = tachometer_speaks(motion, readings)
+    heard = tachometer_is_heard(readings)
     speed_error = speed_error_mm_s(bounds, readings.tachometer_mm_s)
-    plausible = slowest_mm_s - speed_error <= readings.tachometer_mm_s <= fastest_mm_s + speed_error
+    plausible = (
+        slowest_mm_s - speed_error <= readings.tachometer_mm_s <= fastest_mm_s + speed_error
+        and fastest_mm_s - slowest_mm_s + speed_error <= bounds.pace_mm_s
+        and (
+            readings.tachometer_mm_s != 0
+            or (-bounds.locked_mm_s <= slowest_mm_s and fastest_mm_s <= bounds.locked_mm_s)
+        )
+    )
     agreed = motion.agreed_cycles + 1 if agrees(bounds, motion, readings) and plausible else 0
     return replace(
         motion,
@@ -248,9 +277,9 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
         speed_most_mm_s=fastest_mm_s,
         anchor_least_mm=least_mm,
         anchor_most_mm=most_mm,
-        anchor_way_mm=readings.way_mm if speaks else motion.way_mm,
-        tachometer_mm_s=readings.tachometer_mm_s if speaks else motion.tachometer_mm_s,
-        way_mm=readings.way_mm if speaks else motion.way_mm,
+        anchor_way_mm=readings.way_mm if heard else motion.way_mm,
+        tachometer_mm_s=readings.tachometer_mm_s if heard else motion.tachometer_mm_s,
+        way_mm=readings.way_mm if heard else motion.way_mm,
         trusted=agreed >= bounds.agreement_cycles,
         agreed_cycles=agreed,
     )

@@ -48,12 +48,15 @@ UNKNOWN = SpeedLimit(in_curve=True, at_turnout=True, curve_until_mm=0, turnout_u
 """Before the first tag everything restricts (T8, T12); where it ends is set by that tag."""
 
 
-def note_tag(limit: SpeedLimit, in_curve: bool, at_turnout: bool, front_most_mm: int) -> SpeedLimit:
+def note_tag(limit: SpeedLimit, in_curve: bool, at_turnout: bool, known: bool, front_most_mm: int) -> SpeedLimit:
     """Take a tag that the head reads: what it was on ends here, and what the kind says begins (T12).
 
     ``in_curve``, ``at_turnout``: by :func:`kernel.tags.traits`, both for a kind that is unknown or not read.
+    ``known``: a range is claimed; without one it is not known where anything ends (T8).
     ``front_most_mm``: the front is no farther than this, so the tag is not either (P7).
     """
+    if not known:
+        return UNKNOWN
     return SpeedLimit(
         in_curve=in_curve,
         at_turnout=at_turnout,
@@ -80,9 +83,10 @@ def limit_mm_s(table: SpeedTable, limit: SpeedLimit, rear_least_mm: int) -> int:
     )
 
 
-def is_overspeed(table: SpeedTable, limit: SpeedLimit, rear_least_mm: int, speed_most_mm_s: int) -> bool:
+def is_overspeed(table: SpeedTable, limit: SpeedLimit, known: bool, rear_least_mm: int, speed_most_mm_s: int) -> bool:
     """Tell whether the train may be too fast, so that the emergency brake is demanded (T12).
 
+    ``known``: a range is claimed; a train without one may be anywhere, at any speed (T8).
     ``speed_most_mm_s``: the upper end of the odometry's range (P1); a negative one is no speed.
     """
-    return not 0 <= speed_most_mm_s <= limit_mm_s(table, limit, rear_least_mm)
+    return not known or not 0 <= speed_most_mm_s <= limit_mm_s(table, limit, rear_least_mm)

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.onboard import brake_watch
-from kernel.onboard.arithmetic import CYCLE_MS, larger, smaller
 from kernel.onboard.brake_watch import BrakeWatch
 from kernel.onboard.braking import BrakeBounds
+from models.onboard.units import MS_A_CYCLE, UM_A_MM, larger, smaller
 
 
 @dataclass(frozen=True)
@@ -24,40 +24,75 @@ class Vehicle:
 class Watched:
     """One moment of a train that is watched.
 
-    ``speed_um_s``: how fast it is.  ``cycles``: how long its brake has been commanded, at most its response.
+    ``speed_um_s``: how fast it is, below 0 backward.
+    ``cycles``: how long its brake has been commanded, at most its response.
     ``kept``: history: the train has kept to the bounds so far.
+    ``allowed_mm_s``: history: from speeds that were measured the bounds allow no more than this, rounded up.
+    ``too_fast``: history: it was once certainly faster than the bounds allow.
     ``watch``: what the watching machine knows.
     """
 
     speed_um_s: int
     cycles: int
     kept: bool
+    allowed_mm_s: int
+    too_fast: bool
     watch: BrakeWatch
 
 
+# ---- premises
+
+
+def motors_do_not_slow(site: Vehicle) -> bool:
+    """What the train gains at most until the brake responds is not below zero (T12)."""
+    return site.bounds.gains_mm_s2 >= 0
+
+
+# ---- assumptions
+
+
 def the_range_contains_the_speed(
-    site: Vehicle, system: Watched, speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int
+    site: Vehicle, system: Watched, known: bool, speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int
 ) -> bool:
-    """The odometry's theorem, `speed_range_contains_speed` (P1)."""
-    return 1000 * speed_least_mm_s <= speed_um_s <= 1000 * speed_most_mm_s
+    """The odometry's theorem, `speed_range_contains_speed`; it says nothing while no range is claimed (P1)."""
+    return not known or UM_A_MM * speed_least_mm_s <= speed_um_s <= UM_A_MM * speed_most_mm_s
+
+
+# ---- transitions
 
 
 def keeps(site: Vehicle, system: Watched, applied: bool, speed_um_s: int) -> bool:
     """Whether motors and brake kept their bounds in this cycle: `the_train_gains_no_more`, `the_brake_keeps…` (T12)."""
     if applied and system.cycles >= site.bounds.response_cycles:
-        return speed_um_s <= larger(0, system.speed_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
-    return speed_um_s - system.speed_um_s <= CYCLE_MS * site.bounds.gains_mm_s2
+        return speed_um_s <= larger(0, system.speed_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
+    return speed_um_s - larger(0, system.speed_um_s) <= MS_A_CYCLE * site.bounds.gains_mm_s2
+
+
+def allowed_after_mm_s(site: Vehicle, system: Watched, applied: bool) -> int:
+    """How fast a train may be a cycle on that was as fast as allowed, in whole mm/s to its favour (T12)."""
+    if applied and system.cycles >= site.bounds.response_cycles:
+        return larger(0, system.allowed_mm_s - MS_A_CYCLE * site.bounds.slows_mm_s2 // UM_A_MM)
+    return system.allowed_mm_s - -MS_A_CYCLE * site.bounds.gains_mm_s2 // UM_A_MM
 
 
 def run_a_cycle(
-    site: Vehicle, system: Watched, applied: bool, speed_least_mm_s: int, speed_most_mm_s: int, speed_um_s: int
+    site: Vehicle,
+    system: Watched,
+    applied: bool,
+    known: bool,
+    speed_least_mm_s: int,
+    speed_most_mm_s: int,
+    speed_um_s: int,
 ) -> Watched:
     """The train runs on for a cycle, at any speed, keeping to the bounds or not (T12)."""
-    if not the_range_contains_the_speed(site, system, speed_least_mm_s, speed_most_mm_s, speed_um_s):
+    if not the_range_contains_the_speed(site, system, known, speed_least_mm_s, speed_most_mm_s, speed_um_s):
         return system
+    allowed_mm_s = allowed_after_mm_s(site, system, applied)
     return Watched(
         speed_um_s=speed_um_s,
         cycles=smaller(system.cycles + 1, site.bounds.response_cycles) if applied else 0,
         kept=system.kept and keeps(site, system, applied, speed_um_s),
-        watch=brake_watch.note_cycle(site.bounds, system.watch, applied, speed_least_mm_s, speed_most_mm_s),
+        allowed_mm_s=larger(0, smaller(allowed_mm_s, speed_most_mm_s)) if known else allowed_mm_s,
+        too_fast=system.too_fast or (known and speed_least_mm_s > allowed_mm_s),
+        watch=brake_watch.note_cycle(site.bounds, system.watch, applied, known, speed_least_mm_s, speed_most_mm_s),
     )

@@ -1,7 +1,7 @@
 """A train's head, its motors and its brake, under the brake control (T12).
 
 The head as a point: ``range_contains_train`` of the odometry says that it is no farther than the unit
-reckons.  Ways in nm, speeds in µm/s, as in ``models.onboard.odometry``.
+reckons.  Ways in nm, speeds in µm/s, as in ``models.onboard.odometry``; a speed below 0 is backward.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import braking
-from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM, larger
 from kernel.onboard.braking import Brake, BrakeBounds
+from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM, larger, magnitude
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,8 @@ class Approach:
     ``worst_um_s``, ``reach_nm``: history: how fast and how far, by the control's last decision that the
     brake may be off, the head may be when the brake responds; then what is left of them.
     ``left_nm``: history: the way that was left for the brake by that decision.
+    ``demanded``: history: the brake was demanded when the control last decided.
+    ``released_amiss``: history: it has gone off while it was demanded, unacknowledged, or while the train moved.
     ``brake``: what the brake control knows.
     """
 
@@ -38,6 +40,8 @@ class Approach:
     worst_um_s: int
     reach_nm: int
     left_nm: int
+    demanded: bool
+    released_amiss: bool
     brake: Brake
 
 
@@ -60,24 +64,32 @@ def the_brake_slows(site: Vehicle) -> bool:
 # ---- assumptions
 
 
-def the_range_contains_the_head(system: Approach, front_most_mm: int, speed_most_mm_s: int) -> bool:
-    """The head is no farther and no faster than the odometry says: `range_contains_train`, `speed_range…` (P7)."""
-    return system.head_nm <= NM_A_MM * front_most_mm and system.speed_um_s <= 1000 * speed_most_mm_s
+def the_range_contains_the_head(
+    system: Approach, front_most_mm: int, speed_least_mm_s: int, speed_most_mm_s: int
+) -> bool:
+    """The head is no farther, and as fast, as the odometry says: `range_contains_train`, `speed_range…` (P7)."""
+    return (
+        system.head_nm <= NM_A_MM * front_most_mm
+        and UM_A_MM * speed_least_mm_s <= system.speed_um_s <= UM_A_MM * speed_most_mm_s
+    )
 
 
 def the_way_follows_the_speed(system: Approach, to_nm: int, speed_um_s: int) -> bool:
     """Within one cycle the head gets no farther than at the greater of the speeds at its ends (P1)."""
-    return speed_um_s >= 0 and to_nm - system.head_nm <= CYCLE_MS * larger(system.speed_um_s, speed_um_s)
+    return to_nm - system.head_nm <= MS_A_CYCLE * larger(system.speed_um_s, speed_um_s)
 
 
 def the_train_gains_no_more(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
-    """Until the brake responds the train gains no more speed than motors and descent can give it (T12)."""
-    return speed_um_s - system.speed_um_s <= CYCLE_MS * site.bounds.gains_mm_s2
+    """Until the brake responds the train gains no more speed than motors and descent can give it (T12).
+
+    One that rolls back may besides be stopped by its brakes.
+    """
+    return speed_um_s - larger(0, system.speed_um_s) <= MS_A_CYCLE * site.bounds.gains_mm_s2
 
 
 def the_brake_keeps_its_bound(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
     """A brake that has responded slows the train by what is guaranteed, until it stands, and holds it then (T12)."""
-    return speed_um_s <= larger(0, system.speed_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
+    return speed_um_s <= larger(0, system.speed_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
 
 
 # ---- transitions
@@ -87,18 +99,24 @@ def run_a_cycle(
     site: Vehicle,
     system: Approach,
     front_most_mm: int,
+    speed_least_mm_s: int,
     speed_most_mm_s: int,
     demanded: bool,
     acknowledged: bool,
     to_nm: int,
     speed_um_s: int,
 ) -> Approach:
-    """The control decides, and the train runs for a cycle as the driver, the line and the brake let it (T12)."""
-    if not the_range_contains_the_head(system, front_most_mm, speed_most_mm_s):
+    """The control decides, and the train runs for a cycle as the driver, the line and the brake let it (T12).
+
+    Whoever demands the brake may do so because nothing is known of place and speed.
+    """
+    if not demanded and not the_range_contains_the_head(system, front_most_mm, speed_least_mm_s, speed_most_mm_s):
         return system
     if not the_way_follows_the_speed(system, to_nm, speed_um_s):
         return system
-    brake = braking.supervise(site.bounds, system.brake, front_most_mm, speed_most_mm_s, demanded, acknowledged)
+    brake = braking.supervise(
+        site.bounds, system.brake, front_most_mm, speed_least_mm_s, speed_most_mm_s, demanded, acknowledged
+    )
     responds = brake.applied and system.response_cycles == 0
     if responds and not the_brake_keeps_its_bound(site, system, speed_um_s):
         return system
@@ -106,17 +124,31 @@ def run_a_cycle(
         return system
     if not brake.applied:
         begun = decided(site, system, front_most_mm, speed_most_mm_s, brake)
-        return replace(begun, head_nm=to_nm, speed_um_s=speed_um_s)
-    slowed_um_s = larger(0, system.worst_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
+        amiss = system.brake.applied and (demanded or not acknowledged or not stands(site, system))
+        return replace(
+            begun,
+            head_nm=to_nm,
+            speed_um_s=speed_um_s,
+            demanded=demanded,
+            released_amiss=system.released_amiss or amiss,
+        )
+    slowed_um_s = larger(0, system.worst_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
     return Approach(
         head_nm=to_nm,
         speed_um_s=speed_um_s,
         response_cycles=system.response_cycles if responds else system.response_cycles - 1,
         worst_um_s=slowed_um_s if responds else system.worst_um_s,
-        reach_nm=system.reach_nm + CYCLE_MS * system.worst_um_s if responds else system.reach_nm,
-        left_nm=system.left_nm - CYCLE_MS * slowed_um_s if responds else system.left_nm,
+        reach_nm=system.reach_nm + MS_A_CYCLE * system.worst_um_s if responds else system.reach_nm,
+        left_nm=system.left_nm - MS_A_CYCLE * slowed_um_s if responds else system.left_nm,
+        demanded=demanded,
+        released_amiss=system.released_amiss,
         brake=brake,
     )
+
+
+def stands(site: Vehicle, system: Approach) -> bool:
+    """The train is at rest, or as slow as counts for that (T12)."""
+    return magnitude(system.speed_um_s) <= UM_A_MM * site.bounds.standstill_mm_s
 
 
 def decided(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s: int, brake: Brake) -> Approach:
@@ -131,14 +163,17 @@ def decided(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s
     )
 
 
-def take_end(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> Approach:
+def take_end(
+    site: Vehicle, system: Approach, front_most_mm: int, speed_least_mm_s: int, speed_most_mm_s: int, end_mm: int
+) -> Approach:
     """A new end of authority comes, any at all (T4, T9).
 
     At a nearer end a brake that is on may take its response anew.
     """
-    if not the_range_contains_the_head(system, front_most_mm, speed_most_mm_s):
+    if not the_range_contains_the_head(system, front_most_mm, speed_least_mm_s, speed_most_mm_s):
         return system
     brake = braking.take_end(site.bounds, system.brake, front_most_mm, speed_most_mm_s, end_mm)
+    amiss = system.released_amiss or (system.brake.applied and not brake.applied)
     if brake.end_mm < system.brake.end_mm:
-        return decided(site, system, front_most_mm, speed_most_mm_s, brake)
-    return replace(system, brake=brake)
+        return replace(decided(site, system, front_most_mm, speed_most_mm_s, brake), released_amiss=amiss)
+    return replace(system, brake=brake, released_amiss=amiss)

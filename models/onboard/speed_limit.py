@@ -44,15 +44,23 @@ class Passage:
 
 
 def the_train_runs_forward(system: Passage, to_mm: int) -> bool:
-    """The front does not go back: the unit brakes on reverse movement (T5)."""
+    """The front does not go back; by how much it may before the train brakes, `reverse_movement` says (T5)."""
     return system.front_mm <= to_mm
 
 
 def the_range_contains_the_train(
-    site: Profile, front_mm: int, speed_mm_s: int, rear_least_mm: int, front_most_mm: int, speed_most_mm_s: int
+    site: Profile,
+    front_mm: int,
+    speed_mm_s: int,
+    known: bool,
+    rear_least_mm: int,
+    front_most_mm: int,
+    speed_most_mm_s: int,
 ) -> bool:
-    """The odometry's theorems, `range_contains_train` and `speed_range_contains_speed` (P1, P7)."""
-    return rear_least_mm <= front_mm - site.length_mm and front_mm <= front_most_mm and speed_mm_s <= speed_most_mm_s
+    """The odometry's theorems, `range_contains_train` and `speed_range…`, while it claims a range (P1, P7)."""
+    return not known or (
+        rear_least_mm <= front_mm - site.length_mm and front_mm <= front_most_mm and speed_mm_s <= speed_most_mm_s
+    )
 
 
 def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, told_curve: bool, told_turnout: bool) -> bool:
@@ -68,6 +76,7 @@ def run_on(
     system: Passage,
     to_mm: int,
     speed_mm_s: int,
+    known: bool,
     rear_least_mm: int,
     front_most_mm: int,
     speed_most_mm_s: int,
@@ -75,13 +84,13 @@ def run_on(
     """The train runs on within the stretch of its last tag, at any speed; the unit looks at its own (T12)."""
     if not the_train_runs_forward(system, to_mm):
         return system
-    if not the_range_contains_the_train(site, to_mm, speed_mm_s, rear_least_mm, front_most_mm, speed_most_mm_s):
+    if not the_range_contains_the_train(site, to_mm, speed_mm_s, known, rear_least_mm, front_most_mm, speed_most_mm_s):
         return system
     return replace(
         system,
         front_mm=to_mm,
         speed_mm_s=speed_mm_s,
-        brakes=speed_limit.is_overspeed(site.table, system.limit, rear_least_mm, speed_most_mm_s),
+        brakes=speed_limit.is_overspeed(site.table, system.limit, known, rear_least_mm, speed_most_mm_s),
     )
 
 
@@ -92,6 +101,7 @@ def pass_tag(
     at_turnout: bool,
     told_curve: bool,
     told_turnout: bool,
+    known: bool,
     rear_least_mm: int,
     front_most_mm: int,
     speed_most_mm_s: int,
@@ -101,10 +111,10 @@ def pass_tag(
         return system
     here_mm = system.front_mm
     if not the_range_contains_the_train(
-        site, here_mm, system.speed_mm_s, rear_least_mm, front_most_mm, speed_most_mm_s
+        site, here_mm, system.speed_mm_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
     ):
         return system
-    limit = speed_limit.note_tag(system.limit, told_curve, told_turnout, front_most_mm)
+    limit = speed_limit.note_tag(system.limit, told_curve, told_turnout, known, front_most_mm)
     return replace(
         system,
         in_curve=in_curve,
@@ -112,5 +122,10 @@ def pass_tag(
         left_curve_mm=here_mm if system.in_curve else system.left_curve_mm,
         left_turnout_mm=here_mm if system.at_turnout else system.left_turnout_mm,
         limit=limit,
-        brakes=speed_limit.is_overspeed(site.table, limit, rear_least_mm, speed_most_mm_s),
+        brakes=speed_limit.is_overspeed(site.table, limit, known, rear_least_mm, speed_most_mm_s),
     )
+
+
+def locate_anew(site: Profile, system: Passage) -> Passage:
+    """The unit begins anew with nothing known of the track; so it does at power-on (T8)."""
+    return replace(system, limit=speed_limit.UNKNOWN, brakes=True)

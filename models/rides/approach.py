@@ -9,7 +9,16 @@ from typing import Any, NamedTuple
 
 from models.compiled import compiled
 from models.rides import tally
-from models.rides.onboard import BRAKE, LOCATED, MADE, SENSORS
+from models.rides.onboard import (
+    BRAKE,
+    LOCATED,
+    MADE,
+    REVERSE_LIMITS,
+    SENSORS,
+    SPLIT_LIMITS,
+    TRAIN_LIMITS,
+    speed_bound_mm_s,
+)
 from models.sensors.faults import CYCLE_S, GRAVITY_M_S2
 from models.sensors.tachometer import PULSE_M
 
@@ -21,8 +30,10 @@ SLIDES_FOR_CYCLES = 10
 PULSE_MM = round(PULSE_M * 1000)
 
 note_readings, Readings = MADE.odometry.note_cycle, MADE.odometry.Readings
-speed_error_mm_s = MADE.odometry.speed_error_mm_s
-stops_before, supervise, Brake = MADE.braking.stops_before, MADE.braking.supervise, MADE.braking.Brake
+stops_before, Brake = MADE.braking.stops_before, MADE.braking.Brake
+decide, Known = MADE.brake_demand.decide, MADE.brake_demand.Known
+note_movement, NOT_MOVED = MADE.reverse_movement.note_cycle, MADE.reverse_movement.LOCATED
+UNKNOWN, NONE_AWAITED, made_up = MADE.speed_limit.UNKNOWN, MADE.tag_window.NONE_AWAITED, MADE.split.made_up
 watching, note_watch = MADE.brake_watch.watching, MADE.brake_watch.note_cycle
 
 
@@ -103,21 +114,25 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
     wheel = speed_m_s * (1 + ending.scale)
     rolling = Rolling(head_m, speed_m_s, wheel, motion.way_mm / 1000 + 0.001, 0.0)
     brake = Brake(False, nearest_end_mm(motion) + int(ending.margin_m * 1000))
-    watch, braked_cycles = watching(motion.speed_most_mm_s), 0
+    watch, movement, braked_cycles = watching(motion.speed_most_mm_s), NOT_MOVED, 0
+    whole = made_up(SPLIT_LIMITS)
     out[tally.APPROACHES] = 1
     broken_bounds(ending, out)
     for _ in range(LONGEST_CYCLES):
-        lost = motion.loss != LOCATED
-        brake = supervise(BRAKE, brake, motion.front_most_mm, motion.speed_most_mm_s, lost, False)
+        known = Known(motion, watch, movement, UNKNOWN, whole, NONE_AWAITED)
+        brake = decide(TRAIN_LIMITS, brake, known, True, False)
         braked_cycles = braked_cycles + 1 if brake.applied else 0
         before, rolling = rolling, rolled(rolling, ending, braked_cycles)
-        trusted, motion = motion.trusted, note_readings(SENSORS, motion, read(before, rolling, ending, motion.way_mm))
-        watch = note_watch(BRAKE, watch, brake.applied, motion.speed_least_mm_s, motion.speed_most_mm_s)
+        readings = read(before, rolling, ending, motion.way_mm)
+        trusted, motion = motion.trusted, note_readings(SENSORS, motion, readings)
+        movement = note_movement(REVERSE_LIMITS, movement, readings)
+        located = motion.loss == LOCATED
+        watch = note_watch(BRAKE, watch, brake.applied, located, motion.speed_least_mm_s, motion.speed_most_mm_s)
         front_mm, speed_mm_s = rolling.head_m * 1000, rolling.speed_m_s * 1000
         out[tally.FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
         out[tally.SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
         wheel_off_mm_s = abs(motion.tachometer_mm_s - speed_mm_s)
-        if trusted and motion.trusted and wheel_off_mm_s > speed_error_mm_s(SENSORS, motion.tachometer_mm_s):
+        if trusted and motion.trusted and wheel_off_mm_s > speed_bound_mm_s(motion.tachometer_mm_s):
             out[tally.WHEEL_BROKEN] += 1
         out[tally.AUTHORITY_PASSED] += front_mm > brake.end_mm
         if brake.applied and rolling.speed_m_s == 0.0:

@@ -4,28 +4,48 @@ from __future__ import annotations
 
 from kernel.onboard import (
     antenna_spacing,
+    brake_demand,
     brake_watch,
     braking,
     feature,
     odometry,
+    reverse_movement,
+    speed_limit,
     split,
     tag_reader,
     tag_window,
     train_length,
     way,
 )
+from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.odometry import Loss
-from models.compiled import compile_machines, packed
+from models.compiled import compile_machines, compiled, packed
 from models.rides.plan import PLAN
 
 MADE = compile_machines(
-    (antenna_spacing, brake_watch, braking, feature, odometry, split, tag_reader, tag_window, train_length, way)
+    (
+        antenna_spacing,
+        brake_demand,
+        brake_watch,
+        braking,
+        feature,
+        odometry,
+        reverse_movement,
+        speed_limit,
+        split,
+        tag_reader,
+        tag_window,
+        train_length,
+        way,
+    )
 )
 """Each function is compiled when it is first called."""
 
 SENSORS = packed(PLAN.sensors)
 SPLIT_LIMITS = packed(PLAN.split)
 BRAKE = packed(PLAN.brake)
+REVERSE_LIMITS = packed(PLAN.reverse)
+TRAIN_LIMITS = packed(TrainLimits(PLAN.brake, PLAN.speeds, PLAN.length.line_maximum_mm))
 READER_LIMITS = packed(PLAN.reader)
 WINDOW_LIMITS = packed(PLAN.window)
 SPACING_LIMITS = packed(PLAN.spacing)
@@ -44,3 +64,18 @@ UNSEEN_CYCLES = PLAN.split.age_ms // 100 + PLAN.split.gap_ms // 100 + split.SAMP
 """The declared bound: 1.5 s of samples, an old telegram, and a gap that is still tolerated."""
 TAIL_MOST_MM_S2 = 79 + 4 * 30 + 1
 """The most that a tail sensor may be off: bias, drift, mounting, scale, and noise of four deviations."""
+
+
+# ---- the declared bounds of a rolling wheel, as `models.onboard.odometry` states them
+
+
+@compiled
+def speed_bound_mm_s(tachometer_mm_s: int) -> float:
+    """How far the speed of a rolling wheel may be from the train's, by the declared bounds (P1)."""
+    return float(abs(tachometer_mm_s) * SENSORS.scale_ppm / 1_000_000 + SENSORS.tachometer_mm_s)
+
+
+@compiled
+def way_bound_mm(since_mm: int) -> float:
+    """How far the pulses of a rolling wheel may be from the way that the train ran, by the declared bounds (P1)."""
+    return float(abs(since_mm) * SENSORS.scale_ppm / 1_000_000 + SENSORS.pulse_mm)

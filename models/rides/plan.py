@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.odometry import SensorBounds
+from kernel.onboard.reverse_movement import ReverseLimits
+from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
@@ -40,6 +42,8 @@ class Plan:
     window: WindowLimits
     spacing: SpacingLimits
     length: LengthBounds
+    speeds: SpeedTable
+    reverse: ReverseLimits
 
 
 PLAN = Plan(
@@ -57,5 +61,10 @@ PLAN = Plan(
         window_mm=2 * TAG_ERROR_MM,
         width_mm=20_000,
     ),
+    speeds=SpeedTable(line_mm_s=50_000, curve_mm_s=50_000, turnout_mm_s=50_000),
+    reverse=ReverseLimits(roll_back_mm=2_000),
 )
-"""Brake: an emergency brake of 0.6 m/s² at the least, net of a gradient of 35 per mille, within 1.5 s (ours)."""
+"""Brake: an emergency brake of 0.6 m/s² at the least, net of a gradient of 35 per mille, within 1.5 s (ours).
+
+Speeds: 180 km/h everywhere, since no layout says how fast its curves and turnouts may be run through (ours).
+"""

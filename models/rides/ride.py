@@ -25,6 +25,8 @@ from models.rides.onboard import (
     SPACING_LIMITS,
     SPLIT_LIMITS,
     WINDOW_LIMITS,
+    speed_bound_mm_s,
+    way_bound_mm,
 )
 from models.rides.plan import LEAST_WAY_M, LENGTH_MM, TAG_ERROR_MM
 from models.sensors.curves import MIDDLE
@@ -41,7 +43,6 @@ HALF_MM = 0.5
 
 located, note_readings, note_fix = MADE.odometry.located, MADE.odometry.note_cycle, MADE.odometry.note_fix
 rear_least_mm = MADE.odometry.rear_least_mm
-inertial_speaks, speed_error_mm_s = MADE.odometry.inertial_speaks, MADE.odometry.speed_error_mm_s
 way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 note_telegram, is_intact, made_up = MADE.split.note_cycle, MADE.split.is_intact, MADE.split.made_up
 Acceleration, Telegram = MADE.split.Acceleration, MADE.split.Readings
@@ -104,19 +105,25 @@ def anchor(motion: Any) -> Any:
 
 @compiled
 def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: Any, anchor_m: float, out: Any) -> None:
-    """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1)."""
+    """Hold the assumptions on train and sensors against the truth, as `models.onboard.odometry` states them (P1).
+
+    They are written over readings and declared bounds; the kernel says only when it relies on the wheel.
+    """
     gained = (trace.speed_m_s[cycle] - (trace.speed_m_s[cycle - 1] if cycle else 0.0)) * 10_000
     if not -SENSORS.brakes_mm_s2 - HALF_MM <= gained <= SENSORS.accelerates_mm_s2 + HALF_MM:
         out[tally.POWERS_BROKEN] += 1
     slope = trace.slope_m_s2[cycle] * 1000
     off = abs(readings.inertial_mm_s2 - slope - gained)
-    if (inertial_speaks(SENSORS, readings) and off > SENSORS.inertial_mm_s2) or abs(slope) > SENSORS.gradient_mm_s2:
+    beside = SENSORS.gradient_mm_s2 + SENSORS.inertial_mm_s2
+    gross = not -SENSORS.brakes_mm_s2 - beside <= readings.inertial_mm_s2 <= SENSORS.accelerates_mm_s2 + beside
+    wrong = readings.inertial_valid and not gross and off > SENSORS.inertial_mm_s2
+    if wrong or abs(slope) > SENSORS.gradient_mm_s2:
         out[tally.INERTIAL_BROKEN] += 1
     if before.trusted and after.trusted:
         speed_off = abs(readings.tachometer_mm_s - trace.speed_m_s[cycle] * 1000)
         since_mm = readings.way_mm - before.anchor_way_mm
         way_off = abs((trace.head_m[cycle] - anchor_m) * 1000 - since_mm)
-        if speed_off > speed_error_mm_s(SENSORS, readings.tachometer_mm_s) or way_off > way_error_mm(SENSORS, since_mm):
+        if speed_off > speed_bound_mm_s(readings.tachometer_mm_s) or way_off > way_bound_mm(since_mm):
             out[tally.WHEEL_BROKEN] += 1
 
 

@@ -10,8 +10,20 @@ from dataclasses import dataclass, field, replace
 
 from kernel.layout import Layout
 from kernel.names import Run, Tag
-from kernel.onboard import antenna_spacing, authority_end, brake_watch, braking, odometry, split, tag_window
+from kernel.onboard import (
+    antenna_spacing,
+    authority_end,
+    brake_demand,
+    brake_watch,
+    braking,
+    odometry,
+    reverse_movement,
+    speed_limit,
+    split,
+    tag_window,
+)
 from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.way import UNKNOWN, Way, between
@@ -30,6 +42,7 @@ class OnBoard:
 
     ``from_mm``: between these places, by the plan, the head antenna was when the way to the next tag began.
     ``lists``: the lists of the runs that the unit was permitted.
+    ``limit``: layouts do not say where curves are, so the track stays unknown, with the line's speed everywhere.
     """
 
     length_mm: int
@@ -38,6 +51,8 @@ class OnBoard:
     watch: brake_watch.BrakeWatch
     spacing: antenna_spacing.Spacing
     split: split.Split
+    movement: reverse_movement.Movement = reverse_movement.LOCATED
+    limit: speed_limit.SpeedLimit = speed_limit.UNKNOWN
     from_mm: tuple[int, int] = (0, 0)
     from_at: Way = UNKNOWN
     awaited: Tag | None = None
@@ -66,9 +81,9 @@ class OnBoard:
         return split.is_intact(PLAN.split, self.split)
 
     @property
-    def sure(self) -> bool:
-        """Whether neither the position nor the train itself is lost."""
-        return odometry.is_located(self.motion) and not split.demands_emergency_brake(self.split)
+    def known(self) -> Known:
+        """What the machines on board know, by which the brake is demanded."""
+        return Known(self.motion, self.watch, self.movement, self.limit, self.split, self.window)
 
     # ---- a cycle
 
@@ -78,16 +93,15 @@ class OnBoard:
         self.motion = odometry.note_cycle(PLAN.sensors, self.motion, readings)
         self.split = split.note_cycle(PLAN.split, self.split, tail)
         self.window = tag_window.note_cycle(PLAN.window, self.window, between(self.from_at, self.place))
-        fastest = self.motion.speed_most_mm_s
-        self.watch = brake_watch.note_cycle(PLAN.brake, self.watch, applied, self.motion.speed_least_mm_s, fastest)
-        self.supervise(demanded or not self.sure, False)
+        self.movement = reverse_movement.note_cycle(PLAN.reverse, self.movement, readings)
+        slowest, fastest = self.motion.speed_least_mm_s, self.motion.speed_most_mm_s
+        self.watch = brake_watch.note_cycle(PLAN.brake, self.watch, applied, self.place.known, slowest, fastest)
+        self.supervise(demanded, False)
 
     def supervise(self, demanded: bool, acknowledged: bool) -> None:
-        """Decide on the brake (T12)."""
-        motion = self.motion
-        self.brake = braking.supervise(
-            PLAN.brake, self.brake, motion.front_most_mm, motion.speed_most_mm_s, demanded, acknowledged
-        )
+        """Decide on the brake by all that is known on board; ``demanded``: no order lets the train proceed (T12)."""
+        limits = TrainLimits(PLAN.brake, PLAN.speeds, self.length_mm)
+        self.brake = brake_demand.decide(limits, self.brake, self.known, not demanded, acknowledged)
 
     # ---- tags
 
@@ -146,6 +160,7 @@ class OnBoard:
         """Begin anew at a standstill, with the front in a range (P7, T8)."""
         self.motion = odometry.located(least_mm, most_mm, self.motion.way_mm)
         self.watch = brake_watch.watching(0)
+        self.movement = reverse_movement.LOCATED
         self.brake = braking.Brake(applied=True, end_mm=least_mm)
         self.spacing = antenna_spacing.preset(self.length_mm - 2 * ANTENNA_MM)
         self.awaited, self.window, self.lists = None, tag_window.NONE_AWAITED, {}

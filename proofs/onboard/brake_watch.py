@@ -1,9 +1,10 @@
-"""What is claimed of the watch on the brake: it accuses no train that keeps to the bounds (T12)."""
+"""What is claimed of the watch on the brake: it accuses whoever breaks the bounds visibly, and nobody else (T12)."""
 
 from __future__ import annotations
 
 from kernel.onboard import brake_watch as machine
-from models.onboard.brake_watch import Vehicle, Watched, run_a_cycle
+from models.onboard.brake_watch import Vehicle, Watched, motors_do_not_slow, run_a_cycle
+from models.onboard.units import UM_A_MM, larger
 from proofs.theory import Theory, by_name
 
 
@@ -13,7 +14,9 @@ def the_watch_begins(site: Vehicle, system: Watched) -> bool:
         system.cycles == 0
         and system.kept
         and system.watch == machine.watching(system.watch.limit_mm_s)
-        and system.speed_um_s <= 1000 * system.watch.limit_mm_s
+        and larger(0, system.speed_um_s) <= UM_A_MM * system.watch.limit_mm_s
+        and system.allowed_mm_s == system.watch.limit_mm_s
+        and not system.too_fast
     )
 
 
@@ -22,9 +25,14 @@ def broken_means_a_bound_was_broken(site: Vehicle, system: Watched) -> bool:
     return not system.watch.broken or not system.kept
 
 
+def a_train_certainly_too_fast_is_accused(site: Vehicle, system: Watched) -> bool:
+    """Once faster than motors and brake allow, by the lower end of its range: broken, and for good (T12)."""
+    return not system.too_fast or system.watch.broken
+
+
 def a_train_that_keeps_is_no_faster_than_the_limit(site: Vehicle, system: Watched) -> bool:
     """While the bounds are kept, the train is no faster than the limit; what is faster is found out (T12)."""
-    return not system.kept or system.speed_um_s <= 1000 * system.watch.limit_mm_s
+    return not system.kept or larger(0, system.speed_um_s) <= UM_A_MM * system.watch.limit_mm_s
 
 
 def the_watch_counts_with_the_brake(site: Vehicle, system: Watched) -> bool:
@@ -32,9 +40,20 @@ def the_watch_counts_with_the_brake(site: Vehicle, system: Watched) -> bool:
     return system.watch.cycles == system.cycles
 
 
+def the_limit_is_what_the_bounds_allow(site: Vehicle, system: Watched) -> bool:
+    """The watch allows what the bounds do, and no more (T12)."""
+    return system.watch.limit_mm_s == system.allowed_mm_s
+
+
 INITIAL = (the_watch_begins,)
-SAFETY = (broken_means_a_bound_was_broken,)
-INVARIANTS = (*SAFETY, a_train_that_keeps_is_no_faster_than_the_limit, the_watch_counts_with_the_brake)
+SAFETY = (broken_means_a_bound_was_broken, a_train_certainly_too_fast_is_accused)
+INVARIANTS = (
+    *SAFETY,
+    a_train_that_keeps_is_no_faster_than_the_limit,
+    the_watch_counts_with_the_brake,
+    the_limit_is_what_the_bounds_allow,
+)
+PREMISES = (motors_do_not_slow,)
 STEPS = (run_a_cycle,)
 
 THEORY = Theory(
@@ -45,4 +64,5 @@ THEORY = Theory(
     by_name(INITIAL),
     by_name(INVARIANTS),
     by_name(SAFETY),
+    by_name(PREMISES),
 )

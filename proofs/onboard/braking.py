@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM
 from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
+from models.onboard.units import MS_A_CYCLE, NM_A_MM, larger
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -19,6 +19,8 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and system.worst_um_s == 0
         and system.reach_nm == system.head_nm
         and system.left_nm == 0
+        and not system.demanded
+        and not system.released_amiss
     )
 
 
@@ -30,12 +32,22 @@ def head_stays_inside_authority(site: Vehicle, system: Approach) -> bool:
     return system.head_nm <= NM_A_MM * system.brake.end_mm
 
 
-# ---- what it rests on
+def a_demanded_brake_is_applied(site: Vehicle, system: Approach) -> bool:
+    """Whoever demands the brake gets it in the same cycle, wherever the train is and however fast (T5, T12, P5)."""
+    return not system.demanded or system.brake.applied
 
 
-def no_speed_is_negative(site: Vehicle, system: Approach) -> bool:
-    """The train runs forward (T12)."""
-    return system.speed_um_s >= 0 and system.worst_um_s >= 0
+def no_brake_is_released_before_the_train_stands(site: Vehicle, system: Approach) -> bool:
+    """Once applied it goes off only of a train that stands, acknowledged, while nobody demands it (T12)."""
+    return not system.released_amiss
+
+
+# ---- what they rest on
+
+
+def the_worst_speed_is_not_negative(site: Vehicle, system: Approach) -> bool:
+    """The worst that is reckoned with is a train that runs forward (T12)."""
+    return system.worst_um_s >= 0
 
 
 def the_response_ends(site: Vehicle, system: Approach) -> bool:
@@ -47,19 +59,22 @@ def the_response_ends(site: Vehicle, system: Approach) -> bool:
 
 def it_gets_no_faster_before_the_response(site: Vehicle, system: Approach) -> bool:
     """Until the brake has responded the speed stays below the worst that was reckoned with (T12)."""
-    return system.speed_um_s + system.response_cycles * CYCLE_MS * site.bounds.gains_mm_s2 <= system.worst_um_s
+    return (
+        larger(0, system.speed_um_s) + system.response_cycles * MS_A_CYCLE * site.bounds.gains_mm_s2
+        <= system.worst_um_s
+    )
 
 
 def it_gets_no_farther_before_the_response(site: Vehicle, system: Approach) -> bool:
     """Until the brake has responded the head stays short of the place that was reckoned with (T12)."""
-    return system.head_nm + system.response_cycles * CYCLE_MS * system.worst_um_s <= system.reach_nm
+    return system.head_nm + system.response_cycles * MS_A_CYCLE * system.worst_um_s <= system.reach_nm
 
 
 def the_way_left_lies_before_the_end(site: Vehicle, system: Approach) -> bool:
     """From that place, the cycle in which the brake takes hold and the way left end before the authority does (T12)."""
     return (
         system.left_nm >= 0
-        and system.reach_nm + CYCLE_MS * system.worst_um_s + system.left_nm <= NM_A_MM * system.brake.end_mm
+        and system.reach_nm + MS_A_CYCLE * system.worst_um_s + system.left_nm <= NM_A_MM * system.brake.end_mm
     )
 
 
@@ -69,10 +84,14 @@ def the_way_left_is_enough(site: Vehicle, system: Approach) -> bool:
 
 
 INITIAL = (the_train_stands_inside_its_authority,)
-SAFETY = (head_stays_inside_authority,)
+SAFETY = (
+    head_stays_inside_authority,
+    a_demanded_brake_is_applied,
+    no_brake_is_released_before_the_train_stands,
+)
 INVARIANTS = (
     *SAFETY,
-    no_speed_is_negative,
+    the_worst_speed_is_not_negative,
     the_response_ends,
     it_gets_no_faster_before_the_response,
     it_gets_no_farther_before_the_response,

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from kernel.onboard import odometry
-from kernel.onboard.arithmetic import NM_A_MM, magnitude
+from kernel.onboard.odometry import Loss
 from models.onboard.odometry import (
     Line,
     Running,
     a_jolt_stands_out,
+    agreement_takes_longer_than_a_chance_pace,
     bounds_are_not_negative,
+    locate_anew,
     run_a_cycle,
     take_fix,
     the_length_used_is_no_less,
 )
+from models.onboard.units import NM_A_MM, magnitude
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -30,6 +33,9 @@ def the_train_stands_where_it_is_located(site: Line, system: Running) -> bool:
         and NM_A_MM * least_mm <= system.front_nm <= NM_A_MM * most_mm
         and system.anchor_nm == system.front_nm
         and system.speed_um_s == 0
+        and not system.counted
+        and not system.contradicted
+        and system.paced_cycles >= 0
     )
 
 
@@ -38,7 +44,7 @@ def the_train_stands_where_it_is_located(site: Line, system: Running) -> bool:
 
 def range_contains_train(site: Line, system: Running) -> bool:
     """While a range is claimed, the whole train is in it: its front, and its rear by the length used (P7)."""
-    return not odometry.is_located(system.motion) or (
+    return system.motion.loss != Loss.NONE or (
         NM_A_MM * odometry.rear_least_mm(system.motion, site.length_used_mm)
         <= system.front_nm - NM_A_MM * site.length_mm
         and system.front_nm <= NM_A_MM * system.motion.front_most_mm
@@ -47,9 +53,14 @@ def range_contains_train(site: Line, system: Running) -> bool:
 
 def speed_range_contains_speed(site: Line, system: Running) -> bool:
     """While a range is claimed, the train's speed is in the range of speeds; the brake reckons with it (P1, T12)."""
-    return not odometry.is_located(system.motion) or (
+    return system.motion.loss != Loss.NONE or (
         1000 * system.motion.speed_least_mm_s <= system.speed_um_s <= 1000 * system.motion.speed_most_mm_s
     )
+
+
+def a_contradicted_range_is_claimed_no_more(site: Line, system: Running) -> bool:
+    """Since a fix lay wholly outside the range none is claimed, until the train is located anew at rest (P7)."""
+    return not system.contradicted or system.motion.loss != Loss.NONE
 
 
 # ---- what they rest on
@@ -57,21 +68,62 @@ def speed_range_contains_speed(site: Line, system: Running) -> bool:
 
 def range_contains_front(site: Line, system: Running) -> bool:
     """The front is in the range (P7)."""
-    return not odometry.is_located(system.motion) or (
+    return system.motion.loss != Loss.NONE or (
         NM_A_MM * system.motion.front_least_mm <= system.front_nm <= NM_A_MM * system.motion.front_most_mm
     )
 
 
 def anchor_contained_front(site: Line, system: Running) -> bool:
     """At the anchor the front was in the anchor's range (P1)."""
-    return not odometry.is_located(system.motion) or (
+    return system.motion.loss != Loss.NONE or (
         NM_A_MM * system.motion.anchor_least_mm <= system.anchor_nm <= NM_A_MM * system.motion.anchor_most_mm
     )
 
 
 def a_trusted_wheel_has_not_slipped(site: Line, system: Running) -> bool:
-    """A wheel that is trusted has not slipped since the anchor (P1)."""
-    return not odometry.is_located(system.motion) or not system.motion.trusted or not system.slipped
+    """A wheel that is trusted has rolled and been read since the anchor (P1)."""
+    return (
+        system.motion.loss != Loss.NONE
+        or not system.motion.trusted
+        or (system.counted and system.told and not system.slips)
+    )
+
+
+def a_trusted_wheel_is_known_as_it_was_shown(site: Line, system: Running) -> bool:
+    """Of a wheel that is trusted the last reading is remembered, and the pulses at the anchor (P1)."""
+    return (
+        system.motion.loss != Loss.NONE
+        or not system.motion.trusted
+        or (
+            system.motion.tachometer_mm_s == system.shown_mm_s
+            and system.motion.way_mm == system.shown_way_mm
+            and system.motion.anchor_way_mm == system.anchor_way_mm
+        )
+    )
+
+
+def what_agrees_is_known_as_it_was_shown(site: Line, system: Running) -> bool:
+    """After a cycle that agreed the last reading is remembered; after two it was neither stuck nor gross (P1)."""
+    return (
+        system.motion.loss != Loss.NONE
+        or system.motion.trusted
+        or (
+            (
+                system.motion.agreed_cycles < 1
+                or (system.motion.tachometer_mm_s == system.shown_mm_s and system.motion.way_mm == system.shown_way_mm)
+            )
+            and (system.motion.agreed_cycles < 2 or system.told)
+        )
+    )
+
+
+def a_wheel_that_agrees_keeps_pace(site: Line, system: Running) -> bool:
+    """While the wheel agrees it keeps pace with the train, but for the first two cycles (P1)."""
+    return system.paced_cycles >= 0 and (
+        system.motion.loss != Loss.NONE
+        or system.motion.trusted
+        or system.motion.agreed_cycles <= system.paced_cycles + 2
+    )
 
 
 def the_gradient_estimate_is_no_steeper_than_the_line(site: Line, system: Running) -> bool:
@@ -80,16 +132,24 @@ def the_gradient_estimate_is_no_steeper_than_the_line(site: Line, system: Runnin
 
 
 INITIAL = (the_train_stands_where_it_is_located,)
-SAFETY = (range_contains_train, speed_range_contains_speed)
+SAFETY = (range_contains_train, speed_range_contains_speed, a_contradicted_range_is_claimed_no_more)
 INVARIANTS = (
     *SAFETY,
     range_contains_front,
     anchor_contained_front,
     a_trusted_wheel_has_not_slipped,
+    a_trusted_wheel_is_known_as_it_was_shown,
+    what_agrees_is_known_as_it_was_shown,
+    a_wheel_that_agrees_keeps_pace,
     the_gradient_estimate_is_no_steeper_than_the_line,
 )
-PREMISES = (bounds_are_not_negative, a_jolt_stands_out, the_length_used_is_no_less)
-STEPS = (run_a_cycle, take_fix)
+PREMISES = (
+    bounds_are_not_negative,
+    a_jolt_stands_out,
+    agreement_takes_longer_than_a_chance_pace,
+    the_length_used_is_no_less,
+)
+STEPS = (run_a_cycle, take_fix, locate_anew)
 
 THEORY = Theory(
     "odometry",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.onboard import speed_limit
-from models.onboard.speed_limit import Passage, Profile, pass_tag, run_on
+from models.onboard.speed_limit import Passage, Profile, locate_anew, pass_tag, run_on
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -62,7 +62,7 @@ INVARIANTS = (
     what_the_head_is_on_is_known,
     what_was_left_lies_behind,
 )
-STEPS = (run_on, pass_tag)
+STEPS = (run_on, pass_tag, locate_anew)
 
 THEORY = Theory(
     "speed_limit",

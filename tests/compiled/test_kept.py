@@ -46,7 +46,7 @@ event.register("numba:compile", Noted())
 
 made = compile_machines([kernel]).brake_watch
 bounds, watch = BrakeBounds(*range(1_003, 1_003 + len(BrakeBounds.__dataclass_fields__))), kernel.watching(9_999)
-given = (bounds, watch, True, 5_000, 12_000)
+given = (bounds, watch, True, True, 5_000, 12_000)
 found = unpacked(made.note_cycle(*map(packed, given)), kernel.BrakeWatch)
 assert found == kernel.note_cycle(*given), (found, kernel.note_cycle(*given))
 print(json.dumps([astuple(found), sorted(set(compiled))]))

@@ -12,21 +12,21 @@ def an_accusation_stays(speed_mm_s: int, cycles: int, applied: bool) -> None:
     """Whatever comes (T12)."""
     assert 0 <= cycles <= 15
     assert -1_000_000 <= speed_mm_s <= 1_000_000
-    assert note_cycle(BOUNDS, BrakeWatch(20_000, cycles, True), applied, speed_mm_s, speed_mm_s).broken
+    assert note_cycle(BOUNDS, BrakeWatch(20_000, cycles, True), applied, True, speed_mm_s, speed_mm_s).broken
 
 
 def motors_may_gain_as_much_as_written(gained_mm_s: int, applied: bool) -> None:
     """And no more, while the brake has not responded (T12)."""
     assert -20_000 <= gained_mm_s <= 20_000
     speed_mm_s = 20_000 + gained_mm_s
-    assert note_cycle(BOUNDS, watching(20_000), applied, speed_mm_s, speed_mm_s).broken == (gained_mm_s > 120)
+    assert note_cycle(BOUNDS, watching(20_000), applied, True, speed_mm_s, speed_mm_s).broken == (gained_mm_s > 120)
 
 
 def the_brake_must_slow_as_guaranteed(slowed_mm_s: int) -> None:
     """Once it has responded (T12)."""
     assert -20_000 <= slowed_mm_s <= 20_000
     speed_mm_s = 20_000 - slowed_mm_s
-    after = note_cycle(BOUNDS, BrakeWatch(20_000, 15, False), True, speed_mm_s, speed_mm_s)
+    after = note_cycle(BOUNDS, BrakeWatch(20_000, 15, False), True, True, speed_mm_s, speed_mm_s)
     assert after.broken == (slowed_mm_s < 70)
     assert after.cycles == 15
 
@@ -34,12 +34,20 @@ def the_brake_must_slow_as_guaranteed(slowed_mm_s: int) -> None:
 def the_limit_is_no_more_than_measured(least_mm_s: int, most_mm_s: int, applied: bool) -> None:
     """And no more than the bounds allow (T12)."""
     assert -1_000_000 <= least_mm_s <= most_mm_s <= 1_000_000
-    after = note_cycle(BOUNDS, watching(20_000), applied, least_mm_s, most_mm_s)
-    assert after.limit_mm_s <= most_mm_s
+    after = note_cycle(BOUNDS, watching(20_000), applied, True, least_mm_s, most_mm_s)
+    assert 0 <= after.limit_mm_s <= max(0, most_mm_s)
     assert after.limit_mm_s <= 20_120
 
 
-def a_released_brake_responds_anew(cycles: int) -> None:
+def a_released_brake_responds_anew(cycles: int, known: bool) -> None:
     """From the next command on (T12)."""
     assert 0 <= cycles <= 15
-    assert note_cycle(BOUNDS, BrakeWatch(20_000, cycles, False), False, 0, 0).cycles == 0
+    assert note_cycle(BOUNDS, BrakeWatch(20_000, cycles, False), False, known, 0, 0).cycles == 0
+
+
+def an_unknown_speed_accuses_nobody(least_mm_s: int, most_mm_s: int, applied: bool) -> None:
+    """Whatever the numbers are (T12, P7)."""
+    assert -1_000_000 <= least_mm_s <= most_mm_s <= 1_000_000
+    after = note_cycle(BOUNDS, watching(20_000), applied, False, least_mm_s, most_mm_s)
+    assert not after.broken
+    assert after.limit_mm_s == 20_120

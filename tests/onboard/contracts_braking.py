@@ -24,20 +24,21 @@ def an_end_behind_is_never_stopped_before(front_mm: int, speed_mm_s: int) -> Non
 def a_demand_is_obeyed(applied: bool, acknowledged: bool) -> None:
     """Whatever else is (T5, P5)."""
     assert isinstance(applied, bool)
-    assert supervise(BOUNDS, Brake(applied, 1_000_000), 0, 0, True, acknowledged).applied
+    assert supervise(BOUNDS, Brake(applied, 1_000_000), 0, 0, 0, True, acknowledged).applied
 
 
-def a_brake_that_is_on_goes_off_at_an_acknowledged_standstill(speed_mm_s: int, acknowledged: bool) -> None:
-    """And not before (T12)."""
+def a_brake_that_is_on_goes_off_at_an_acknowledged_standstill(back_mm_s: int, speed_mm_s: int, ack: bool) -> None:
+    """And not before, nor while the train may roll back (T12)."""
     assert 0 <= speed_mm_s <= 10_000
-    after = supervise(BOUNDS, ON, 0, speed_mm_s, False, acknowledged)
-    assert after.applied == (not acknowledged or speed_mm_s > 25)
+    assert 0 <= back_mm_s <= 10_000
+    after = supervise(BOUNDS, ON, 0, -back_mm_s, speed_mm_s, False, ack)
+    assert after.applied == (not ack or speed_mm_s > 25 or back_mm_s > 25)
 
 
 def with_room_it_stays_off(speed_mm_s: int) -> None:
     """A kilometre before the end, up to 30 m/s (T12)."""
     assert 0 <= speed_mm_s <= 30_000
-    assert supervise(BOUNDS, OFF, 0, speed_mm_s, False, False) == OFF
+    assert supervise(BOUNDS, OFF, 0, speed_mm_s, speed_mm_s, False, False) == OFF
 
 
 def a_farther_end_is_taken(end_mm: int, front_mm: int, speed_mm_s: int) -> None:

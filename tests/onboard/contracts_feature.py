@@ -14,7 +14,7 @@ from kernel.onboard.feature import (
 )
 from kernel.onboard.odometry import SensorBounds
 
-BOUNDS = SensorBounds(10_000, 50, 100, 100, 350, 10, 500, 1_500, 2_000, 10)
+BOUNDS = SensorBounds(10_000, 50, 100, 100, 350, 10, 500, 1_500, 2_000, 10, 10_000, 5_000)
 CURVE = Feature(
     axis=TurnAxis.YAW,
     begin_mm=100_000,

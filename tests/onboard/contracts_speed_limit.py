@@ -34,7 +34,7 @@ def a_restriction_ends_with_the_rear(until_mm: int, front_mm: int, rear_mm: int)
     """Of a turnout just left, and of a curve left before (T12)."""
     assert until_mm <= front_mm
     before = SpeedLimit(in_curve=False, at_turnout=True, curve_until_mm=until_mm, turnout_until_mm=0)
-    after = note_tag(before, False, False, front_mm)
+    after = note_tag(before, False, False, True, front_mm)
     limit = limit_mm_s(SpeedTable(30, 20, 10), after, rear_mm)
     assert (limit == 10) == (rear_mm <= front_mm)
     assert (limit == 30) == (rear_mm > front_mm)
@@ -44,4 +44,12 @@ def too_fast_is_found(speed_mm_s: int, rear_mm: int) -> None:
     """And what is no speed (T12)."""
     assert rear_mm > 0
     clear = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=0, turnout_until_mm=0)
-    assert is_overspeed(SpeedTable(30, 20, 10), clear, rear_mm, speed_mm_s) == (speed_mm_s < 0 or speed_mm_s > 30)
+    assert is_overspeed(SpeedTable(30, 20, 10), clear, True, rear_mm, speed_mm_s) == (speed_mm_s < 0 or speed_mm_s > 30)
+
+
+def without_a_range_any_speed_is_too_fast(speed_mm_s: int, rear_mm: int, front_mm: int) -> None:
+    """And every tag leaves the track unknown (T8)."""
+    assert isinstance(speed_mm_s, int)
+    clear = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=0, turnout_until_mm=0)
+    assert is_overspeed(SpeedTable(30, 20, 10), clear, False, rear_mm, speed_mm_s)
+    assert note_tag(clear, False, False, False, front_mm) == UNKNOWN

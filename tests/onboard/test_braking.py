@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.onboard import braking as machine
-from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Vehicle
+from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
 from proofs.onboard.witnesses.braking import BOUNDS, END_MM, WITNESSES, running, standing
 from proofs.onboard.witnesses.play import Play
@@ -50,6 +50,7 @@ class World:
         self.play.step(
             "run_a_cycle",
             front_most_mm=-(-before.head_nm // NM_A_MM) + wide_mm,
+            speed_least_mm_s=before.speed_um_s // 1_000 - wide_mm // 10,
             speed_most_mm_s=-(-before.speed_um_s // 1_000) + wide_mm // 10,
             demanded=demanded,
             acknowledged=acknowledged,
@@ -106,7 +107,9 @@ def test_the_head_stays_inside_in_drawn_worlds(bounds: BrakeBounds, seed: int) -
                 (head_mm, head_mm + chance.randrange(3_000_000), -HUGE, HUGE, before.brake.end_mm + 1)
             )
             speed_mm_s = -(-before.speed_um_s // 1_000)
-            world.play.step("take_end", front_most_mm=head_mm, speed_most_mm_s=speed_mm_s, end_mm=end_mm)
+            world.play.step(
+                "take_end", front_most_mm=head_mm, speed_least_mm_s=0, speed_most_mm_s=speed_mm_s, end_mm=end_mm
+            )
             continue
         most = world.fastest(40_000_000)
         world.cycle(
@@ -136,7 +139,7 @@ def test_more_way_less_speed_and_a_better_brake_are_never_worse(
 @pytest.mark.parametrize("speed_mm_s", [-1, -HUGE, 200_001, HUGE])
 def test_what_is_no_speed_brakes(speed_mm_s: int) -> None:
     off = Brake(applied=False, end_mm=FARTHEST_MM)
-    assert machine.supervise(BOUNDS, off, 0, speed_mm_s, False, True).applied
+    assert machine.supervise(BOUNDS, off, 0, 0, speed_mm_s, False, True).applied
 
 
 def test_a_stuck_front_is_not_this_machines_to_find() -> None:
@@ -145,8 +148,14 @@ def test_a_stuck_front_is_not_this_machines_to_find() -> None:
     at_mm = train.system.head_nm // NM_A_MM
     train.cycle(36_000_000)
     before = train.system
-    assert machine.supervise(BOUNDS, before.brake, at_mm, 36_000, False, False) == before.brake
-    stuck = {"front_most_mm": at_mm, "speed_most_mm_s": 36_000, "demanded": False, "acknowledged": False}
+    assert machine.supervise(BOUNDS, before.brake, at_mm, 36_000, 36_000, False, False) == before.brake
+    stuck = {
+        "front_most_mm": at_mm,
+        "speed_least_mm_s": 36_000,
+        "speed_most_mm_s": 36_000,
+        "demanded": False,
+        "acknowledged": False,
+    }
     assert train.step("run_a_cycle", **stuck, to_nm=before.head_nm, speed_um_s=0) == before
 
 
@@ -155,7 +164,10 @@ def test_the_same_end_again_changes_nothing() -> None:
     at_mm = train.system.head_nm // NM_A_MM
     for _ in range(3):
         before = train.system
-        assert train.step("take_end", front_most_mm=at_mm, speed_most_mm_s=20_000, end_mm=END_MM) == before
+        assert (
+            train.step("take_end", front_most_mm=at_mm, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=END_MM)
+            == before
+        )
 
 
 # ---- 64 bits
@@ -172,8 +184,9 @@ def test_every_number_fits_into_64_bits(bounds: BrakeBounds) -> None:
         for applied in (True, False):
             brake = Brake(applied=applied, end_mm=end_mm)
             place = (Checked(front_mm), Checked(speed_mm_s))
-            after = machine.supervise(checked, with_ints(Checked, brake), *place, False, True)
-            assert after == machine.supervise(bounds, brake, front_mm, speed_mm_s, False, True)
+            range_of = (Checked(front_mm), Checked(-speed_mm_s), Checked(speed_mm_s))
+            after = machine.supervise(checked, with_ints(Checked, brake), *range_of, False, True)
+            assert after == machine.supervise(bounds, brake, front_mm, -speed_mm_s, speed_mm_s, False, True)
             after = machine.take_end(checked, with_ints(Checked, brake), *place, Checked(taken_mm))
             assert after == machine.take_end(bounds, brake, front_mm, speed_mm_s, taken_mm)
 

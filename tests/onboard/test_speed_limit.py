@@ -84,11 +84,11 @@ def test_the_whole_train_counts_in_drawn_worlds(
 def test_any_numbers_whatever_are_answered_alike_in_64_bits(
     table: SpeedTable, limit: SpeedLimit, front_mm: int, rear_mm: int, speed_mm_s: int
 ) -> None:
-    after = machine.note_tag(limit, False, True, front_mm)
-    wrapped = machine.note_tag(with_ints(Wrapped, limit), False, True, Wrapped(front_mm))
+    after = machine.note_tag(limit, False, True, True, front_mm)
+    wrapped = machine.note_tag(with_ints(Wrapped, limit), False, True, True, Wrapped(front_mm))
     assert wrapped == after
-    assert machine.is_overspeed(table, wrapped, rear_mm, speed_mm_s) == machine.is_overspeed(
-        table, after, rear_mm, speed_mm_s
+    assert machine.is_overspeed(table, wrapped, True, rear_mm, speed_mm_s) == machine.is_overspeed(
+        table, after, True, rear_mm, speed_mm_s
     )
     assert machine.limit_mm_s(table, UNKNOWN, rear_mm) == min(table.line_mm_s, table.curve_mm_s, table.turnout_mm_s)
 
@@ -102,7 +102,7 @@ def test_a_rear_further_on_is_never_slower(limit: SpeedLimit, rear_mm: int, on_m
 def test_a_broken_machine_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     """The invariants do find a machine that lets a restriction end with the head."""
 
-    def forgets(limit: SpeedLimit, in_curve: bool, at_turnout: bool, front_most_mm: int) -> SpeedLimit:
+    def forgets(limit: SpeedLimit, in_curve: bool, at_turnout: bool, known: bool, front_most_mm: int) -> SpeedLimit:
         return SpeedLimit(in_curve, at_turnout, limit.curve_until_mm, limit.turnout_until_mm)
 
     monkeypatch.setattr(machine, "note_tag", forgets)

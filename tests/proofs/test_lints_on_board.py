@@ -56,7 +56,7 @@ def test_what_a_machine_may_be_told_besides_is_a_field_of_its_theory() -> None:
 
 CYCLE = "odometry.note_cycle(site.bounds, system.motion, readings)"
 NARROWED = "motion=odometry.note_fix(system.motion, least_mm, most_mm)"
-NO_FIX = "if not a_fix_contains_the_front(system, least_mm, most_mm):"
+NO_FIX = "if not a_false_fix_lies_outside_the_range(system, least_mm, most_mm):"
 
 
 @pytest.mark.parametrize(
@@ -65,15 +65,15 @@ NO_FIX = "if not a_fix_contains_the_front(system, least_mm, most_mm):"
         (CYCLE, "odometry.note_cycle(site.bounds, system.motion, seen(system.front_nm))", "writes system.front_nm"),
         (CYCLE, "odometry.note_cycle(made(site), system.motion, readings)", "writes site into"),
         (CYCLE, "odometry.note_cycle(site.bounds, system.motion, replace(readings, way_mm=to_nm))", "to_nm as true"),
-        (CYCLE, f"{CYCLE} if system.slipped else system.motion", "writes system.slipped into motion"),
+        (CYCLE, f"{CYCLE} if system.slips else system.motion", "writes system.slips into motion"),
         (NARROWED, "motion=odometry.note_fix(system.motion, system.front_nm, most_mm)", "writes system.front_nm"),
         (NARROWED, "motion=at(system)", "writes system into motion"),
         (NARROWED, "motion=getattr(system, 'motion')", "uses getattr"),
-        (NO_FIX, "if system.slipped:", "decides by system.slipped"),
+        (NO_FIX, "if system.slips:", "decides by system.slips"),
         (NO_FIX, "if least_mm > most_mm:", "refuses events by `least_mm > most_mm`"),
         (NO_FIX, NO_FIX.replace("if ", "if most_mm < 0 or "), "refuses events by `most_mm < 0`"),
         (NO_FIX, "if site.length_mm > most_mm:", "decides by site.length_mm"),
-        (NO_FIX, f"slid = system.slipped\n    if slid:\n        return system\n    {NO_FIX}", "decides by system.sl"),
+        (NO_FIX, f"slid = system.slips\n    if slid:\n        return system\n    {NO_FIX}", "decides by system.sl"),
         (f"{NO_FIX}\n        return system", f"{NO_FIX}\n        return again(site, system)", "does more on an assu"),
     ],
 )
@@ -133,7 +133,8 @@ def test_what_is_written_of_a_theory_and_not_listed_is_seen() -> None:
     claims = {name: claim for name, claim in ODOMETRY.invariants.items() if name != "range_contains_train"}
     found = unlisted(replace(ODOMETRY, steps=steps, invariants=claims))
     assert [line.split(":")[0].rsplit(".", 1)[-1] for line in found] == [
-        "a_fix_contains_the_front",
+        "a_false_fix_lies_outside_the_range",
+        "lies_outside",
         "take_fix",
         "range_contains_train",
     ]

@@ -111,9 +111,10 @@ def test_an_error_beyond_its_range_leaves_the_bound() -> None:
 def test_the_bounds_are_those_that_the_world_asks_for() -> None:
     """The premises of the odometry's world hold of them, with the least jolt of a slip."""
     (jolt,) = (fault.least for fault in FAULTS if fault.name == "slip_jolt_m_s2")
-    site = world.Line(BOUNDS, round(1000 * jolt), 120_000, 130_000)
+    site = world.Line(BOUNDS, round(1000 * jolt), BOUNDS.agreement_cycles - 2, 120_000, 130_000)
     assert world.bounds_are_not_negative(site)
     assert world.a_jolt_stands_out(site)
+    assert world.agreement_takes_longer_than_a_chance_pace(site)
     assert SPLIT_LIMITS.shock_mm_s2 < GREATEST_ACCELERATION_MM_S2
 
 

@@ -18,13 +18,14 @@ class Train(Play[Vehicle, Watched]):
 
     def __init__(self, mm_s: int = 20_000) -> None:
         """Begin, the speed known to a millimetre per second."""
-        super().__init__(THEORY, SITE, Watched(1_000 * mm_s, 0, True, machine.watching(mm_s)))
+        super().__init__(THEORY, SITE, Watched(1_000 * mm_s, 0, True, mm_s, False, machine.watching(mm_s)))
 
-    def cycle(self, um_s: int, *, applied: bool, off_mm_s: int = 0) -> None:
+    def cycle(self, um_s: int, *, applied: bool, off_mm_s: int = 0, known: bool = True) -> None:
         """A cycle, and the speed after it; what odometry gives is rounded and ``off_mm_s`` wide on both sides."""
         self.step(
             "run_a_cycle",
             applied=applied,
+            known=known,
             speed_least_mm_s=um_s // 1_000 - off_mm_s,
             speed_most_mm_s=-(-um_s // 1_000) + off_mm_s,
             speed_um_s=um_s,
@@ -138,6 +139,30 @@ def the_response_is_waited_for() -> None:
     assert not train.is_accused()
 
 
+def a_train_without_a_range_is_not_judged() -> None:
+    """Nothing is measured then; what it may have gained meanwhile is allowed it after (T12, P7)."""
+    train = Train()
+    for _ in range(3):
+        train.cycle(20_500_000, applied=False, known=False, off_mm_s=-7_000)
+    assert not train.is_accused()
+    assert train.limit_mm_s() == 20_360
+    train.cycle(20_480_000, applied=False)
+    assert not train.is_accused()
+    train.cycle(20_601_000, applied=False)
+    assert train.is_accused()
+
+
+def a_train_that_rolls_back_is_not_accused_of_its_brakes() -> None:
+    """They act forward, and stop it; what it gains is reckoned from a standstill (T5, T12)."""
+    train = Train(0)
+    train.cycle(-500_000, applied=True)
+    assert train.limit_mm_s() == 0
+    train.cycle(-300_000, applied=True)
+    train.cycle(0, applied=True)
+    assert not train.is_accused()
+    assert train.system.kept
+
+
 def an_accusation_stays() -> None:
     """However well it brakes then: until the vehicle is inspected (T12)."""
     train = Train()
@@ -165,7 +190,7 @@ def a_train_outside_its_range_is_not_looked_at() -> None:
     """What odometry does not say does not happen; at both ends of the range it does."""
     train = Train()
     before = train.system
-    told = {"applied": False, "speed_least_mm_s": 19_000, "speed_most_mm_s": 20_000}
+    told = {"applied": False, "known": True, "speed_least_mm_s": 19_000, "speed_most_mm_s": 20_000}
     for um_s in (18_999_999, 20_000_001):
         assert train.step("run_a_cycle", **told, speed_um_s=um_s) == before
     for um_s in (19_000_000, 20_000_000):
@@ -180,6 +205,8 @@ WITNESSES = (
     a_weak_brake_is_accused,
     a_weak_brake_is_found_through_a_wide_range,
     the_response_is_waited_for,
+    a_train_without_a_range_is_not_judged,
+    a_train_that_rolls_back_is_not_accused_of_its_brakes,
     an_accusation_stays,
     the_limit_is_never_above_what_is_measured,
     a_train_outside_its_range_is_not_looked_at,

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from kernel.onboard import braking as machine
-from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Approach, Vehicle
+from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
@@ -24,6 +24,8 @@ def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
         worst_um_s=0,
         reach_nm=head_mm * NM_A_MM,
         left_nm=0,
+        demanded=False,
+        released_amiss=False,
         brake=Brake(applied=True, end_mm=end_mm),
     )
 
@@ -43,6 +45,7 @@ class Train(Play[Vehicle, Approach]):
         acknowledged: bool = False,
         front_mm: int | None = None,
         speed_mm_s: int | None = None,
+        least_mm_s: int | None = None,
     ) -> None:
         """Get to a speed in one cycle, as far as can be: at the higher of the speeds at its ends."""
         before = self.system
@@ -50,6 +53,7 @@ class Train(Play[Vehicle, Approach]):
         self.step(
             "run_a_cycle",
             front_most_mm=-(-before.head_nm // NM_A_MM) if front_mm is None else front_mm,
+            speed_least_mm_s=before.speed_um_s // 1_000 if least_mm_s is None else least_mm_s,
             speed_most_mm_s=-(-before.speed_um_s // 1_000) if speed_mm_s is None else speed_mm_s,
             demanded=demanded,
             acknowledged=acknowledged,
@@ -150,7 +154,7 @@ def the_range_counts_and_not_the_point() -> None:
     train.cycle(36_000_000, front_mm=room_mm + 1)
     assert train.brakes()
     train = running(36_000)
-    assert not machine.supervise(BOUNDS, train.system.brake, here_mm, 50_000, False, False).applied
+    assert not machine.supervise(BOUNDS, train.system.brake, here_mm, 0, 50_000, False, False).applied
     train.cycle(36_000_000, front_mm=here_mm, speed_mm_s=65_000)
     assert train.brakes()
 
@@ -167,6 +171,39 @@ def a_demand_of_another_machine_is_obeyed_at_once() -> None:
     assert train.brakes()
 
 
+def a_train_of_unknown_range_is_braked_until_it_is_located() -> None:
+    """Whatever numbers are left of its range, and however often the driver acknowledges (P7, T12)."""
+    train = running(10_000)
+    while train.system.speed_um_s > 0 or not train.brakes():
+        responds = train.brakes() and train.system.response_cycles == 0
+        train.cycle(
+            max(0, train.system.speed_um_s - 70_000) if responds else 10_000_000,
+            demanded=True,
+            acknowledged=True,
+            front_mm=-5_000_000,
+            least_mm_s=0,
+            speed_mm_s=0,
+        )
+        assert train.brakes()
+        assert train.system.demanded
+    train.release()
+    assert not train.system.demanded
+
+
+def a_train_that_rolls_back_is_not_released() -> None:
+    """Its speed is no standstill, although it is below all that is allowed forward (T5, T12)."""
+    train = Train()
+    train.release()
+    for _ in range(5):
+        train.cycle(train.system.speed_um_s - 100_000)
+    train.cycle(-600_000, demanded=True)
+    train.cycle(-600_000, acknowledged=True, speed_mm_s=0)
+    assert train.brakes()
+    for speed_um_s in range(-500_000, 100_000, 100_000):
+        train.cycle(speed_um_s)
+    train.release()
+
+
 def the_brake_stays_on_until_all_is_well() -> None:
     """Standing, acknowledged, nothing demanded and room ahead: all four, in one cycle (T12)."""
     train = running(5_000)
@@ -180,9 +217,11 @@ def the_brake_stays_on_until_all_is_well() -> None:
     assert train.brakes()
     train.cycle(0, acknowledged=True, speed_mm_s=26)
     assert train.brakes()
+    train.cycle(0, acknowledged=True, least_mm_s=-26)
+    assert train.brakes()
     train.cycle(0, acknowledged=True, front_mm=END_MM)
     assert train.brakes()
-    train.cycle(0, acknowledged=True, speed_mm_s=25)
+    train.cycle(0, acknowledged=True, least_mm_s=-25, speed_mm_s=25)
     assert not train.brakes()
     assert train.system.response_cycles == 15
     train.cycle(120_000)
@@ -203,7 +242,13 @@ def a_train_at_its_end_stands() -> None:
         train.cycle(0, acknowledged=True)
         assert train.brakes()
     before = train.system
-    event = {"front_most_mm": END_MM, "speed_most_mm_s": 0, "demanded": False, "acknowledged": True}
+    event = {
+        "front_most_mm": END_MM,
+        "speed_least_mm_s": 0,
+        "speed_most_mm_s": 0,
+        "demanded": False,
+        "acknowledged": True,
+    }
     assert train.step("run_a_cycle", **event, to_nm=before.head_nm + 1, speed_um_s=1) == before
 
 
@@ -217,11 +262,11 @@ def a_farther_end_is_taken_at_any_time() -> None:
         train.cycle(36_000_000)
     here_mm = train.system.head_nm // NM_A_MM
     for end_mm in (END_MM, END_MM + 1, END_MM + 10_000_000):
-        train.step("take_end", front_most_mm=here_mm, speed_most_mm_s=36_000, end_mm=end_mm)
+        train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=36_000, end_mm=end_mm)
         assert train.system.brake == Brake(applied=True, end_mm=end_mm)
     train = Train()
     train.release()
-    train.step("take_end", front_most_mm=0, speed_most_mm_s=0, end_mm=END_MM + 5)
+    train.step("take_end", front_most_mm=0, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=END_MM + 5)
     assert train.system.brake == Brake(applied=False, end_mm=END_MM + 5)
 
 
@@ -230,7 +275,7 @@ def a_nearer_end_is_taken_if_the_train_can_stop() -> None:
     train = running(20_000)
     here_mm = train.system.head_nm // NM_A_MM
     end_mm = here_mm + needed_mm(20_000)
-    train.step("take_end", front_most_mm=here_mm, speed_most_mm_s=20_000, end_mm=end_mm)
+    train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=end_mm)
     assert train.system.brake == Brake(applied=False, end_mm=end_mm)
     train.cycle(20_000_000, demanded=True)
     train.worst_cycle()
@@ -238,7 +283,9 @@ def a_nearer_end_is_taken_if_the_train_can_stop() -> None:
     assert train.system.head_nm < 2_100_000 * NM_A_MM
     train = running(20_000)
     train.cycle(20_000_000, demanded=True)
-    train.step("take_end", front_most_mm=here_mm + 2_000, speed_most_mm_s=20_000, end_mm=here_mm + 900_000)
+    train.step(
+        "take_end", front_most_mm=here_mm + 2_000, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=here_mm + 900_000
+    )
     assert train.system.brake == Brake(applied=True, end_mm=here_mm + 900_000)
     assert train.system.response_cycles == 15
     while train.system.speed_um_s > 0:
@@ -252,7 +299,7 @@ def a_nearer_end_that_could_be_overrun_is_not_taken() -> None:
     end_mm = here_mm + needed_mm(20_000) - 1
     for nearer_mm in (end_mm, here_mm, -(10**12)):
         train = running(20_000)
-        train.step("take_end", front_most_mm=here_mm, speed_most_mm_s=20_000, end_mm=nearer_mm)
+        train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=nearer_mm)
         assert train.system.brake == Brake(applied=True, end_mm=END_MM)
 
 
@@ -264,7 +311,7 @@ def a_speed_out_of_range_brakes() -> None:
     for speed_mm_s, taken in ((-1, False), (0, True), (200_000, True), (200_001, False), (2**62, False)):
         assert machine.stops_before(BOUNDS, 0, speed_mm_s, FARTHEST_MM) == taken
         off = Brake(applied=False, end_mm=FARTHEST_MM)
-        assert machine.supervise(BOUNDS, off, 0, speed_mm_s, False, True).applied != taken
+        assert machine.supervise(BOUNDS, off, 0, 0, speed_mm_s, False, True).applied != taken
     train = running(36_000, end_mm=FARTHEST_MM)
     train.cycle(36_000_000, speed_mm_s=200_001)
     assert train.brakes()
@@ -299,12 +346,13 @@ def every_number_fits_into_64_bits() -> None:
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
-    """A head or a speed beyond its range, farther than its speed, more gain, less brake: such events are refused."""
+    """A head or a speed outside its range, farther than its speed, more gain, less brake: such events are refused."""
     train = running(20_000)
     before = train.system
     front_mm = before.head_nm // NM_A_MM
     event = {
         "front_most_mm": front_mm,
+        "speed_least_mm_s": 20_000,
         "speed_most_mm_s": 20_000,
         "demanded": False,
         "acknowledged": False,
@@ -313,15 +361,16 @@ def what_nature_does_not_do_does_not_happen() -> None:
     }
     refused: tuple[dict[str, int], ...] = (
         {"front_most_mm": front_mm - 1},
+        {"speed_least_mm_s": 20_001},
         {"speed_most_mm_s": 19_999},
         {"to_nm": before.head_nm + 2_000 * NM_A_MM + 1},
         {"speed_um_s": 20_120_001},
-        {"speed_um_s": -1},
     )
     for what in refused:
         assert train.step("run_a_cycle", **{**event, **what}) == before
     for told in ({"front_most_mm": front_mm - 1}, {"speed_most_mm_s": 19_999}):
-        end = {"front_most_mm": front_mm, "speed_most_mm_s": 20_000, "end_mm": END_MM + 1, **told}
+        end = {"front_most_mm": front_mm, "speed_least_mm_s": 20_000, "speed_most_mm_s": 20_000, **told}
+        end["end_mm"] = END_MM + 1
         assert train.step("take_end", **end) == before
     train.cycle(20_000_000, demanded=True)
     for _ in range(14):
@@ -340,6 +389,8 @@ WITNESSES = (
     with_room_ahead_the_brake_stays_off,
     the_range_counts_and_not_the_point,
     a_demand_of_another_machine_is_obeyed_at_once,
+    a_train_of_unknown_range_is_braked_until_it_is_located,
+    a_train_that_rolls_back_is_not_released,
     the_brake_stays_on_until_all_is_well,
     released_and_off_in_one_cycle,
     a_train_at_its_end_stands,

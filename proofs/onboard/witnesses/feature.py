@@ -23,6 +23,8 @@ BOUNDS = SensorBounds(
     accelerates_mm_s2=1_500,
     brakes_mm_s2=2_000,
     agreement_cycles=10,
+    pace_mm_s=5_000,
+    locked_mm_s=2_500,
 )
 CURVE = Feature(
     axis=TurnAxis.YAW,

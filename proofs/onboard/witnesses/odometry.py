@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import odometry as machine
-from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.odometry import Loss, Motion, Readings
+from models.onboard.units import NM_A_MM
 from proofs.onboard.witnesses.rolling_stock import BOUNDS, SITE, Train, rolling
 
 # ---- trust
@@ -45,7 +45,7 @@ def an_acceleration_below_the_threshold_agrees() -> None:
 
 def a_constant_wheel_of_another_speed_is_not_trusted() -> None:
     """A locked wheel, or one that spins evenly, agrees in acceleration with a train that coasts: not in speed (P1)."""
-    for shown in (0, 25_000):
+    for shown in (0, 26_000):
         train = rolling(20_000)
         for _ in range(20):
             train.cycle(20_000, tachometer=shown, slips=True)
@@ -69,9 +69,9 @@ def a_wheel_rolls_again_after_a_slide() -> None:
     train = rolling(20_000)
     for speed in range(19_900, 19_400, -100):
         train.cycle(speed, tachometer=0, slips=True)
-        assert train.system.slipped
+        assert train.system.slips
     train.cycle(19_400)
-    assert not train.system.slipped
+    assert not train.system.slips
     train.run_on(9)
     assert not train.trusted()
     train.run_on(1)
@@ -92,9 +92,9 @@ def the_range_grows_with_the_way_and_not_with_time() -> None:
     train = rolling()
     train.stand(1)
     assert train.width_mm() == 2 * 31
-    before = train.system
+    before = train.motion
     train.stand(100)
-    assert train.system == before
+    assert train.motion == before
     train = rolling(20_000)
     train.run_on(500)
     assert train.motion.front_least_mm == 1_300_000 - 10_000 - 31 - 0
@@ -117,16 +117,70 @@ def a_wheel_off_by_creep_and_diameter_is_contained() -> None:
         assert train.motion.front_least_mm < at_mm + 220_000 < train.motion.front_most_mm
 
 
-def the_speed_is_never_less_than_nothing() -> None:
-    """Neither of a rolling wheel nor of one that is not trusted (P1)."""
+def the_most_speed_is_never_less_than_nothing() -> None:
+    """Neither of a rolling wheel nor of one that is not trusted; the least may be, as a train may roll back (P1)."""
     train = rolling()
     train.cycle(20)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 41)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-1, 41)
+    train.cycle(-80)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-101, 0)
     train = rolling(1_000)
     for speed in (820, 640, 460, 280, 100, 0, 0, 0):
         train.cycle(speed, tachometer=0, slips=True)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 351)
-    assert train.motion.front_least_mm == 100_500 + 210
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-151, 351)
+
+
+def a_train_that_rolls_back_is_in_its_range() -> None:
+    """On a wheel that is trusted, to the millimetre; and by inertia, where the wheel is silent (P1, T5)."""
+    train = rolling()
+    at_mm = train.motion.front_least_mm
+    for speed in (-50, -100, -150, -150, -100, -50, 0):
+        train.cycle(speed)
+        assert train.trusted()
+    assert train.system.front_nm == (at_mm - 60) * NM_A_MM
+    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (at_mm - 91, at_mm - 29)
+    train = rolling()
+    for speed in (-50, -100, -150):
+        train.cycle(speed, tachometer_valid=False)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-670, 370)
+
+
+def the_brakes_of_a_train_that_rolls_back_act_forward() -> None:
+    """They are stronger than the motors, and no inertial sensor says otherwise (P1, T5)."""
+    for inertial_valid in (True, False):
+        train = rolling()
+        for speed in range(-100, -1_600, -100):
+            train.cycle(speed)
+        train.cycle(-1_320, tachometer_valid=False, inertial_valid=inertial_valid)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-1_716, 180)
+    train = rolling(1_000)
+    train.cycle(1_000, tachometer_valid=False, inertial_valid=False)
+    assert train.motion.speed_most_mm_s == 1_000 + 31 + 120
+    train = rolling()
+    train.stand(1)
+    train.cycle(0, tachometer_valid=False, inertial_valid=False)
+    assert train.motion.speed_most_mm_s == 21 + 180
+
+
+def a_wheel_is_not_trusted_again_where_the_speed_is_hardly_known() -> None:
+    """After so long a silence that nearly any speed would fit, a wheel that agrees says little (P1)."""
+    for silent_cycles, trusted in ((43, True), (44, False)):
+        train = rolling(20_000)
+        for _ in range(silent_cycles):
+            train.cycle(20_000, tachometer_valid=False)
+        train.run_on(11)
+        assert train.trusted() == trusted
+
+
+def a_wheel_that_stands_is_not_trusted_again_where_the_train_may_run() -> None:
+    """It may be locked: after so long a silence the train is located anew, though it stands (P1)."""
+    for silent_cycles, trusted in ((51, True), (52, False)):
+        train = rolling(100)
+        train.cycle(0)
+        for _ in range(silent_cycles):
+            train.cycle(0, tachometer_valid=False)
+        train.stand(10)
+        assert train.trusted() == trusted
 
 
 # ---- gradient
@@ -190,7 +244,7 @@ def a_slip_goes_on_by_inertia_from_the_cycle_before() -> None:
         gradient_mm_s2=0,
         loss=Loss.NONE,
     )
-    assert train.system.slipped
+    assert train.system.slips
     train.cycle(20_000, tachometer=30_000, slips=True)
     assert (train.motion.front_least_mm, train.motion.front_most_mm) == (303_942, 304_058)
     assert train.system.anchor_nm == 304_000 * NM_A_MM
@@ -230,31 +284,28 @@ def the_way_is_between_the_speeds_at_both_ends() -> None:
 
 
 def a_train_that_stops_in_a_slide_stands_in_the_range() -> None:
-    """Where brakes and descent leave nothing, the range of speeds ends at zero, and the front stays (P1)."""
+    """Where brakes and descent leave nothing it goes no farther; it may have begun to roll back (P1)."""
     train = rolling(300)
     train.cycle(120, tachometer=0, inertial=-2_200, gradient=-350, slips=True)
     train.cycle(0, tachometer=0, inertial=-1_600, gradient=-350)
     for _ in range(5):
         train.cycle(0, inertial=-400, gradient=-350)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (0, 24)
-    at = train.motion
-    train.cycle(0, inertial=-400, gradient=-350)
-    assert train.motion.front_least_mm == at.front_least_mm
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-484, 24)
+    assert train.motion.front_least_mm < 100_021 < train.motion.front_most_mm
 
 
 # ---- sensors that do not speak
 
 
 def what_is_no_reading_of_the_tachometer_moves_nothing() -> None:
-    """Invalid, out of range, or pulses that run backward: by inertia, and what was read before stays (P1)."""
+    """Invalid, out of range, or stuck: by inertia, and what was read before stays (P1)."""
     silent: tuple[dict[str, int | bool], ...] = (
         {"tachometer_valid": False},
-        {"tachometer": -1},
         {"tachometer": 200_001},
-        {"way_mm": 205_000},
-        {"way_mm": 204_999},
-        {"way_mm": -1},
+        {"tachometer": -200_001},
         {"way_mm": 10**9 + 1},
+        {"way_mm": -(10**9) - 1},
+        {"tachometer": 20_000, "way_mm": 205_000, "sticks": True},
     )
     for what in silent:
         train = rolling(20_000)
@@ -263,16 +314,24 @@ def what_is_no_reading_of_the_tachometer_moves_nothing() -> None:
         assert train.motion.tachometer_mm_s == 20_000
         assert train.motion.way_mm == train.motion.anchor_way_mm == 205_000
         assert (train.motion.front_least_mm, train.motion.front_most_mm) == (301_973, 302_027)
-    train = rolling()
-    train.cycle(0, tachometer=-1, way_mm=train.motion.way_mm + 1)
-    assert not train.trusted()
+
+
+def a_tachometer_that_jumps_does_not_speak() -> None:
+    """Pulses go no farther in a cycle than at 200 m/s, either way; the next are compared with those (P1)."""
+    for way_mm, speaks in ((225_000, True), (225_001, False), (185_000, True), (184_999, False)):
+        train = rolling(20_000)
+        readings = Readings(100, True, 20_000, way_mm, True, 0)
+        assert machine.tachometer_speaks(train.motion, readings) == speaks
+        train.cycle(20_000, way_mm=way_mm, tachometer=20_000 if not speaks else 30_000, slips=speaks)
+        assert not train.trusted()
+        assert train.motion.way_mm == way_mm
 
 
 def a_tachometer_that_repeats_itself_does_not_speak() -> None:
     """A speed without a pulse is that of one that is stuck; a standstill without a pulse is one (P1)."""
     train = rolling(20_000)
     for speed in range(19_990, 19_900, -10):
-        train.cycle(speed, tachometer=20_000, way_mm=205_000, slips=True)
+        train.cycle(speed, tachometer=20_000, way_mm=205_000, sticks=True)
         assert not train.trusted()
         assert train.motion.agreed_cycles == 0
     train = rolling()
@@ -280,19 +339,19 @@ def a_tachometer_that_repeats_itself_does_not_speak() -> None:
     assert train.trusted()
 
 
-def nothing_is_asked_of_a_wheel_that_is_not_heard_or_not_trusted() -> None:
-    """It may slip unseen while it is silent, and its pulses be too many before it is trusted (P1)."""
+def nothing_is_asked_of_a_wheel_that_is_not_heard_or_slips() -> None:
+    """It may slip unseen while it is silent; and its pulses be too many, as long as it is heard to run away (P1)."""
     train = rolling(20_000)
     train.cycle(20_000, tachometer_valid=False, slips=True)
-    assert train.system.slipped
+    assert train.system.slips
     train = Train()
-    train.cycle(0, way_mm=9_000)
+    train.cycle(0, tachometer=2_000, way_mm=9_000, slips=True)
     assert train.motion.anchor_way_mm == 9_000
 
 
 def a_silent_tachometer_does_not_agree() -> None:
     """Nor does a silent inertial sensor: the count begins anew (P1)."""
-    for what in ({"tachometer_valid": False}, {"inertial_valid": False}, {"way_mm": 0}, {"inertial": 1_601}):
+    for what in ({"tachometer_valid": False}, {"inertial_valid": False}, {"way_mm": 30_000}, {"inertial": 1_601}):
         train = Train()
         train.stand(9)
         train.cycle(0, **what)
@@ -300,12 +359,15 @@ def a_silent_tachometer_does_not_agree() -> None:
 
 
 def the_edges_of_the_ranges_are_readings() -> None:
-    """200 m/s, 10**9 mm and the same way as before are; at the start of counting a wheel may show any (P1)."""
-    train = rolling(20_000)
-    train.cycle(20_000, tachometer=200_000, way_mm=10**9, slips=True)
-    assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (200_000, 10**9)
-    train.cycle(20_000, tachometer=0, way_mm=10**9, slips=True)
-    assert (train.motion.tachometer_mm_s, train.motion.way_mm) == (0, 10**9)
+    """200 m/s and 10**9 mm either way are, and the same way as before at rest (P1)."""
+    motion = rolling(20_000).motion
+    for sign in (1, -1):
+        far = replace(motion, way_mm=sign * 10**9)
+        assert machine.tachometer_speaks(far, Readings(100, True, 0, sign * 10**9, True, 0))
+        near = replace(motion, way_mm=sign * (10**9 - 1))
+        assert machine.tachometer_speaks(near, Readings(100, True, sign * 200_000, sign * 10**9, True, 0))
+        assert not machine.tachometer_speaks(near, Readings(100, True, sign * 200_001, sign * 10**9, True, 0))
+        assert not machine.tachometer_speaks(near, Readings(100, True, 0, sign * (10**9 + 1), True, 0))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_600))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, -2_200))
     assert not machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_601))
@@ -369,14 +431,50 @@ def an_irregular_cycle_loses_the_range_for_good() -> None:
         assert train.motion == lost
 
 
-def what_has_slipped_stays_slipped_in_the_history() -> None:
-    """After the range is lost the wheel may slip and roll on; the history keeps it, since the anchor stays (P1)."""
+def in_an_irregular_cycle_the_train_may_get_anywhere() -> None:
+    """Which is why no range is claimed after it (P1)."""
     train = rolling(20_000)
-    train.cycle(20_000, elapsed_ms=0)
-    train.cycle(20_000, tachometer=35_000, slips=True)
-    assert train.system.slipped
-    train.cycle(20_000, tachometer=40_000)
-    assert train.system.slipped
+    far_nm = train.system.front_nm + 90_000 * NM_A_MM
+    readings = Readings(4_500, True, 20_000, 295_000, True, 0)
+    train.step(
+        "run_a_cycle",
+        readings=readings,
+        to_nm=far_nm,
+        speed_um_s=25_000_000,
+        gradient_mm_s2=0,
+        slips=True,
+        sticks=False,
+    )
+    assert train.system.front_nm == far_nm
+    assert train.motion.loss == Loss.CYCLE_IRREGULAR
+
+
+def a_train_whose_range_is_lost_is_located_at_rest() -> None:
+    """At a speed, or elsewhere than it is said to be, it is not; then it begins anew (P7, T8)."""
+    train = rolling(100)
+    train.cycle(100, elapsed_ms=200)
+    at_mm = train.system.front_nm // NM_A_MM
+    told = {"least_mm": at_mm - 2_000, "most_mm": at_mm + 2_000, "way_mm": 0}
+    lost = train.system
+    assert train.step("locate_anew", **told) == lost
+    train.cycle(0)
+    lost = train.system
+    assert train.step("locate_anew", **{**told, "most_mm": at_mm - 1}) == lost
+    train.step("locate_anew", **told)
+    assert machine.is_located(train.motion)
+    train.cycle(0)
+    train.stand(10)
+    assert train.trusted()
+
+
+def a_fix_that_contradicts_the_range_loses_it() -> None:
+    """A tag that was laid elsewhere: found where it lies outside the range, and the range is lost (P7)."""
+    for off_mm in (200_000, -200_000):
+        train = rolling(20_000)
+        at_mm = train.system.front_nm // NM_A_MM
+        train.step("take_fix", least_mm=at_mm + off_mm - 500, most_mm=at_mm + off_mm + 500)
+        assert train.motion.loss == Loss.CONTRADICTED
+        assert train.system.contradicted
 
 
 # ---- nature
@@ -388,7 +486,8 @@ def what_nature_does_not_do_does_not_happen() -> None:
     before = train.system
     far_nm = before.front_nm + 2_000 * NM_A_MM
     good = Readings(100, True, 20_000, 207_000, True, 0)
-    event = {"readings": good, "to_nm": far_nm, "speed_um_s": 20_000_000, "gradient_mm_s2": 0, "slips": False}
+    event = {"readings": good, "to_nm": far_nm, "speed_um_s": 20_000_000, "gradient_mm_s2": 0}
+    event |= {"slips": False, "sticks": False}
     refused: tuple[dict[str, object], ...] = (
         {"to_nm": far_nm + 1},
         {"to_nm": far_nm - 1},
@@ -407,10 +506,14 @@ def what_nature_does_not_do_does_not_happen() -> None:
     )
     for what in refused:
         assert train.step("run_a_cycle", **{**event, **what}) == before
-    for least_mm, most_mm in ((299_000, 299_999), (300_001, 310_000)):
+    for stuck in (good, replace(good, way_mm=205_000, tachometer_mm_s=19_999), replace(good, tachometer_mm_s=0)):
+        assert train.step("run_a_cycle", **{**event, "sticks": True, "readings": stuck}) == before
+    wide = replace(before, motion=replace(before.motion, front_least_mm=290_000, front_most_mm=310_000))
+    train.system = before = wide
+    for least_mm, most_mm in ((290_000, 299_999), (300_001, 310_000)):
         assert train.step("take_fix", least_mm=least_mm, most_mm=most_mm) == before
     after = train.step("run_a_cycle", **{**event, "slips": True, "readings": replace(good, tachometer_mm_s=20_115)})
-    assert after.slipped
+    assert after.slips
     assert not after.motion.trusted
 
 
@@ -421,6 +524,7 @@ def a_wheel_does_not_slip_for_long_at_the_trains_own_pace() -> None:
     before = train.system
     readings = Readings(100, True, 0, 5_000, True, 0)
     event = {"readings": readings, "to_nm": before.front_nm, "speed_um_s": 0, "gradient_mm_s2": 0}
+    event |= {"sticks": False}
     assert train.step("run_a_cycle", **event, slips=True) == before
     assert train.step("run_a_cycle", **event, slips=False).motion.trusted
 
@@ -433,7 +537,12 @@ WITNESSES = (
     a_wheel_rolls_again_after_a_slide,
     the_range_grows_with_the_way_and_not_with_time,
     a_wheel_off_by_creep_and_diameter_is_contained,
-    the_speed_is_never_less_than_nothing,
+    the_most_speed_is_never_less_than_nothing,
+    a_train_that_rolls_back_is_in_its_range,
+    the_brakes_of_a_train_that_rolls_back_act_forward,
+    a_wheel_is_not_trusted_again_where_the_speed_is_hardly_known,
+    a_wheel_that_stands_is_not_trusted_again_where_the_train_may_run,
+    a_tachometer_that_jumps_does_not_speak,
     the_gradient_is_followed_slowly_and_within_the_line,
     the_gradient_is_not_what_the_train_accelerates_by,
     the_gradient_is_frozen_in_a_slip,
@@ -443,14 +552,16 @@ WITNESSES = (
     a_train_that_stops_in_a_slide_stands_in_the_range,
     what_is_no_reading_of_the_tachometer_moves_nothing,
     a_tachometer_that_repeats_itself_does_not_speak,
-    nothing_is_asked_of_a_wheel_that_is_not_heard_or_not_trusted,
+    nothing_is_asked_of_a_wheel_that_is_not_heard_or_slips,
     a_silent_tachometer_does_not_agree,
     the_edges_of_the_ranges_are_readings,
     a_fix_narrows_the_range_and_counting_begins_there,
     a_fix_that_touches_the_range_is_taken,
     a_fix_outside_the_range_loses_it_for_good,
     an_irregular_cycle_loses_the_range_for_good,
-    what_has_slipped_stays_slipped_in_the_history,
+    in_an_irregular_cycle_the_train_may_get_anywhere,
+    a_train_whose_range_is_lost_is_located_at_rest,
+    a_fix_that_contradicts_the_range_loses_it,
     what_nature_does_not_do_does_not_happen,
     a_wheel_does_not_slip_for_long_at_the_trains_own_pace,
 )

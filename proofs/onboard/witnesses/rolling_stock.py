@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from kernel.onboard import odometry as machine
-from kernel.onboard.arithmetic import NM_A_MM
 from kernel.onboard.odometry import Motion, Readings, SensorBounds
 from models.onboard.odometry import Line, Running
+from models.onboard.units import NM_A_MM
 from proofs.onboard.odometry import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -20,14 +20,23 @@ BOUNDS = SensorBounds(
     accelerates_mm_s2=1_200,
     brakes_mm_s2=1_800,
     agreement_cycles=10,
+    pace_mm_s=5_000,
+    locked_mm_s=2_500,
 )
-SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_150, length_mm=120_000, length_used_mm=133_000)
+SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_150, pace_cycles=8, length_mm=120_000, length_used_mm=133_000)
 START_MM = 100_000
 AT_POWER_ON = Running(
     front_nm=START_MM * NM_A_MM,
     speed_um_s=0,
-    slipped=False,
+    slips=False,
+    told=False,
+    shown_mm_s=0,
+    shown_way_mm=5_000,
+    paced_cycles=0,
     anchor_nm=START_MM * NM_A_MM,
+    anchor_way_mm=5_000,
+    counted=False,
+    contradicted=False,
     motion=machine.located(START_MM - 1_000, START_MM + 1_000, 5_000),
 )
 
@@ -61,6 +70,7 @@ class Train(Play[Line, Running]):
         inertial_valid: bool = True,
         elapsed_ms: int = 100,
         slips: bool = False,
+        sticks: bool = False,
     ) -> None:
         """Run to a speed in one cycle, evenly; ``tachometer`` is what the wheel shows, its way goes with it."""
         before, speed_um_s = self.system, 1_000 * speed_mm_s
@@ -82,6 +92,7 @@ class Train(Play[Line, Running]):
             speed_um_s=speed_um_s,
             gradient_mm_s2=gradient,
             slips=slips,
+            sticks=sticks,
         )
         assert self.system.front_nm == before.front_nm + rolled_nm
         assert self.system.speed_um_s == speed_um_s

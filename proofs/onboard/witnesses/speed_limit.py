@@ -29,12 +29,13 @@ class Train(Play[Profile, Passage]):
         """Begin."""
         super().__init__(THEORY, SITE, AT_START)
 
-    def runs(self, to_mm: int, speed_mm_s: int, *, off_mm: int = 0) -> bool:
+    def runs(self, to_mm: int, speed_mm_s: int, *, off_mm: int = 0, known: bool = True) -> bool:
         """Run to a place at a speed, both known to ``off_mm``; whether the unit brakes then."""
         self.step(
             "run_on",
             to_mm=to_mm,
             speed_mm_s=speed_mm_s,
+            known=known,
             rear_least_mm=to_mm - SITE.length_mm - off_mm,
             front_most_mm=to_mm + off_mm,
             speed_most_mm_s=speed_mm_s + off_mm,
@@ -43,7 +44,13 @@ class Train(Play[Profile, Passage]):
         return self.system.brakes
 
     def tag(
-        self, *, curve: bool = False, turnout: bool = False, told: tuple[bool, bool] | None = None, off_mm: int = 0
+        self,
+        *,
+        curve: bool = False,
+        turnout: bool = False,
+        told: tuple[bool, bool] | None = None,
+        off_mm: int = 0,
+        known: bool = True,
     ) -> bool:
         """A tag at the front, and what lies behind it; ``told`` if that is not what it says."""
         told_curve, told_turnout = (curve, turnout) if told is None else told
@@ -54,12 +61,14 @@ class Train(Play[Profile, Passage]):
             at_turnout=turnout,
             told_curve=told_curve,
             told_turnout=told_turnout,
+            known=known,
             rear_least_mm=front_mm - SITE.length_mm - off_mm,
             front_most_mm=front_mm + off_mm,
             speed_most_mm_s=self.system.speed_mm_s + off_mm,
         )
         assert (self.system.in_curve, self.system.at_turnout) == (curve, turnout)
-        assert (self.system.limit.in_curve, self.system.limit.at_turnout) == (told_curve, told_turnout)
+        noted = (told_curve, told_turnout) if known else (True, True)
+        assert (self.system.limit.in_curve, self.system.limit.at_turnout) == noted
         return self.system.brakes
 
 
@@ -159,6 +168,27 @@ def the_range_counts_and_not_the_point() -> None:
     assert train.runs(1_430_000, 35_501, off_mm=500)
 
 
+def without_a_range_everything_restricts() -> None:
+    """The train brakes at any speed; and where a restriction ended then is not known, until the next tag (T8)."""
+    train = free()
+    assert train.runs(1_200_000, 0, known=False, off_mm=-500)
+    assert not train.runs(1_200_000, 36_000)
+    assert train.tag(known=False, off_mm=-9_000_000)
+    assert train.system.limit == UNKNOWN
+    assert train.runs(1_400_000, 11_001)
+    train.tag()
+    assert train.runs(1_520_000, 11_001)
+    assert not train.runs(1_520_001, 36_000)
+
+
+def located_anew_it_knows_nothing_of_the_track() -> None:
+    """As at power-on (T8)."""
+    train = free()
+    assert train.step("locate_anew").brakes
+    assert train.system.limit == UNKNOWN
+    assert train.runs(1_300_000, 11_001)
+
+
 def what_cannot_be_read_is_the_worst_case() -> None:
     """A tag without a meaning restricts as curve and turnout, until the rear has passed the next (T12)."""
     train = free()
@@ -174,15 +204,15 @@ def what_is_no_speed_brakes() -> None:
     """A negative one, and whatever a table without speeds permits (T12)."""
     clear = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=0, turnout_until_mm=0)
     for speed_mm_s, brakes in ((-1, True), (0, False), (36_000, False), (36_001, True), (2**62, True)):
-        assert machine.is_overspeed(TABLE, clear, 1, speed_mm_s) == brakes
-    assert machine.is_overspeed(SpeedTable(-1, -1, -1), clear, 1, 0)
+        assert machine.is_overspeed(TABLE, clear, True, 1, speed_mm_s) == brakes
+    assert machine.is_overspeed(SpeedTable(-1, -1, -1), clear, True, 1, 0)
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
     """Backward, a range that does not contain the train, a tag that hides a restriction: such events are refused."""
     train = free()
     before = train.system
-    event = {"rear_least_mm": 1_000_001, "front_most_mm": 1_120_001, "speed_most_mm_s": 36_000}
+    event = {"known": True, "rear_least_mm": 1_000_001, "front_most_mm": 1_120_001, "speed_most_mm_s": 36_000}
     run = {"to_mm": 1_120_001, "speed_mm_s": 36_000, **event}
     pass_by = {"in_curve": False, "at_turnout": False, "told_curve": False, "told_turnout": False, **event}
     for what in (
@@ -206,6 +236,8 @@ WITNESSES = (
     short_plain_stretches_do_not_lengthen_a_restriction,
     the_last_end_of_two_counts,
     the_range_counts_and_not_the_point,
+    without_a_range_everything_restricts,
+    located_anew_it_knows_nothing_of_the_track,
     what_cannot_be_read_is_the_worst_case,
     what_is_no_speed_brakes,
     what_nature_does_not_do_does_not_happen,
