@@ -367,11 +367,19 @@ def settings_are_checked() -> None:
 
 def a_train_is_far_by_the_longer_time() -> None:
     """At 30 m/s: 2 s later for each second that the road would be open (X2, X4)."""
-    bounds = ArrivalBounds(line_um=30_000_000, gain_um=1_000_000, cycle_ms=1_000, warning_cycles=40, silence_cycles=3)
+    bounds = ArrivalBounds(
+        line_um=30_000_000,
+        gain_um=1_000_000,
+        cycle_ms=1_000,
+        warning_cycles=40,
+        silence_cycles=3,
+        way_spread_mm=1,
+        speed_spread_mm_s=1,
+    )
     for cycles, due in ((42, NOW), (43, NEAR), (62, NEAR), (63, FAR)):
-        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, False), 20) == due
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, True), 20) == NOW
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, False), 20) == NOW
+        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, 0, 0, False), 20) == due
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, 0, 0, True), 20) == NOW
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, 0, 0, False), 20) == NOW
 
 
 def every_number_fits_into_64_bits() -> None:
