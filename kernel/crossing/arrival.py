@@ -161,6 +161,9 @@ def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
 
 
 def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
-    """Decide for the cycle that begins; what contradicts the ranging before warns (X1, X2, X3).  :func:`aged` is what is known at its end."""
+    """Decide for the cycle that begins (X1, X2, X3); :func:`aged` is what is known at its end.
+
+    A ranging that contradicts the one before is a fault, and warns now.
+    """
     now = taken(bounds, followed, ranging)
     return replace(now, warns=contradicts(bounds, followed, ranging) or must_warn(bounds, now))

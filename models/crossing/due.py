@@ -60,7 +60,7 @@ def bounds_are_above_zero(site: Way) -> bool:
 
 
 def the_ranging_bounds_the_train(site: Way, system: Answered, ranging: Ranging) -> bool:
-    """By a ranging and its age the head is no nearer and no faster: what ``arrival`` proves of each that counts (X1)."""
+    """By a ranging and its age the head is no nearer and no faster, as ``arrival`` proves of all that it takes (X1)."""
     return not ranging.valid or (
         UM_A_MM * ranging.way_mm - ranging.age_cycles * site.bounds.line_um <= system.way_um
         and system.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um

@@ -13,7 +13,9 @@ BOUNDS = ArrivalBounds(
     way_spread_mm=1,
     speed_spread_mm_s=1,
 )
-FAR = Followed(way_um=2_000_000_000, short_um=1_000_000, age_cycles=0, told_way_mm=2_000_000, told_speed_mm_s=20_000, warns=False)
+FAR = Followed(
+    way_um=2_000_000_000, short_um=1_000_000, age_cycles=0, told_way_mm=2_000_000, told_speed_mm_s=20_000, warns=False
+)
 
 
 def a_warning_is_kept(way_um: int, short_um: int, age_cycles: int) -> None:

@@ -253,7 +253,9 @@ def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
         assert machine.follow(BOUNDS, train.system.followed, told).warns
         for nearer in (-1, 1):
             fits = replace(told, way_mm=way_mm + nearer, speed_mm_s=min(speed_mm_s, 20_101))
-            assert machine.contradicts(BOUNDS, train.system.followed, fits) == (3_003_001 < fits.way_mm or fits.way_mm < 2_996_999)
+            assert machine.contradicts(BOUNDS, train.system.followed, fits) == (
+                fits.way_mm > 3_003_001 or fits.way_mm < 2_996_999
+            )
     train = Train(contacted(3_000_000, 20_000))
     train.decide()
     train.run(2_000_000)

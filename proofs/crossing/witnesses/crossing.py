@@ -159,7 +159,8 @@ def a_train_without_radio_is_warned_of_from_its_start_point() -> None:
     assert day.system.crossing.asks[ONE] is True
     day.cycle((ONE, FAR))
     assert day.warns()
-    assert day.system.bodies[ONE].was_struck and day.system.bodies[ONE].has_asked
+    assert day.system.bodies[ONE].was_struck
+    assert day.system.bodies[ONE].has_asked
     day.until_it_can_arrive(ONE)
     assert day.arrive(ONE).warned_cycles == 62
     day = Day()

@@ -11,7 +11,12 @@ from proofs.crossing.due import THEORY
 from proofs.onboard.witnesses.play import Play
 
 BOUNDS = ArrivalBounds(
-    line_um=3_000_000, gain_um=10_000, cycle_ms=100, warning_cycles=350, silence_cycles=20, way_spread_mm=1,
+    line_um=3_000_000,
+    gain_um=10_000,
+    cycle_ms=100,
+    warning_cycles=350,
+    silence_cycles=20,
+    way_spread_mm=1,
     speed_spread_mm_s=1,
 )
 """30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
@@ -26,7 +31,9 @@ class Train(Play[Way, Answered]):
         """Begin."""
         way_um = 1_000 * way_mm
         nothing = Followed(0, 0, 21, 0, 0, False)
-        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, nothing, Followed(way_um, 0, 0, 0, 0, False), 0, 0))
+        super().__init__(
+            THEORY, SITE, Answered(way_um, 100 * speed_mm_s, nothing, Followed(way_um, 0, 0, 0, 0, False), 0, 0)
+        )
 
     def ranging(self) -> Ranging:
         """A ranging, exact but for rounding to the safe side."""
@@ -36,9 +43,7 @@ class Train(Play[Way, Answered]):
         """What is known by it."""
         told = self.ranging()
         towards_mm_s = max(0, told.speed_mm_s)
-        return Followed(
-            1_000 * told.way_mm, BOUNDS.line_um - 100 * towards_mm_s, 0, told.way_mm, towards_mm_s, False
-        )
+        return Followed(1_000 * told.way_mm, BOUNDS.line_um - 100 * towards_mm_s, 0, told.way_mm, towards_mm_s, False)
 
     def answer(self) -> int:
         """Give the answer's cycles."""
