@@ -131,7 +131,8 @@ def take_train_fix(site: Line, system: Lookout, fix: TrainFix, at_um: int) -> Lo
 
     One out of its ranges may say anything.
     """
-    if is_report(fix.place_mm, fix.age_ms) and not (
+    counts = is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
         a_train_fix_is_within_its_error(site, fix, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, system.antenna_um, fix.age_ms)
     ):
@@ -143,7 +144,8 @@ def take_train_fix(site: Line, system: Lookout, fix: TrainFix, at_um: int) -> Lo
 
 def take_worker_fix(site: Line, system: Lookout, fix: WorkerFix, at_um: int) -> Lookout:
     """The handset takes a fix of its own; ``at_um``: where it really was (A1).  Out of its ranges, any."""
-    if is_report(fix.place_mm, fix.age_ms) and not (
+    counts = is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
         a_worker_fix_is_within_its_error(site, fix, at_um)
         and the_worker_keeps_a_walking_speed(site, at_um, system.worker_um, fix.age_ms)
     ):

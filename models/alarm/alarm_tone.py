@@ -167,6 +167,16 @@ def fits(site: Railway, before: TrainFix, fix: TrainFix) -> bool:
     return UM_A_MM * apart(fix.place_mm, before.place_mm) <= run_um + 2 * UM_A_MM * bounds.train_error_mm
 
 
+def with_list(told: Told, age_ms: int, servers_well: bool) -> Told:
+    """Give what was told after a list of the server (A1)."""
+    return replace(told, list_age_ms=age_ms, servers_well=servers_well)
+
+
+def with_battery(told: Told, battery_well: bool) -> Told:
+    """Give what was told after a look at the battery (A8)."""
+    return replace(told, battery_well=battery_well)
+
+
 def with_fix(site: Railway, of: OfTrain, fix: TrainFix) -> OfTrain:
     """Give what was told of a train after one more fix (A1, A2)."""
     return replace(of, fix=fix, jumped=False) if fits(site, of.fix, fix) else replace(of, jumped=True)
@@ -250,6 +260,11 @@ def is_known(site: Railway, train: Train, told: Told) -> bool:
     return train in told.trains and (
         is_told_alike(site, told.trains[train]) or is_known_by_one(site, train, told.trains[train])
     )
+
+
+def is_listed(told: Told, train: Train) -> bool:
+    """Tell whether the list has a train (A2)."""
+    return train in told.trains
 
 
 def has_place(site: Railway, told: Told) -> bool:
@@ -471,7 +486,7 @@ def hear_list(site: Railway, system: Worksite, age_ms: int, servers_well: bool) 
         return system
     return replace(
         system,
-        told=replace(system.told, list_age_ms=age_ms, servers_well=servers_well),
+        told=with_list(system.told, age_ms, servers_well),
         handset=machine.note_list(system.handset, age_ms, servers_well),
     )
 
@@ -499,7 +514,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
     A fix that jumps from the one before may say anything.
     """
     handset = machine.note_fix(site.register.bounds, system.handset, train, fix)
-    if train not in system.told.trains:
+    if not is_listed(system.told, train):
         return replace(system, handset=handset)
     of = with_fix(site, system.told.trains[train], fix)
     told = replace(system.told, trains=system.told.trains | {train: of})
@@ -511,14 +526,10 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
         return system
     if not a_wrong_fix_is_contradicted(site, of, is_taken_right):
         return system
-    if (
-        is_right
-        and not of.jumped
-        and is_report(fix.place_mm, fix.age_ms)
-        and not (
-            a_train_fix_is_within_its_error(site, fix, at_um)
-            and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)
-        )
+    counts = is_right and not of.jumped and is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
+        a_train_fix_is_within_its_error(site, fix, at_um)
+        and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)
     ):
         return system
     bodies = system.bodies | {train: replace(body, fix_is_right=is_taken_right)}
@@ -528,7 +539,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
 def take_display(site: Railway, system: Worksite, train: Train, display: Display, at_um: int) -> Worksite:
     """The display tells of a train; ``at_um``: where its antenna really was (A1, A2)."""
     handset = machine.note_display(system.handset, train, display)
-    if train not in system.told.trains:
+    if not is_listed(system.told, train):
         return replace(system, handset=handset)
     of = replace(system.told.trains[train], display=display)
     told = replace(system.told, trains=system.told.trains | {train: of})
@@ -539,7 +550,8 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
         return system
     if not a_wrong_fix_is_contradicted(site, of, body.fix_is_right):
         return system
-    if is_in_a_stretch(display) and not (
+    counts = is_in_a_stretch(display)
+    if counts and not (
         the_display_shows_where_the_train_was(site, display, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, display.age_ms)
     ):
@@ -549,7 +561,8 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
 
 def take_worker_fix(site: Railway, system: Worksite, fix: WorkerFix, at_um: int) -> Worksite:
     """The handset takes a fix of its own; ``at_um``: where it really was (A1, A8)."""
-    if is_report(fix.place_mm, fix.age_ms) and not (
+    counts = is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
         a_worker_fix_is_within_its_error(site, fix, at_um)
         and the_worker_keeps_a_walking_speed(site, at_um, system.worker_um, fix.age_ms)
     ):
@@ -561,7 +574,7 @@ def look_at_the_battery(site: Railway, system: Worksite, battery_well: bool) -> 
     """The handset looks at its battery (A8)."""
     return replace(
         system,
-        told=replace(system.told, battery_well=battery_well),
+        told=with_battery(system.told, battery_well),
         handset=machine.note_battery(system.handset, battery_well),
     )
 

@@ -54,13 +54,13 @@ class Coming:
 # ---- what rangings tell, one beside the other
 
 
-def is_of_this_line(site: Crossing, ranging: Ranging) -> bool:
+def is_of_this_line(bounds: ArrivalBounds, ranging: Ranging) -> bool:
     """Tell whether a ranging came, is within 100 km and 200 m/s, and no older than rangings count (ours; X1)."""
     return (
         ranging.valid
         and -100_000_000 <= ranging.way_mm <= 100_000_000
         and ranging.speed_mm_s <= 200_000
-        and 0 <= ranging.age_cycles <= site.bounds.silence_cycles
+        and 0 <= ranging.age_cycles <= bounds.silence_cycles
     )
 
 
@@ -156,10 +156,10 @@ def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
         return system
     followed = arrival.follow(site.bounds, system.followed, ranging)
     silent_cycles = 0 if ranging.valid else system.silent_cycles + 1
-    told = ranging if is_of_this_line(site, ranging) else system.told
+    told = ranging if is_of_this_line(site.bounds, ranging) else system.told
     contradicted = system.contradicted or (
-        is_of_this_line(site, ranging)
-        and is_of_this_line(site, system.told)
+        is_of_this_line(site.bounds, ranging)
+        and is_of_this_line(site.bounds, system.told)
         and cannot_both_be(site, system.told, ranging)
     )
     if followed.warns:

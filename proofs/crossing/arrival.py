@@ -42,7 +42,7 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.left_cycles == site.bounds.warning_cycles + 1
         and system.worst.way_um > (site.bounds.warning_cycles + 1) * site.bounds.line_um + site.bounds.gain_um
         and system.told == system.ranged
-        and is_of_this_line(site, system.ranged)
+        and is_of_this_line(site.bounds, system.ranged)
         and system.followed.told_way_mm == system.ranged.way_mm
         and system.followed.told_speed_mm_s == towards_mm_s(system.ranged)
         and not system.contradicted
@@ -78,7 +78,7 @@ def the_ranging_before_is_kept(site: Crossing, system: Coming) -> bool:
     if system.told.age_cycles > site.bounds.silence_cycles:
         return system.followed.age_cycles > site.bounds.silence_cycles
     return (
-        is_of_this_line(site, system.told)
+        is_of_this_line(site.bounds, system.told)
         and system.followed.age_cycles == system.told.age_cycles
         and system.followed.told_way_mm == system.told.way_mm
         and system.followed.told_speed_mm_s == towards_mm_s(system.told)
