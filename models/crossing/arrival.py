@@ -72,12 +72,13 @@ def towards_mm_s(ranging: Ranging) -> int:
 def cannot_both_be(site: Crossing, one: Ranging, other: Ranging) -> bool:
     """Tell whether the train would be too fast for the line, or have gained too much, for both to be within errors."""
     between_cycles = apart(one.age_cycles, other.age_cycles)
-    earlier, later = (one, other) if one.age_cycles >= other.age_cycles else (other, one)
-    gained_um = site.bounds.cycle_ms * (towards_mm_s(later) - towards_mm_s(earlier))
+    faster_mm_s = towards_mm_s(other) - towards_mm_s(one)
+    gained_mm_s = faster_mm_s if other.age_cycles <= one.age_cycles else -faster_mm_s
     return (
         UM_A_MM * apart(one.way_mm, other.way_mm)
         > UM_A_MM * site.bounds.way_spread_mm + between_cycles * site.bounds.line_um
-        or gained_um > site.bounds.cycle_ms * site.bounds.speed_spread_mm_s + between_cycles * site.bounds.gain_um
+        or site.bounds.cycle_ms * gained_mm_s
+        > site.bounds.cycle_ms * site.bounds.speed_spread_mm_s + between_cycles * site.bounds.gain_um
     )
 
 

@@ -90,24 +90,27 @@ def who_is_at_the_crossing_has_come_all_the_way(system: Answered) -> bool:
 # ---- transitions
 
 
-def answer(site: Way, system: Answered, ranging: Ranging, is_held: bool) -> Answered:
-    """The ground unit takes a ranging, or none, and answers; what that secures is held against it (X2, X4).
-
-    Any answer may be the one that is held, and the others are let go.
-    """
+def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
+    """The ground unit takes a ranging, or none came (X1)."""
     if not the_ranging_bounds_the_train(site, system, ranging):
         return system
-    followed = arrival.follow(site.bounds, system.followed, ranging)
-    due = machine.due(site.bounds, followed, site.settings.reopening_cycles)
-    known = replace(system, followed=followed)
+    return replace(system, followed=arrival.follow(site.bounds, system.followed, ranging))
+
+
+def answer(site: Way, system: Answered) -> Answered:
+    """It answers by what it knows of the train, and what that secures is held against it (X2, X4).
+
+    Any answer may be the one that is held: those that are not did not happen here.
+    """
+    due = machine.due(site.bounds, system.followed, site.settings.reopening_cycles)
     warning_cycles, reopening_cycles = site.bounds.warning_cycles, site.settings.reopening_cycles
-    if is_held and due == Due.NEAR:
+    if due == Due.NEAR:
         near_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.NEAR)
-        return replace(known, worst=followed, left_cycles=near_cycles)
-    if is_held and due == Due.FAR:
+        return replace(system, worst=system.followed, left_cycles=near_cycles)
+    if due == Due.FAR:
         far_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.FAR)
-        return replace(known, worst=followed, left_cycles=far_cycles)
-    return known
+        return replace(system, worst=system.followed, left_cycles=far_cycles)
+    return system
 
 
 def run_a_cycle(site: Way, system: Answered, to_um: int, pace_um: int) -> Answered:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.crossing import arrival
-from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle
+from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle, take_ranging
 from proofs.theory import Theory, by_name
 
 
@@ -65,7 +65,7 @@ INVARIANTS = (
     even_the_worst_cannot_arrive_too_early,
 )
 PREMISES = (bounds_are_above_zero,)
-STEPS = (answer, run_a_cycle, arrive)
+STEPS = (take_ranging, answer, run_a_cycle, arrive)
 
 THEORY = Theory(
     "due",

@@ -47,7 +47,8 @@ class Train(Play[Way, Answered]):
 
     def answer(self) -> int:
         """Give the answer's cycles."""
-        return self.step("answer", ranging=self.ranging(), is_held=True).left_cycles
+        self.step("take_ranging", ranging=self.ranging())
+        return self.step("answer").left_cycles
 
     def run(self, pace_um: int) -> None:
         """Come to a pace within a cycle, as far as can be."""
@@ -98,8 +99,8 @@ def each_answer_takes_the_place_of_the_one_before() -> None:
         train.run(train.faster())
     held = train.system
     assert held.followed.age_cycles == 21
-    lost = train.step("answer", ranging=NOTHING, is_held=True)
-    assert lost == replace(held, followed=replace(held.followed, warns=True))
+    train.step("take_ranging", ranging=NOTHING)
+    assert train.step("answer") == replace(held, followed=replace(held.followed, warns=True))
 
 
 def an_answer_that_is_not_held_leaves_the_one_before() -> None:
@@ -107,11 +108,12 @@ def an_answer_that_is_not_held_leaves_the_one_before() -> None:
     train = Train(1_700_000, 30_000)
     assert train.answer() == 552
     train.run(2_000_000)
-    let_go = train.step("answer", ranging=train.ranging(), is_held=False)
+    let_go = train.step("take_ranging", ranging=train.ranging())
     assert (let_go.left_cycles, let_go.followed) == (551, train.followed())
     for way_mm, speed_mm_s, silent in ((1_000_000, 30_000, 0), (1_700_000, 30_000, 21)):
         train = Train(way_mm, speed_mm_s)
-        train.step("answer", ranging=train.ranging() if not silent else NOTHING, is_held=True)
+        train.step("take_ranging", ranging=train.ranging() if not silent else NOTHING)
+        train.step("answer")
         assert (train.system.left_cycles, train.system.followed.warns) == (0, True)
 
 
@@ -136,11 +138,12 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert train.step("arrive") == start
     for way_mm, speed_mm_s, age_cycles in ((2_000_001, 20_000, 0), (2_000_000, 19_999, 0), (2_006_001, 20_000, 2)):
         told = Ranging(True, way_mm, speed_mm_s, age_cycles)
-        assert train.step("answer", ranging=told, is_held=True) == start
+        assert train.step("take_ranging", ranging=told) == start
     for way_mm, speed_mm_s, age_cycles in ((2_000_000, 20_000, 0), (2_006_000, 19_800, 2)):
         within = Train(2_000_000, 20_000)
         told = Ranging(True, way_mm, speed_mm_s, age_cycles)
-        assert within.step("answer", ranging=told, is_held=True).left_cycles == 552
+        within.step("take_ranging", ranging=told)
+        assert within.step("answer").left_cycles == 552
     for to_um, pace_um in ((1_997_999_999, 2_000_000), (1_997_989_999, 2_010_000), (2_000_000_000, 2_010_001)):
         assert train.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == start
     train.run(2_010_000)
