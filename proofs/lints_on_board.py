@@ -33,7 +33,10 @@ TOLD: Mapping[str, Mapping[str, str]] = {
         "block_ends_mm": "the survey is what units are given",
         "head_mm": "a run begins once; under which runs trains count is no more than their names",
     },
-    "alarm_tone": {"bodies": "which trains there are on the line; of a train nothing but what is told of it"},
+    "alarm_tone": {
+        "bodies": "which trains there are on the line; of a train nothing but what is told of it",
+        "told": "a history of what the handset itself was told, and nothing else",
+    },
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }
 """Fields by theory that a machine may be told although they are no machine's; why.

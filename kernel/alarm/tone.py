@@ -12,6 +12,10 @@ things that are registered beforehand, for the paper's reason that they happen e
 
 All three lie in sections that are not to be used: a handset there does not sound the normal tone.
 
+A fix that its train cannot have reached since the one before, nor left before it, by the line's speed and what GPS
+errs, is not taken, and the fault tone sounds until one comes that fits: one of the two was wrong (ours).  Where either
+of them puts the train near, the alarm sounds.
+
 The order is alarm, fault, caution, normal.  The alarm comes first because it is what has to be obeyed at
 once, whatever else does not work.  The fault tone comes before caution because caution also says that all
 other trains are far, and that is not known then.  Nothing is kept from one decision to the next: the tone
@@ -43,7 +47,7 @@ from kernel.alarm.distance import (
     worker_off_um,
 )
 from kernel.maps import Map
-from kernel.onboard.arithmetic import larger
+from kernel.onboard.arithmetic import larger, magnitude
 
 ALARM_MM = 1_500_000
 CAUTION_MM = 3_000_000
@@ -127,14 +131,19 @@ class Display:
 
 @dataclass(frozen=True)
 class Known:
-    """What both sources say of a train (A2)."""
+    """What both sources say of a train (A2).
+
+    ``fix``: the last that fitted the one before it.  ``newest``: the last of all; ``jumped``: it did not fit (ours).
+    """
 
     fix: TrainFix
     display: Display
+    jumped: bool
+    newest: TrainFix
 
 
 NO_DISPLAY = Display(from_mm=0, to_mm=0, age_ms=GREATEST_AGE_MS + 1)
-NOTHING_KNOWN = Known(fix=NO_TRAIN_FIX, display=NO_DISPLAY)
+NOTHING_KNOWN = Known(fix=NO_TRAIN_FIX, display=NO_DISPLAY, jumped=False, newest=NO_TRAIN_FIX)
 """Of a train that the server names, and no source has told anything of (A2)."""
 
 
@@ -168,9 +177,11 @@ def older(handset: Handset, elapsed_ms: int) -> Handset:
 
 def older_known(known: Known, elapsed_ms: int) -> Known:
     """Let what is known of a train grow older (A1)."""
-    return Known(
+    return replace(
+        known,
         fix=distance.older_train(known.fix, elapsed_ms),
         display=replace(known.display, age_ms=older_ms(known.display.age_ms, elapsed_ms)),
+        newest=distance.older_train(known.newest, elapsed_ms),
     )
 
 
@@ -189,11 +200,25 @@ def note_gone(handset: Handset, gone: Train) -> Handset:
     return replace(handset, trains={train: known for train, known in handset.trains.items() if train != gone})
 
 
-def note_fix(handset: Handset, train: Train, fix: TrainFix) -> Handset:
-    """Note where GPS says that a train is; one that is not on the list stays unknown (A2)."""
+def jumps(bounds: AlarmBounds, before: TrainFix, fix: TrainFix) -> bool:
+    """Tell whether a train cannot have been where both fixes say, when they say it (A1, ours)."""
+    if not is_fix(before.place_mm, before.age_ms) or not is_fix(fix.place_mm, fix.age_ms):
+        return False
+    way_um = UM_A_MM * (magnitude(fix.place_mm - before.place_mm) - 2 * bounds.train_error_mm)
+    return way_um > bounds.train_mm_s * magnitude(fix.age_ms - before.age_ms)
+
+
+def note_fix(bounds: AlarmBounds, handset: Handset, train: Train, fix: TrainFix) -> Handset:
+    """Note where GPS says that a train is; one that is not on the list stays unknown (A2).
+
+    A fix that jumps is not taken, and it is kept that it did.
+    """
     if train not in handset.trains:
         return handset
-    return replace(handset, trains=handset.trains | {train: replace(handset.trains[train], fix=fix)})
+    known = handset.trains[train]
+    if jumps(bounds, known.fix, fix):
+        return replace(handset, trains=handset.trains | {train: replace(known, jumped=True, newest=fix)})
+    return replace(handset, trains=handset.trains | {train: replace(known, fix=fix, jumped=False, newest=fix)})
 
 
 def note_display(handset: Handset, train: Train, display: Display) -> Handset:
@@ -346,8 +371,10 @@ def may_be_on_its_way_through(register: Register, known: Known, worker: WorkerFi
 def may_be_near(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
     """Tell whether a train may be that near and not departing, as far as a source is fresh (A3 to A6).
 
-    The direction counts only where both sources agree.
+    The direction counts only where both sources agree.  Of a fix that jumped the place alone counts.
     """
+    if known.jumped and nearest_um(register.bounds, known.newest, worker) <= UM_A_MM * limit_mm:
+        return True
     if is_matched(register, known):
         return distance.may_approach_within(register.bounds, known.fix, worker, limit_mm) or (
             may_be_on_its_way_through(register, known, worker, limit_mm)
@@ -392,7 +419,7 @@ def is_faulty(register: Register, handset: Handset) -> bool:
         or not is_linked(register, handset)
         or is_not_to_be_used(register, handset.worker)
         or any(
-            not is_matched(register, known) and not is_registered(register, train, known)
+            known.jumped or (not is_matched(register, known) and not is_registered(register, train, known))
             for train, known in handset.trains.items()
         )
     )

@@ -3,6 +3,10 @@
 From one ranging to the next the train is held to be the worst that it may be: it gains speed as hard as it
 can, up to the greatest speed of the line.  The earliest arrival counts, and not the likely one (X2, ours).
 
+Each ranging is held against the one before (ours).  Both cannot be of this train if it would have had to be
+faster than the line allows, either way, or to gain more than it can, by more than rangings err: then the
+warning begins, whichever of the two was wrong.
+
 No division: instead of a time of arrival the rule asks whether the way ends within so many cycles.  Ways are
 in µm, and so are paces, which is what speeds are here: the way of one cycle.  mm/s times ms is µm.  All fits
 into 64 bits for speeds to 200 m/s, gains to 4 m/s², cycles to a second and warning times to two minutes.
@@ -12,7 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, larger
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, larger, magnitude
 
 UM_A_MM = 1_000
 
@@ -29,6 +33,8 @@ class ArrivalBounds:
     ``cycle_ms``: from one decision to the next.
     ``warning_cycles``: the crossing's warning time (X5).
     ``silence_cycles``: as long as a ranging counts; then it is lost (X3).
+    ``way_spread_mm``, ``speed_spread_mm_s``: of two exact rangings neither way nor speed differs by more through
+    errors alone; what is told of a ranging is its bound, so that is the whole width of its error (X1).
     """
 
     line_um: int
@@ -36,6 +42,8 @@ class ArrivalBounds:
     cycle_ms: int
     warning_cycles: int
     silence_cycles: int
+    way_spread_mm: int
+    speed_spread_mm_s: int
 
 
 @dataclass(frozen=True)
@@ -60,12 +68,15 @@ class Followed:
     ``way_um``: the nearest that its head may be to the crossing; ``short_um``: by how
     much it is slower than the greatest pace on the line, at least.
     ``age_cycles``: how old the ranging is that this rests on; beyond ``silence_cycles`` nothing is claimed.
+    ``told_way_mm``, ``told_speed_mm_s``: what that ranging told; of one that moves away, that it stands.
     ``warns``: it asks for the warning; it does so until it has passed.
     """
 
     way_um: int
     short_um: int
     age_cycles: int
+    told_way_mm: int
+    told_speed_mm_s: int
     warns: bool
 
 
@@ -104,6 +115,25 @@ def taken(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Follow
         way_um=UM_A_MM * ranging.way_mm - ranging.age_cycles * bounds.line_um,
         short_um=larger(0, bounds.line_um - pace_um),
         age_cycles=ranging.age_cycles,
+        told_way_mm=ranging.way_mm,
+        told_speed_mm_s=larger(0, ranging.speed_mm_s),
+    )
+
+
+def contradicts(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> bool:
+    """Tell whether a ranging and the one before cannot both be of this train, while both count (X1, ours).
+
+    A repeated or late one may be older than the one before: then it is the other that may have gained.
+    """
+    if not counts(bounds, ranging) or followed.age_cycles > bounds.silence_cycles:
+        return False
+    cycles = magnitude(followed.age_cycles - ranging.age_cycles)
+    way_um = UM_A_MM * magnitude(ranging.way_mm - followed.told_way_mm)
+    faster_mm_s = larger(0, ranging.speed_mm_s) - followed.told_speed_mm_s
+    gained_mm_s = faster_mm_s if ranging.age_cycles <= followed.age_cycles else -faster_mm_s
+    return (
+        way_um > UM_A_MM * bounds.way_spread_mm + cycles * bounds.line_um
+        or bounds.cycle_ms * gained_mm_s > bounds.cycle_ms * bounds.speed_spread_mm_s + cycles * bounds.gain_um
     )
 
 
@@ -131,6 +161,9 @@ def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
 
 
 def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
-    """Decide for the cycle that begins (X1, X2, X3); :func:`aged` is what is known at its end."""
+    """Decide for the cycle that begins (X1, X2, X3); :func:`aged` is what is known at its end.
+
+    A ranging that contradicts the one before is a fault, and warns now.
+    """
     now = taken(bounds, followed, ranging)
-    return replace(now, warns=must_warn(bounds, now))
+    return replace(now, warns=contradicts(bounds, followed, ranging) or must_warn(bounds, now))

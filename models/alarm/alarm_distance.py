@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.alarm import distance
-from kernel.alarm.distance import UM_A_MM, AlarmBounds, Direction, TrainFix, WorkerFix
-from kernel.onboard.arithmetic import larger, magnitude
+from kernel.alarm.distance import AlarmBounds, Direction, TrainFix, WorkerFix
+from models.measures import UM_A_MM, apart, greater
 
 
 @dataclass(frozen=True)
@@ -28,21 +28,33 @@ class Lookout:
 
     ``antenna_um``, ``heading``: where the train's antenna is, and which way it runs, or ran last if it stands.
     ``worker_um``: where the worker is.
-    ``train``, ``worker``: what the handset was last told of both, and how old that is.
+    ``told``: history: what was told of the train last, as old as it truly is by the age it was told with.
+    ``train``, ``worker``: what the handset holds of both.
     """
 
     antenna_um: int
     heading: Direction
     worker_um: int
+    told: TrainFix
     train: TrainFix
     worker: WorkerFix
+
+
+def is_report(place_mm: int, age_ms: int) -> bool:
+    """Tell whether a report can be of a line: within 1000 km of its origin, and an hour old at the most (ours; A1)."""
+    return -1_000_000_000 <= place_mm <= 1_000_000_000 and 0 <= age_ms <= 3_600_000
+
+
+def grown_older(told: TrainFix, elapsed_ms: int) -> TrainFix:
+    """Give a report after some time; one that can be of no line never was one (A1)."""
+    return replace(told, age_ms=told.age_ms + elapsed_ms) if is_report(told.place_mm, told.age_ms) else told
 
 
 def gap_um(site: Line, antenna_um: int, worker_um: int) -> int:
     """Give how far the train's nearer end is from the worker; below 0 where the train stands over him."""
     below_um = antenna_um - UM_A_MM * site.below_mm
     above_um = antenna_um + UM_A_MM * site.above_mm
-    return larger(below_um - worker_um, worker_um - above_um)
+    return greater(below_um - worker_um, worker_um - above_um)
 
 
 # ---- premises
@@ -58,7 +70,7 @@ def no_train_is_longer_than_written(site: Line) -> bool:
 
 def the_train_keeps_the_lines_speed(site: Line, from_um: int, to_um: int, elapsed_ms: int) -> bool:
     """No train is faster than the line's greatest speed, of which the written bound has a margin for clocks (A1)."""
-    return magnitude(to_um - from_um) <= site.bounds.train_mm_s * elapsed_ms
+    return apart(to_um, from_um) <= site.bounds.train_mm_s * elapsed_ms
 
 
 def the_train_runs_as_it_heads(system: Lookout, to_um: int, heading: Direction) -> bool:
@@ -70,24 +82,24 @@ def the_train_runs_as_it_heads(system: Lookout, to_um: int, heading: Direction) 
 
 def the_worker_keeps_a_walking_speed(site: Line, from_um: int, to_um: int, elapsed_ms: int) -> bool:
     """No worker moves along the line faster than is written (A1)."""
-    return magnitude(to_um - from_um) <= site.bounds.worker_mm_s * elapsed_ms
+    return apart(to_um, from_um) <= site.bounds.worker_mm_s * elapsed_ms
 
 
 def a_train_fix_is_within_its_error(site: Line, fix: TrainFix, at_um: int) -> bool:
     """A fix that is one was within the error of where the antenna was; the traffic display watches it (A1, A2)."""
-    return magnitude(at_um - UM_A_MM * fix.place_mm) <= UM_A_MM * site.bounds.train_error_mm
+    return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.bounds.train_error_mm
 
 
 def a_worker_fix_is_within_its_error(site: Line, fix: WorkerFix, at_um: int) -> bool:
     """A fix that is one was within the error of where the handset was (A1)."""
-    return magnitude(at_um - UM_A_MM * fix.place_mm) <= UM_A_MM * site.bounds.worker_error_mm
+    return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.bounds.worker_error_mm
 
 
-def no_train_turns_sooner(site: Line, fix: TrainFix, heading: Direction) -> bool:
+def no_train_turns_sooner(site: Line, told: TrainFix, heading: Direction) -> bool:
     """A train that was told to run one way does not run the other before it can have stopped and changed ends (A3)."""
-    if not distance.is_fix(fix.place_mm, fix.age_ms) or not fix.is_running or fix.age_ms > site.bounds.turning_ms:
+    if not is_report(told.place_mm, told.age_ms) or not told.is_running or told.age_ms > site.bounds.turning_ms:
         return True
-    return fix.direction in (Direction.UNKNOWN, heading)
+    return told.direction in (Direction.UNKNOWN, heading)
 
 
 # ---- transitions
@@ -95,20 +107,21 @@ def no_train_turns_sooner(site: Line, fix: TrainFix, heading: Direction) -> bool
 
 def run_on(site: Line, system: Lookout, elapsed_ms: int, to_um: int, heading: Direction, worker_to_um: int) -> Lookout:
     """Time passes: the train runs, stops or turns, the worker walks, and reports grow old (A1, A3)."""
-    train = distance.older_train(system.train, elapsed_ms)
+    told = grown_older(system.told, elapsed_ms)
     if not the_train_keeps_the_lines_speed(site, system.antenna_um, to_um, elapsed_ms):
         return system
     if not the_train_runs_as_it_heads(system, to_um, heading):
         return system
     if not the_worker_keeps_a_walking_speed(site, system.worker_um, worker_to_um, elapsed_ms):
         return system
-    if not no_train_turns_sooner(site, train, heading):
+    if not no_train_turns_sooner(site, told, heading):
         return system
     return Lookout(
         antenna_um=to_um,
         heading=heading,
         worker_um=worker_to_um,
-        train=train,
+        told=told,
+        train=distance.older_train(system.train, elapsed_ms),
         worker=distance.older_worker(system.worker, elapsed_ms),
     )
 
@@ -118,19 +131,21 @@ def take_train_fix(site: Line, system: Lookout, fix: TrainFix, at_um: int) -> Lo
 
     One out of its ranges may say anything.
     """
-    if distance.is_fix(fix.place_mm, fix.age_ms) and not (
+    counts = is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
         a_train_fix_is_within_its_error(site, fix, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, system.antenna_um, fix.age_ms)
     ):
         return system
     if not no_train_turns_sooner(site, fix, system.heading):
         return system
-    return replace(system, train=fix)
+    return replace(system, told=fix, train=fix)
 
 
 def take_worker_fix(site: Line, system: Lookout, fix: WorkerFix, at_um: int) -> Lookout:
     """The handset takes a fix of its own; ``at_um``: where it really was (A1).  Out of its ranges, any."""
-    if distance.is_fix(fix.place_mm, fix.age_ms) and not (
+    counts = is_report(fix.place_mm, fix.age_ms)
+    if counts and not (
         a_worker_fix_is_within_its_error(site, fix, at_um)
         and the_worker_keeps_a_walking_speed(site, at_um, system.worker_um, fix.age_ms)
     ):

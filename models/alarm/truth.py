@@ -113,7 +113,7 @@ def hold_trains(register: Any, day: Any, trains: Any, handset: Any, second: int,
         if trains.came_s[number] <= second < trains.left_s[number]:
             named += 1
             hold_train(register, trains, number, known, out)
-            if not is_matched(register, known) and not is_registered(register, number, known):
+            if known.jumped or (not is_matched(register, known) and not is_registered(register, number, known)):
                 unknown = True
     there = 0
     for index in range(trains.switched_on[TRAINS]):

@@ -56,6 +56,7 @@ ILL, BATTERY = KIND["servers_ill"], KIND["battery"]
 MESSAGES, JUMPED, TURNED, LIST_BROKEN = (NUMBER[name] for name in ("messages", "jumped", "turned", "list_broken"))
 AGE_BROKEN, DISPLAY_BROKEN = NUMBER["age_broken"], NUMBER["display_broken"]
 SPEED_MM_S, ERROR_MM, TURNING_MS = BOUNDS.train_mm_s, BOUNDS.train_error_mm, BOUNDS.turning_ms
+HELD_TO = packed(BOUNDS)
 SHOWN_OFF_MM = REGISTER.display_error_mm
 
 
@@ -65,8 +66,8 @@ class Trace(NamedTuple):
     ``seconds``: tone, the worker's place in mm, the least distance in mm to a train that has not departed, its number.
     ``places``: every train's place in m, NaN while it is not on the line.
     ``own``: from ``first_s`` on, the handset's own place in mm and that fix's age, the list's age, servers and battery.
-    ``told``: from ``first_s`` on, for each train on the list 1, then its last fix, place, age, direction, runs; and the
-    display, from, to, age.
+    ``told``: from ``first_s`` on, for each train on the list 1, then the last fix that fitted, place, age, direction,
+    runs; the display, from, to, age; whether its fix jumped; and the newest one, as the other.
     """
 
     seconds: Any
@@ -83,7 +84,7 @@ def trace(places: bool = False, first_s: int = 0, told_s: int = 0) -> Trace:
         np.full((SECONDS if places else 0, TRAINS), np.nan),
         first_s,
         np.zeros((told_s, 5), np.int64),
-        np.zeros((told_s, TRAINS, 8), np.int64),
+        np.zeros((told_s, TRAINS, 13), np.int64),
     )
 
 
@@ -104,6 +105,9 @@ def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
         fix, shown, told = known.fix, known.display, kept.told[row, train]
         told[0], told[1], told[2], told[3], told[4] = 1, fix.place_mm, fix.age_ms, fix.direction, fix.is_running
         told[5], told[6], told[7] = shown.from_mm, shown.to_mm, shown.age_ms
+        newest = known.newest
+        told[8], told[9], told[10] = known.jumped, newest.place_mm, newest.age_ms
+        told[11], told[12] = newest.direction, newest.is_running
 
 
 class Sent(NamedTuple):
@@ -207,7 +211,7 @@ def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s
             both = before.is_running and fix.is_running and before.direction != fix.direction
             if both and apart_ms <= TURNING_MS:
                 out[TURNED] += 1
-    return note_fix(handset, train, fix)
+    return note_fix(HELD_TO, handset, train, fix)
 
 
 @compiled(forceinline=True)

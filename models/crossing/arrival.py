@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.crossing import arrival
-from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Followed, Ranging
-from kernel.onboard.arithmetic import larger
+from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
+from models.measures import UM_A_MM, apart, greater
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,8 @@ class Coming:
     ``ranged``: the ranging that is under way or was the last one, with its true age.
     ``arrived``: its head has been seen at the crossing, or beyond.
     ``decided``: the crossing has decided for the cycle that begins.
+    ``told``: history: the ranging that the radio brought last of those that count, as old as it truly is made to be.
+    ``contradicted``: history: two rangings that counted, one after the other, cannot both have been of this train.
     ``worst``: history: what was known at the last decision not to warn; since then the worst that it allows.
     ``left_cycles``: history: within so many cycles it cannot arrive, by that decision.
     ``silent_cycles``: history: for how many decisions the radio has brought nothing.
@@ -40,11 +42,44 @@ class Coming:
     ranged: Ranging
     arrived: bool
     decided: bool
+    told: Ranging
+    contradicted: bool
     worst: Followed
     left_cycles: int
     silent_cycles: int
     warned_cycles: int
     followed: Followed
+
+
+# ---- what rangings tell, one beside the other
+
+
+def is_of_this_line(bounds: ArrivalBounds, ranging: Ranging) -> bool:
+    """Tell whether a ranging came, is within 100 km and 200 m/s, and no older than rangings count (ours; X1)."""
+    return (
+        ranging.valid
+        and -100_000_000 <= ranging.way_mm <= 100_000_000
+        and ranging.speed_mm_s <= 200_000
+        and 0 <= ranging.age_cycles <= bounds.silence_cycles
+    )
+
+
+def towards_mm_s(ranging: Ranging) -> int:
+    """Give how fast a ranging has the train come nearer; one that moves away does not."""
+    return greater(0, ranging.speed_mm_s)
+
+
+def cannot_both_be(site: Crossing, one: Ranging, other: Ranging) -> bool:
+    """Tell whether the train would be too fast for the line, or have gained too much, for both to be within errors."""
+    between_cycles = apart(one.age_cycles, other.age_cycles)
+    faster_mm_s = towards_mm_s(other) - towards_mm_s(one)
+    gained_mm_s = faster_mm_s if other.age_cycles <= one.age_cycles else -faster_mm_s
+    return (
+        UM_A_MM * apart(one.way_mm, other.way_mm)
+        > UM_A_MM * site.bounds.way_spread_mm + between_cycles * site.bounds.line_um
+        or site.bounds.cycle_ms * gained_mm_s
+        > site.bounds.cycle_ms * site.bounds.speed_spread_mm_s + between_cycles * site.bounds.gain_um
+    )
 
 
 # ---- premises
@@ -88,7 +123,7 @@ def a_decision_begins_each_cycle(system: Coming) -> bool:
 
 def the_way_follows_the_speed(site: Crossing, system: Coming, to_um: int, pace_um: int) -> bool:
     """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
-    return system.way_um - to_um <= larger(system.pace_um, pace_um)
+    return system.way_um - to_um <= greater(system.pace_um, pace_um)
 
 
 def the_train_gains_no_more(site: Crossing, system: Coming, pace_um: int) -> bool:
@@ -122,11 +157,26 @@ def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
         return system
     followed = arrival.follow(site.bounds, system.followed, ranging)
     silent_cycles = 0 if ranging.valid else system.silent_cycles + 1
+    told = ranging if is_of_this_line(site.bounds, ranging) else system.told
+    contradicted = system.contradicted or (
+        is_of_this_line(site.bounds, ranging)
+        and is_of_this_line(site.bounds, system.told)
+        and cannot_both_be(site, system.told, ranging)
+    )
     if followed.warns:
-        return replace(system, decided=True, silent_cycles=silent_cycles, followed=followed)
+        return replace(
+            system,
+            decided=True,
+            told=told,
+            contradicted=contradicted,
+            silent_cycles=silent_cycles,
+            followed=followed,
+        )
     return replace(
         system,
         decided=True,
+        told=told,
+        contradicted=contradicted,
         worst=followed,
         left_cycles=site.bounds.warning_cycles + 2,
         silent_cycles=silent_cycles,
@@ -146,6 +196,7 @@ def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Com
         pace_um=pace_um,
         ranged=replace(system.ranged, age_cycles=system.ranged.age_cycles + 1),
         decided=False,
+        told=replace(system.told, age_cycles=system.told.age_cycles + 1),
         left_cycles=system.left_cycles - 1,
         warned_cycles=system.warned_cycles + 1 if system.followed.warns else 0,
         followed=arrival.aged(site.bounds, system.followed),

@@ -24,6 +24,7 @@ ASSUMPTIONS: Mapping[str, str] = {
 }
 MONITORS: Mapping[str, str] = {
     "lost": "trains of which the ranging was lost before they were past (X3)",
+    "contradicted": "rangings that contradicted the one before of a train that was not past: warned of at once (X1)",
     "silences": "warnings for a start point's silent terminal (T14)",
     "conventional": "trains under conventional control (X3)",
     "released": "trains that a person released (X4)",

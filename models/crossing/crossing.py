@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
 from kernel.maps import Map
-from kernel.onboard.arithmetic import larger
+from models.measures import greater
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,15 @@ class Body:
 
     ``track``: which it is on.  ``inside``: it has passed the start point.
     ``left_cycles``: within so many cycles it cannot arrive.
-    ``has_asked``: history: the crossing has warned for it.
+    ``was_struck``: history: a terminal told of it, which was not in contact.
+    ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it.
     ``was_known``: history: the crossing knew of it when it last let the arms up.
     """
 
     track: CrossingTrack
     inside: bool
     left_cycles: int
+    was_struck: bool
     has_asked: bool
     was_known: bool
 
@@ -61,6 +63,7 @@ class Level:
 
     ``in_service``: its settings have been checked.
     ``bodies``: all trains that are on their way.  ``crossing``: the machine.
+    ``told``: history: whom it was told of, by contact or strike, and not yet that they are gone.
     ``decided``: it has decided for the cycle that begins.
     ``lowered_cycles``: for how long its arms have been lowered or held down.
     ``are_down``, ``down_cycles``: they are down, and for how many whole cycles.
@@ -71,6 +74,7 @@ class Level:
 
     in_service: bool
     bodies: Map[Train, Body]
+    told: frozenset[Train]
     crossing: Crossing
     decided: bool
     lowered_cycles: int
@@ -90,8 +94,8 @@ def nobody_comes_before_the_check(system: Level) -> bool:
 
 
 def a_train_comes_as_new(system: Level, train: Train) -> bool:
-    """Nobody comes under a name by which the crossing still knows somebody; who turned back makes contact anew (X1)."""
-    return train not in system.bodies and train not in system.crossing.asks
+    """Nobody comes under a name of which the crossing was told, and not yet that he is gone (X1)."""
+    return train not in system.bodies and train not in system.told
 
 
 def a_train_comes_on_a_track(site: Road, track: CrossingTrack) -> bool:
@@ -119,9 +123,7 @@ def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -
 
     A strike is put down to a train in contact only if that has made it.
     """
-    return all(
-        train in system.crossing.asks for train, body in system.bodies.items() if body.track == track and body.inside
-    )
+    return all(train in system.told for train, body in system.bodies.items() if body.track == track and body.inside)
 
 
 def a_decision_begins_each_cycle(system: Level) -> bool:
@@ -163,7 +165,7 @@ def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cyc
         return system
     if not a_train_comes_as_new(system, train):
         return system
-    body = Body(track, inside=False, left_cycles=left_cycles, has_asked=False, was_known=False)
+    body = Body(track, inside=False, left_cycles=left_cycles, was_struck=False, has_asked=False, was_known=False)
     return replace(system, bodies=system.bodies | {train: body})
 
 
@@ -172,7 +174,7 @@ def pass_start_point(site: Road, system: Level, train: Train) -> Level:
     if not a_start_point_is_passed_once(system, train):
         return system
     body = system.bodies[train]
-    left_cycles = larger(body.left_cycles, site.settings.start_cycles)
+    left_cycles = greater(body.left_cycles, site.settings.start_cycles)
     return replace(system, bodies=system.bodies | {train: replace(body, inside=True, left_cycles=left_cycles)})
 
 
@@ -195,12 +197,21 @@ def leave(site: Road, system: Level, gone: Train) -> Level:
 
 def make_contact(site: Road, system: Level, train: Train) -> Level:
     """Radio contact with a train begins (003, 2.3)."""
-    return replace(system, crossing=machine.note_contact(system.crossing, train))
+    return replace(system, told=system.told | {train}, crossing=machine.note_contact(system.crossing, train))
 
 
 def hear_strike(site: Road, system: Level, train: Train) -> Level:
     """A terminal tells of a train at its start point; of one that is there, or of none (X3, T14)."""
-    return replace(system, crossing=machine.note_struck(system.crossing, train))
+    is_new = train not in system.told
+    return replace(
+        system,
+        bodies={
+            other: replace(body, was_struck=body.was_struck or (other == train and is_new))
+            for other, body in system.bodies.items()
+        },
+        told=system.told | {train},
+        crossing=machine.note_struck(system.crossing, train),
+    )
 
 
 def hear_terminal(site: Road, system: Level, track: CrossingTrack) -> Level:
@@ -218,14 +229,18 @@ def tell_gone(site: Road, system: Level, gone: Train, is_whole: bool) -> Level:
     """A train's rear is proved out of the approach, at either end of it (X4, T14)."""
     if not a_whole_train_told_gone_is_gone(system, gone, is_whole):
         return system
-    return replace(system, crossing=machine.note_gone(system.crossing, gone, is_whole))
+    return replace(
+        system,
+        told=system.told - {gone} if is_whole else system.told,
+        crossing=machine.note_gone(system.crossing, gone, is_whole),
+    )
 
 
 def release(site: Road, system: Level, gone: Train) -> Level:
     """A person on site releases a train that does not come any more (X4)."""
     if not a_person_releases_what_is_gone(system, gone):
         return system
-    return replace(system, crossing=machine.note_released(system.crossing, gone))
+    return replace(system, told=system.told - {gone}, crossing=machine.note_released(system.crossing, gone))
 
 
 # ---- cycles
@@ -250,11 +265,12 @@ def decide(site: Road, system: Level, dues: Map[Train, Due]) -> Level:
         bodies={
             train: replace(
                 body,
-                left_cycles=larger(body.left_cycles, secured_cycles(warning_cycles, reopening_cycles, dues[train]))
-                if train in crossing.asks and not crossing.asks[train]
+                left_cycles=greater(body.left_cycles, secured_cycles(warning_cycles, reopening_cycles, dues[train]))
+                if train in dues and dues[train] != Due.NOW
                 else body.left_cycles,
-                has_asked=body.has_asked or (train in crossing.asks and crossing.asks[train]),
-                was_known=train in crossing.asks if opens else body.was_known,
+                has_asked=body.has_asked
+                or (train in system.told and (body.was_struck or train not in dues or dues[train] == Due.NOW)),
+                was_known=train in system.told if opens else body.was_known,
             )
             for train, body in system.bodies.items()
         },

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
-from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Due, Settings
-from kernel.onboard.arithmetic import larger
 from models.crossing.crossing import secured_cycles
+from models.measures import UM_A_MM, greater
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class Answered:
     """One moment of a train.
 
     ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
+    ``followed``: what the crossing knows.
     ``worst``: history: what was known at the answer that is held; since then the worst that it allows.
     ``left_cycles``: within so many cycles it cannot arrive, by that answer.
     ``sooner_cycles``: history: how much of that was left when its head was last met at the crossing.
@@ -34,6 +36,7 @@ class Answered:
 
     way_um: int
     pace_um: int
+    followed: Followed
     worst: Followed
     left_cycles: int
     sooner_cycles: int
@@ -43,10 +46,11 @@ class Answered:
 
 
 def bounds_are_above_zero(site: Way) -> bool:
-    """Trains move and gain speed, and the road is opened for a while (X2, X4)."""
+    """Trains move and gain speed, cycles last, and the road is opened for a while (X2, X4)."""
     return (
         site.bounds.line_um > 0
         and site.bounds.gain_um > 0
+        and site.bounds.cycle_ms > 0
         and site.bounds.warning_cycles >= 0
         and site.settings.reopening_cycles >= 0
     )
@@ -55,17 +59,17 @@ def bounds_are_above_zero(site: Way) -> bool:
 # ---- assumptions
 
 
-def what_is_followed_bounds_the_train(site: Way, system: Answered, followed: Followed) -> bool:
-    """While a ranging counts, the train is no nearer and no faster than it is held to be (X2)."""
-    return (
-        followed.age_cycles > site.bounds.silence_cycles
-        or (followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - followed.short_um)
-    ) and 0 <= followed.short_um <= site.bounds.line_um
+def the_ranging_bounds_the_train(site: Way, system: Answered, ranging: Ranging) -> bool:
+    """By a ranging and its age the head is no nearer and no faster, as ``arrival`` proves of all that it takes (X1)."""
+    return not ranging.valid or (
+        UM_A_MM * ranging.way_mm - ranging.age_cycles * site.bounds.line_um <= system.way_um
+        and system.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um
+    )
 
 
 def the_way_follows_the_speed(system: Answered, to_um: int, pace_um: int) -> bool:
     """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
-    return system.way_um - to_um <= larger(system.pace_um, pace_um)
+    return system.way_um - to_um <= greater(system.pace_um, pace_um)
 
 
 def the_train_gains_no_more(site: Way, system: Answered, pace_um: int) -> bool:
@@ -86,21 +90,26 @@ def who_is_at_the_crossing_has_come_all_the_way(system: Answered) -> bool:
 # ---- transitions
 
 
-def answer(site: Way, system: Answered, followed: Followed) -> Answered:
-    """The ground unit answers by what it knows of the train, and what that secures is held against it (X2, X4).
+def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
+    """The ground unit takes a ranging, or none came (X1)."""
+    if not the_ranging_bounds_the_train(site, system, ranging):
+        return system
+    return replace(system, followed=arrival.follow(site.bounds, system.followed, ranging))
+
+
+def answer(site: Way, system: Answered) -> Answered:
+    """It answers by what it knows of the train, and what that secures is held against it (X2, X4).
 
     Any answer may be the one that is held: those that are not did not happen here.
     """
-    if not what_is_followed_bounds_the_train(site, system, followed):
-        return system
-    due = machine.due(site.bounds, followed, site.settings.reopening_cycles)
+    due = machine.due(site.bounds, system.followed, site.settings.reopening_cycles)
     warning_cycles, reopening_cycles = site.bounds.warning_cycles, site.settings.reopening_cycles
     if due == Due.NEAR:
         near_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.NEAR)
-        return replace(system, worst=followed, left_cycles=near_cycles)
+        return replace(system, worst=system.followed, left_cycles=near_cycles)
     if due == Due.FAR:
         far_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.FAR)
-        return replace(system, worst=followed, left_cycles=far_cycles)
+        return replace(system, worst=system.followed, left_cycles=far_cycles)
     return system
 
 
@@ -111,6 +120,7 @@ def run_a_cycle(site: Way, system: Answered, to_um: int, pace_um: int) -> Answer
     if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_the_line_speed(site, pace_um):
         return system
     run = replace(system, way_um=to_um, pace_um=pace_um, left_cycles=system.left_cycles - 1)
+    run = replace(run, followed=arrival.aged(site.bounds, system.followed))
     if system.worst.short_um <= site.bounds.gain_um:
         return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - site.bounds.line_um, short_um=0))
     short_um = system.worst.short_um - site.bounds.gain_um

@@ -10,7 +10,7 @@ from models.compiled import compile_machines, packed
 
 MADE = compile_machines([arrival, crossing])
 NOTHING = packed(Ranging(False, 0, 0, 0))
-UNKNOWN = packed(Followed(0, 0, 10**6, False))
+UNKNOWN = packed(Followed(0, 0, 10**6, 0, 0, False))
 """Of a train of which there is no ranging."""
 OPEN = Crossing(asks={}, silent_cycles={}, warns=False, warned_cycles=0)
 """A crossing before anything is told."""

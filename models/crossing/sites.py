@@ -60,6 +60,7 @@ class Trial:
     ``way_sigma_m``, ``multipath_m``, ``speed_sigma_m_s``, ``loss``: of ranging; a bias of so much either way.
     ``excess``: how far a limit may be exceeded.
     ``likely_m_s2``: what the paper's reckoning takes a train to gain from a standstill: 3.3 km/h/s (practice).
+    ``brakes_m_s2``: the most that a driver slows down by (practice).
     ``loss``: seconds in which none of the radios in reach brings a ranging.
     """
 
@@ -80,6 +81,7 @@ class Trial:
     loss: float
     excess: float = EXCESS
     likely_m_s2: float = 0.92
+    brakes_m_s2: float = 1.2
 
     @property
     def way_error_m(self) -> float:
@@ -91,6 +93,16 @@ class Trial:
         """The bound of a speed: noise, and that a mean over two seconds lags by one."""
         return self.gain_m_s2 + 4 * self.speed_sigma_m_s
 
+    @property
+    def way_spread_m(self) -> float:
+        """The width of a ranging's error: as much to either side."""
+        return 2 * self.way_error_m
+
+    @property
+    def speed_spread_m_s(self) -> float:
+        """The width of a speed's error: noise to either side, and that its mean lags, gaining or braking."""
+        return 8 * self.speed_sigma_m_s + self.gain_m_s2 + self.brakes_m_s2
+
     def bounds(self, kind: Kind) -> ArrivalBounds:
         """What the kernel holds a kind of train to: the train's identification tells its kind (003, 2.4)."""
         return ArrivalBounds(
@@ -99,6 +111,8 @@ class Trial:
             cycle_ms=SETTINGS.cycle_ms,
             warning_cycles=SETTINGS.warning_cycles,
             silence_cycles=3,
+            way_spread_mm=1 + round(1e3 * self.way_spread_m),
+            speed_spread_mm_s=1 + round(1e3 * self.speed_spread_m_s),
         )
 
     def start_um(self, kind: Kind) -> int:

@@ -21,7 +21,7 @@ from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 SET = packed(SETTINGS)
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
-follow, decide = MADE.arrival.follow, MADE.crossing.decide
+follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 note_contact, note_struck, note_heard = MADE.crossing.note_contact, MADE.crossing.note_struck, MADE.crossing.note_heard
 note_gone, note_released = MADE.crossing.note_gone, MADE.crossing.note_released
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
@@ -34,7 +34,9 @@ LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENC
 GAIN_BROKEN, STRIKE_BROKEN, REAR_BROKEN, ARMS_BROKEN, START_BROKEN = (
     NUMBER[name] for name in ("gain_broken", "strike_broken", "rear_broken", "arms_broken", "start_broken")
 )
-LOST, SILENCES, CONVENTIONAL, RELEASED = (NUMBER[name] for name in ("lost", "silences", "conventional", "released"))
+LOST, CONTRADICTED, SILENCES, CONVENTIONAL, RELEASED = (
+    NUMBER[name] for name in ("lost", "contradicted", "silences", "conventional", "released")
+)
 CLOSED, OLD_CLOSED, BEYOND, OLD_BEYOND, NEEDLESS, HELD, OLD_SHORT = (
     NUMBER[name]
     for name in ("closed_s", "old_closed_s", "beyond_s", "old_beyond_s", "needless", "held", "old_short_openings")
@@ -62,7 +64,7 @@ LINE = np.dtype(
     [
         *((name, np.float64, (2,)) for name in ("limit_m_s",)),
         *((name, np.int64, (2,)) for name in ("length_um", "stops", "line_um", "start_um", "old_um")),
-        *((name, np.int64) for name in ("gain_um", "silence_cycles")),
+        *((name, np.int64) for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s")),
         *((name, np.float64) for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s")),
         *((name, np.float64) for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2")),
     ]
@@ -72,7 +74,7 @@ RUN = np.dtype(
     [
         *((name, np.int64) for name in ("state", "way_um", "before_um", "last_um", "pace_um", "stage")),
         *((name, np.int64) for name in ("dwelt_s", "stood_s", "contact", "warns", "lost", "gone", "was_known", "name")),
-        *((name, np.int64) for name in ("near_um", "short_um", "age_cycles")),
+        *((name, np.int64) for name in ("near_um", "short_um", "age_cycles", "followed_way_mm", "followed_mm_s")),
         *((name, np.int64) for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s")),
         *((name, np.int64, (KEPT,)) for name in ("told_way_mm", "told_speed_mm_s", "told_s")),
         ("bias", np.float64),
@@ -80,7 +82,7 @@ RUN = np.dtype(
 )
 """What becomes of a train; times are -1 until then.
 
-``near_um``, ``short_um``, ``age_cycles``, ``warns``: what is followed of it.  ``asked_s``: when the warning was first
+``near_um`` to ``followed_mm_s``, ``warns``: what is followed of it.  ``asked_s``: when the warning was first
 asked for.  ``old_s``: when the old crossing's start point was struck; ``struck_s``: ours.
 ``name``: by which the strike is told, -1 if nothing is to be told.
 ``likely_s``: when the paper's reckoning would have warned.
@@ -111,8 +113,8 @@ def line_of(trial: Trial) -> Any:
     line["line_um"] = [trial.bounds(kind).line_um for kind in kinds]
     line["start_um"] = [trial.start_um(kind) for kind in kinds]
     line["old_um"] = [trial.conventional_um(kind) for kind in kinds]
-    line["gain_um"] = trial.bounds(kinds[0]).gain_um
-    line["silence_cycles"] = trial.bounds(kinds[0]).silence_cycles
+    for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s"):
+        line[name] = getattr(trial.bounds(kinds[0]), name)
     for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s"):
         line[name] = getattr(trial, name)
     for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2"):
@@ -123,7 +125,15 @@ def line_of(trial: Trial) -> Any:
 @compiled
 def bounds_of(line: Any, kind: Any) -> Any:
     """Give what the kernel holds a kind of train to."""
-    return ArrivalBounds(line.line_um[kind], line.gain_um, SET.cycle_ms, SET.warning_cycles, line.silence_cycles)
+    return ArrivalBounds(
+        line.line_um[kind],
+        line.gain_um,
+        SET.cycle_ms,
+        SET.warning_cycles,
+        line.silence_cycles,
+        line.way_spread_mm,
+        line.speed_spread_mm_s,
+    )
 
 
 def run_of(day: Day) -> Records:
@@ -237,6 +247,15 @@ def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -
 
 
 @compiled
+def followed_of(run: Any, train: int) -> Any:
+    """Give what is followed of a train."""
+    held = run[train]
+    return Followed(
+        held.near_um, held.short_um, held.age_cycles, held.followed_way_mm, held.followed_mm_s, held.warns == 1
+    )
+
+
+@compiled
 def follow_train(
     day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
 ) -> Any:
@@ -252,8 +271,9 @@ def follow_train(
         crossing = note_contact(crossing, train)
         known = taken(bounds, UNKNOWN, told)
     else:
-        held = run[train]
-        known = follow(bounds, Followed(held.near_um, held.short_um, held.age_cycles, held.warns == 1), told)
+        held = followed_of(run, train)
+        out[CONTRADICTED] += run[train].arrived_s < 0 and contradicts(bounds, held, told)
+        known = follow(bounds, held, told)
     if known.age_cycles > bounds.silence_cycles and run[train].lost == 0:
         run[train].lost = 1
         out[LOST] += run[train].arrived_s < 0
@@ -262,6 +282,7 @@ def follow_train(
     dues.append((train, due_of(bounds, known, settings.reopening_cycles)))
     later = aged_train(bounds, known)
     run[train].near_um, run[train].short_um = later.way_um, later.short_um
+    run[train].followed_way_mm, run[train].followed_mm_s = later.told_way_mm, later.told_speed_mm_s
     run[train].age_cycles, run[train].warns = later.age_cycles, int(known.warns)
     return crossing
 

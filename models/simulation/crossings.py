@@ -36,6 +36,8 @@ BOUNDS = ArrivalBounds(
     cycle_ms=SETTINGS.cycle_ms,
     warning_cycles=SETTINGS.warning_cycles,
     silence_cycles=5,
+    way_spread_mm=100_000,
+    speed_spread_mm_s=3_000,
 )
 """Some more than trains are driven by; two rangings in a row may be lost."""
 START_MM = (SETTINGS.start_cycles + 1) * BOUNDS.line_um // 1_000
@@ -191,7 +193,7 @@ class Crossings:
                 known = arrival.follow(BOUNDS, state.followed[train], ranging)
             elif arrival.counts(BOUNDS, ranging):
                 state.crossing = machine.note_contact(state.crossing, Known(train))
-                known = arrival.taken(BOUNDS, Followed(0, 0, 10**6, False), ranging)
+                known = arrival.taken(BOUNDS, Followed(0, 0, 10**6, 0, 0, False), ranging)
             else:
                 continue
             dues[Known(train)] = machine.due(BOUNDS, known, SETTINGS.reopening_cycles)

@@ -19,12 +19,13 @@ class Station:
 class Air:
     """One moment.
 
-    ``heard``: what the station has.  ``age_ms``: how old the data are, truly, that the tram answered with last,
-    in its slot and so that it was understood.  ``answered``: it did in this cycle, ``answered_last``: in the
-    one before.
+    ``heard``: what the station has.  ``slot``: the one in which the tram is asked, from 0.
+    ``age_ms``: how old the data are, truly, that the tram answered with last, in its slot and so that it was
+    understood.  ``answered``: it did in this cycle, ``answered_last``: in the one before.
     """
 
     heard: Heard
+    slot: int
     age_ms: int
     answered: bool
     answered_last: bool
@@ -38,6 +39,12 @@ def time_runs_forward(elapsed_ms: int) -> bool:
 def data_are_no_older_than_told(answer: Answer, true_age_ms: int) -> bool:
     """The delay that a tram tells covers what its data are old, and the way through the air (table 1)."""
     return true_age_ms <= answer.age_ms
+
+
+def is_within_its_slot(site: Station, slot: int, at_ms: int) -> bool:
+    """Tell whether an answer that begins then is sent in a slot, all of it (002, figure 2)."""
+    begins_ms = site.limits.request_ms + slot * site.limits.slot_ms
+    return begins_ms <= at_ms and at_ms + site.limits.answer_ms <= begins_ms + site.limits.slot_ms
 
 
 def pass_time(site: Station, system: Air, elapsed_ms: int) -> Air:
@@ -54,7 +61,7 @@ def receive(site: Station, system: Air, answer: Answer, true_age_ms: int) -> Air
     """
     if not data_are_no_older_than_told(answer, true_age_ms):
         return system
-    is_answer = answer.is_sound and answer.is_asked and machine.is_in_slot(site.limits, system.heard.slot, answer.at_ms)
+    is_answer = answer.is_sound and answer.is_asked and is_within_its_slot(site, system.slot, answer.at_ms)
     return replace(
         system,
         heard=machine.note_answer(site.limits, system.heard, answer),

@@ -13,7 +13,7 @@ from kernel.maps import Map
 from kernel.tram import centre as machine
 from kernel.tram import display as on_board
 from kernel.tram.centre import Centre, Command, Tram
-from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report, mark
+from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report
 from kernel.tram.display import Display
 
 
@@ -66,8 +66,13 @@ class Traffic:
     given: Given
 
 
+def mark(stop: int, left: bool) -> int:
+    """Number the places of the way: even at a stop, odd in the section after it; greater is farther on (G2)."""
+    return 2 * stop + (1 if left else 0)
+
+
 def place(body: Body) -> int:
-    """Number the places of the way, as the kernel does (G2)."""
+    """Give where a tram is on the way (G2)."""
     return mark(body.stop, body.left)
 
 
@@ -171,7 +176,13 @@ def a_report_tells_where_it_was(system: Traffic, tram: Tram, report: Report) -> 
 
 def the_frame_carries_the_order(tram: Tram, order: Order, command: Command) -> bool:
     """What goes out is what was ordered, for the tram that it was ordered for (G3)."""
-    return command.tram == tram and machine.order_in(command) == order
+    return (
+        command.tram == tram
+        and command.stop == order.stop
+        and command.holds == order.holds
+        and command.recovers == order.recovers
+        and command.made_ms == order.made_ms
+    )
 
 
 def only_what_was_sent_arrives(system: Traffic, command: Command) -> bool:

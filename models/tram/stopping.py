@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import magnitude
 from kernel.tram import stopping as machine
-from kernel.tram.dispatching import mark
-from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping
+from kernel.tram.stopping import Fix, StopLimits, Stopping
+from models.measures import apart
 
 
 @dataclass(frozen=True)
@@ -26,13 +25,15 @@ class Street:
 class Ride:
     """One moment.
 
-    ``at_mm``: where the tram is.  ``here_mm``, ``next_mm``: the stop that its unit reached last, the next one.
+    ``at_mm``: where the tram is.  ``here``: how many stops its unit has come to, by the places in its table;
+    ``here_mm``, ``next_mm``: where the last of them is, and the next one.
     Histories: ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
     ``stood_at_mm``: where it was when it began to stand.  ``wandered``: a fix made it run that still stood there.
     ``fell_back``: one put it farther back.
     """
 
     at_mm: int
+    here: int
     here_mm: int
     next_mm: int
     stopping: Stopping
@@ -56,12 +57,17 @@ def trams_do_not_run_backwards(way_mm: int) -> bool:
 
 def a_place_is_within_its_error(site: Street, system: Ride, fix: Fix) -> bool:
     """Map matching errs by no more than is written (G1, G7)."""
-    return not fix.is_placed or magnitude(fix.place_mm - system.at_mm) <= site.error_mm
+    return not fix.is_placed or apart(fix.place_mm, system.at_mm) <= site.error_mm
 
 
 def a_speed_is_within_its_error(site: Street, fix: Fix, speed_mm_s: int) -> bool:
     """So does the speed that the unit takes from the wheels (2.3.1)."""
-    return not fix.has_speed or magnitude(fix.speed_mm_s - speed_mm_s) <= site.speed_error_mm_s
+    return not fix.has_speed or apart(fix.speed_mm_s, speed_mm_s) <= site.speed_error_mm_s
+
+
+def fell(before: Stopping, now: Stopping) -> bool:
+    """Tell whether a unit tells less of the way than it did: an earlier stop, or one that it had left (G2)."""
+    return now.stop < before.stop or (now.stop == before.stop and before.left and not now.left)
 
 
 def the_table_has_the_stops(system: Ride, here_mm: int, next_mm: int) -> bool:
@@ -79,7 +85,10 @@ def run_on(site: Street, system: Ride, way_mm: int) -> Ride:
 def take_fix(
     site: Street, system: Ride, fix: Fix, speed_mm_s: int, here_mm: int, next_mm: int, further_mm: int
 ) -> Ride:
-    """The unit takes a fix; ``further_mm``: the stop after the next one, wherever (G2)."""
+    """The unit takes a fix; ``further_mm``: the stop after the next one, wherever (G2).
+
+    5 km/h, below which a fix tells of one that stands, are the paper's (002, 3.1.2), rounded up to whole mm/s.
+    """
     if not a_place_is_within_its_error(site, system, fix) or not a_speed_is_within_its_error(site, fix, speed_mm_s):
         return system
     if not the_table_has_the_stops(system, here_mm, next_mm):
@@ -88,10 +97,11 @@ def take_fix(
     now = machine.note_fix(site.limits, before, here_mm, next_mm, fix)
     has_come = now.stop > before.stop
     is_still = before.stands and system.at_mm == system.stood_at_mm
-    is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < SLOW_MM_S
+    is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389
     begins = now.stands and (has_come or not before.stands)
     return replace(
         system,
+        here=system.here + 1 if has_come else system.here,
         here_mm=system.next_mm if has_come else system.here_mm,
         next_mm=further_mm if has_come else system.next_mm,
         stopping=now,
@@ -99,5 +109,5 @@ def take_fix(
         speed_mm_s=speed_mm_s,
         stood_at_mm=system.at_mm if begins else system.stood_at_mm,
         wandered=system.wandered or (is_still and is_told and not (now.stands and not has_come)),
-        fell_back=system.fell_back or mark(now.stop, now.left) < mark(before.stop, before.left),
+        fell_back=system.fell_back or fell(before, now),
     )

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from kernel.alarm import distance
-from kernel.alarm.distance import PAST_MM, UM_A_MM, Direction
-from kernel.onboard.arithmetic import magnitude
+from kernel.alarm.distance import Direction
 from models.alarm.alarm_distance import (
     Line,
     Lookout,
     gap_um,
+    is_report,
     no_train_is_longer_than_written,
     no_train_turns_sooner,
     run_on,
     take_train_fix,
     take_worker_fix,
 )
+from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -22,26 +23,30 @@ from proofs.theory import Theory, by_name
 
 def nothing_was_told(site: Line, system: Lookout) -> bool:
     """At the start nothing is known of train and worker, wherever they are (A8)."""
-    return system.train == distance.NO_TRAIN_FIX and system.worker == distance.NO_WORKER_FIX
+    return (
+        system.train == distance.NO_TRAIN_FIX
+        and system.worker == distance.NO_WORKER_FIX
+        and not is_report(system.told.place_mm, system.told.age_ms)
+    )
 
 
 # ---- safety
 
 
 def no_train_is_nearer_than_reckoned(site: Line, system: Lookout) -> bool:
-    """Where both have a fix, each part of the train is at least as far from the worker as reckoned (A1)."""
-    return not both_have_a_fix(system) or (
-        distance.nearest_um(site.bounds, system.train, system.worker)
-        <= gap_um(site, system.antenna_um, system.worker_um)
-    )
+    """Where both have a fix no part of the train is nearer to the worker than reckoned; else it may be at him (A1)."""
+    reckoned_um = distance.nearest_um(site.bounds, system.train, system.worker)
+    if not both_have_a_fix(system):
+        return reckoned_um <= 0
+    return reckoned_um <= gap_um(site, system.antenna_um, system.worker_um)
 
 
 def a_departing_train_has_passed_and_goes_away(site: Line, system: Lookout) -> bool:
-    """What departs is past by 100 m from end to end, and ran last away from the worker (A3)."""
+    """What departs is past by 100 m (004, 3.3) from end to end, and ran last away from the worker (A3)."""
     if not distance.is_departing(site.bounds, system.train, system.worker):
         return True
     away = Direction.DOWN if system.antenna_um > system.worker_um else Direction.UP
-    return gap_um(site, system.antenna_um, system.worker_um) >= UM_A_MM * PAST_MM and system.heading == away
+    return gap_um(site, system.antenna_um, system.worker_um) >= UM_A_MM * 100_000 and system.heading == away
 
 
 # ---- what it rests on
@@ -49,30 +54,32 @@ def a_departing_train_has_passed_and_goes_away(site: Line, system: Lookout) -> b
 
 def both_have_a_fix(system: Lookout) -> bool:
     """Tell whether something is known of both."""
-    return distance.is_fix(system.train.place_mm, system.train.age_ms) and distance.is_fix(
-        system.worker.place_mm, system.worker.age_ms
-    )
+    train, worker = system.train, system.worker
+    return is_report(train.place_mm, train.age_ms) and is_report(worker.place_mm, worker.age_ms)
 
 
 def the_train_is_within_reach_of_its_fix(site: Line, system: Lookout) -> bool:
     """The antenna has got no farther from where it was told than error and age allow (A1)."""
-    return not distance.is_fix(system.train.place_mm, system.train.age_ms) or (
-        magnitude(system.antenna_um - UM_A_MM * system.train.place_mm)
-        <= distance.train_off_um(site.bounds, system.train)
+    return not is_report(system.train.place_mm, system.train.age_ms) or (
+        apart(system.antenna_um, UM_A_MM * system.train.place_mm) <= distance.train_off_um(site.bounds, system.train)
     )
 
 
 def the_worker_is_within_reach_of_his_fix(site: Line, system: Lookout) -> bool:
     """Nor has the worker (A1)."""
-    return not distance.is_fix(system.worker.place_mm, system.worker.age_ms) or (
-        magnitude(system.worker_um - UM_A_MM * system.worker.place_mm)
-        <= distance.worker_off_um(site.bounds, system.worker)
+    return not is_report(system.worker.place_mm, system.worker.age_ms) or (
+        apart(system.worker_um, UM_A_MM * system.worker.place_mm) <= distance.worker_off_um(site.bounds, system.worker)
     )
+
+
+def what_is_held_was_told(site: Line, system: Lookout) -> bool:
+    """The handset holds the report that was told last, as old as it is, or nothing (A1)."""
+    return not is_report(system.train.place_mm, system.train.age_ms) or system.train == system.told
 
 
 def a_told_direction_still_holds(site: Line, system: Lookout) -> bool:
     """While it counts, the direction told is not against that of the train (A3)."""
-    return no_train_turns_sooner(site, system.train, system.heading)
+    return no_train_turns_sooner(site, system.told, system.heading)
 
 
 INITIAL = (nothing_was_told,)
@@ -81,6 +88,7 @@ INVARIANTS = (
     *SAFETY,
     the_train_is_within_reach_of_its_fix,
     the_worker_is_within_reach_of_his_fix,
+    what_is_held_was_told,
     a_told_direction_still_holds,
 )
 PREMISES = (no_train_is_longer_than_written,)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from kernel.alarm import tone as machine
-from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, is_fix, train_off_um, worker_off_um
+from kernel.alarm.distance import train_off_um, worker_off_um
 from kernel.alarm.tone import Tone
-from kernel.onboard.arithmetic import magnitude
 from models.alarm import alarm_tone as world
 from models.alarm.alarm_tone import (
     Railway,
     Worksite,
     a_wrong_fix_is_contradicted,
+    is_in_a_stretch,
+    is_report,
     no_train_is_longer_than_written,
     no_train_turns_sooner,
 )
+from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -26,8 +27,14 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
         and not system.heard.matched_within_1500
         and not system.heard.beyond_a_tunnel
         and all(False for _train in system.handset.trains)
-        and system.handset.server_age_ms > GREATEST_AGE_MS
-        and system.handset.worker.age_ms > GREATEST_AGE_MS
+        and not system.heard.astray
+        and all(False for _train in system.told.trains)
+        and system.handset.server_age_ms > 3_600_000
+        and system.handset.worker.age_ms > 3_600_000
+        and system.told.list_age_ms == system.handset.server_age_ms
+        and system.told.worker == system.handset.worker
+        and system.told.servers_well == system.handset.servers_well
+        and system.told.battery_well == system.handset.battery_well
         and all(body.fix_is_right for _train, body in system.bodies.items())
         and all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
     )
@@ -51,6 +58,14 @@ def unknown_is_never_normal(site: Railway, system: Worksite) -> bool:
     return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.unknown
 
 
+def a_stale_or_jumping_fix_sounds_the_fault_tone(site: Railway, system: Worksite) -> bool:
+    """A fix too old, or out of reach of the one before, is heard as a fault, unless the alarm sounds (A1, A2).
+
+    A stale one is no fault where it is registered that the display alone is enough.
+    """
+    return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.astray
+
+
 def a_departing_train_never_masks_an_approaching_one(site: Railway, system: Worksite) -> bool:
     """If a matched train is within 1500 m and has not departed, the alarm sounds, whatever the others do (A3)."""
     return system.heard.tone == Tone.ALARM or not system.heard.matched_within_1500
@@ -69,23 +84,42 @@ def in_a_section_not_to_be_used_no_tone_is_normal(site: Railway, system: Worksit
 # ---- what it rests on
 
 
+def the_handset_has_what_was_told(site: Railway, system: Worksite) -> bool:
+    """The handset has of the servers, of itself and of each train on the list what was told, as old as it is (A1)."""
+    handset, told = system.handset, system.told
+    return (
+        told.worker == handset.worker
+        and told.list_age_ms == handset.server_age_ms
+        and told.servers_well == handset.servers_well
+        and told.battery_well == handset.battery_well
+        and all(train in told.trains for train in handset.trains)
+        and all(
+            train in handset.trains
+            and handset.trains[train].fix == of.fix
+            and handset.trains[train].display == of.display
+            and handset.trains[train].jumped == of.jumped
+            for train, of in told.trains.items()
+        )
+    )
+
+
 def the_worker_is_within_reach_of_his_fix(site: Railway, system: Worksite) -> bool:
     """The worker has got no farther from his fix than error and age allow (A1)."""
     worker = system.handset.worker
-    return not is_fix(worker.place_mm, worker.age_ms) or (
-        magnitude(system.worker_um - UM_A_MM * worker.place_mm) <= worker_off_um(site.register.bounds, worker)
+    return not is_report(worker.place_mm, worker.age_ms) or (
+        apart(system.worker_um, UM_A_MM * worker.place_mm) <= worker_off_um(site.register.bounds, worker)
     )
 
 
 def trains_are_within_reach_of_right_fixes(site: Railway, system: Worksite) -> bool:
     """No antenna has got farther from where it was told than error and age allow (A1)."""
     return all(
-        magnitude(body.antenna_um - UM_A_MM * system.handset.trains[train].fix.place_mm)
+        apart(body.antenna_um, UM_A_MM * system.handset.trains[train].fix.place_mm)
         <= train_off_um(site.register.bounds, system.handset.trains[train].fix)
         for train, body in system.bodies.items()
         if train in system.handset.trains
         and body.fix_is_right
-        and is_fix(system.handset.trains[train].fix.place_mm, system.handset.trains[train].fix.age_ms)
+        and is_report(system.handset.trains[train].fix.place_mm, system.handset.trains[train].fix.age_ms)
     )
 
 
@@ -98,25 +132,25 @@ def trains_are_within_reach_of_the_display(site: Railway, system: Worksite) -> b
         <= UM_A_MM * (system.handset.trains[train].display.to_mm + site.register.display_error_mm)
         + site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
         for train, body in system.bodies.items()
-        if train in system.handset.trains and machine.is_display(system.handset.trains[train].display)
+        if train in system.handset.trains and is_in_a_stretch(system.handset.trains[train].display)
     )
 
 
 def wrong_fixes_are_contradicted(site: Railway, system: Worksite) -> bool:
     """A fix that is wrong is one that the display contradicts (A2)."""
     return all(
-        a_wrong_fix_is_contradicted(site, system.handset.trains[train], body.fix_is_right)
+        a_wrong_fix_is_contradicted(site, system.told.trains[train], body.fix_is_right)
         for train, body in system.bodies.items()
-        if train in system.handset.trains
+        if train in system.told.trains
     )
 
 
 def told_directions_still_hold(site: Railway, system: Worksite) -> bool:
     """While it counts, no direction told is against that of the train (A3)."""
     return all(
-        no_train_turns_sooner(site, system.handset.trains[train], body.heading)
+        no_train_turns_sooner(site, system.told.trains[train], body.heading)
         for train, body in system.bodies.items()
-        if train in system.handset.trains
+        if train in system.told.trains
     )
 
 
@@ -127,9 +161,7 @@ def no_train_of_the_line_is_longer(site: Railway, system: Worksite) -> bool:
 
 def a_fresh_list_has_every_train(site: Railway, system: Worksite) -> bool:
     """While the list is fresh, every train of the line is on it (A1)."""
-    return not machine.is_linked(site.register, system.handset) or all(
-        train in system.handset.trains for train in system.bodies
-    )
+    return not world.is_list_fresh(site, system.told) or all(train in system.told.trains for train in system.bodies)
 
 
 INITIAL = (nothing_was_told,)
@@ -137,12 +169,14 @@ SAFETY = (
     the_normal_tone_means_no_train_within_3000_m,
     caution_means_no_train_within_1500_m,
     unknown_is_never_normal,
+    a_stale_or_jumping_fix_sounds_the_fault_tone,
     a_departing_train_never_masks_an_approaching_one,
     a_train_in_a_tunnel_counts_at_its_outer_end,
     in_a_section_not_to_be_used_no_tone_is_normal,
 )
 INVARIANTS = (
     *SAFETY,
+    the_handset_has_what_was_told,
     the_worker_is_within_reach_of_his_fix,
     trains_are_within_reach_of_right_fixes,
     trains_are_within_reach_of_the_display,

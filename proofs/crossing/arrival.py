@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 from kernel.crossing import arrival
-from kernel.crossing.arrival import UM_A_MM
 from kernel.onboard.arithmetic import smaller
-from models.crossing.arrival import Coming, Crossing, arrive, bounds_are_above_zero, decide, run_a_cycle, take_ranging
+from models.crossing.arrival import (
+    Coming,
+    Crossing,
+    arrive,
+    bounds_are_above_zero,
+    decide,
+    is_of_this_line,
+    run_a_cycle,
+    take_ranging,
+    towards_mm_s,
+)
+from models.measures import UM_A_MM
 from proofs.theory import Theory, by_name
 
 # ---- the start
 
 
 def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
-    """At first contact the train is bounded by a ranging, and far enough; else the start point warns (X3)."""
+    """At first contact the train is bounded by a ranging, and before the start point; else that one warns (X3).
+
+    There not even a train at the line's greatest speed arrives within the warning time and the cycle until a decision,
+    and what is gained in a cycle to spare.
+    """
     return (
         not system.decided
         and not system.arrived
@@ -26,7 +40,12 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.worst.way_um == system.followed.way_um
         and system.worst.short_um == system.followed.short_um
         and system.left_cycles == site.bounds.warning_cycles + 1
-        and arrival.cannot_arrive(site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles)
+        and system.worst.way_um > (site.bounds.warning_cycles + 1) * site.bounds.line_um + site.bounds.gain_um
+        and system.told == system.ranged
+        and is_of_this_line(site.bounds, system.ranged)
+        and system.followed.told_way_mm == system.ranged.way_mm
+        and system.followed.told_speed_mm_s == towards_mm_s(system.ranged)
+        and not system.contradicted
         and system.ranged.age_cycles == 0
         and UM_A_MM * system.ranged.way_mm <= system.way_um
         and system.pace_um <= site.bounds.cycle_ms * system.ranged.speed_mm_s
@@ -46,7 +65,24 @@ def lost_ranging_warns(site: Crossing, system: Coming) -> bool:
     return system.followed.warns or system.silent_cycles <= site.bounds.silence_cycles + 1
 
 
+def a_ranging_that_contradicts_the_one_before_warns(site: Crossing, system: Coming) -> bool:
+    """Two that count, one after the other, and cannot both be of this train: it is warned of now, and stays so (X1)."""
+    return system.followed.warns or not system.contradicted
+
+
 # ---- what it rests on
+
+
+def the_ranging_before_is_kept(site: Crossing, system: Coming) -> bool:
+    """While a ranging counts the machine knows what it told, and how old it is (X1)."""
+    if system.told.age_cycles > site.bounds.silence_cycles:
+        return system.followed.age_cycles > site.bounds.silence_cycles
+    return (
+        is_of_this_line(site.bounds, system.told)
+        and system.followed.age_cycles == system.told.age_cycles
+        and system.followed.told_way_mm == system.told.way_mm
+        and system.followed.told_speed_mm_s == towards_mm_s(system.told)
+    )
 
 
 def no_pace_is_beyond_the_lines(site: Crossing, system: Coming) -> bool:
@@ -107,9 +143,14 @@ def even_the_worst_cannot_arrive_too_early(site: Crossing, system: Coming) -> bo
 
 
 INITIAL = (contact_is_made_in_time,)
-SAFETY = (warned_long_enough_before_the_arrival, lost_ranging_warns)
+SAFETY = (
+    warned_long_enough_before_the_arrival,
+    lost_ranging_warns,
+    a_ranging_that_contradicts_the_one_before_warns,
+)
 INVARIANTS = (
     *SAFETY,
+    the_ranging_before_is_kept,
     no_pace_is_beyond_the_lines,
     the_ranging_still_bounds_the_train,
     no_ranging_counts_as_newer_than_it_is,

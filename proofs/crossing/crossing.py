@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from kernel.crossing import crossing as machine
-from kernel.onboard.arithmetic import larger
 from models.crossing import crossing as world
 from models.crossing.crossing import Level, Road
+from models.measures import greater
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -32,8 +32,13 @@ def nothing_has_happened(site: Road, system: Level) -> bool:
 
 
 def it_is_not_in_service(site: Road, system: Level) -> bool:
-    """At the start the settings are not checked, and nothing has happened (X5)."""
-    return not system.in_service and nothing_has_happened(site, system)
+    """At the start the settings are not checked, nothing has happened, and nobody is known (X5)."""
+    return (
+        not system.in_service
+        and nothing_has_happened(site, system)
+        and all(False for _train in system.told)
+        and all(False for _train in system.crossing.asks)
+    )
 
 
 # ---- safety
@@ -45,16 +50,25 @@ def warned_long_enough_before_every_arrival(site: Road, system: Level) -> bool:
 
 
 def barriers_are_down_long_enough_before_every_arrival(site: Road, system: Level) -> bool:
-    """And the arms had been down for 15 s, or for longer if so written (X5)."""
-    return not system.last.is_any or system.last.down_cycles > site.settings.least_down_cycles
+    """And the arms had been down as long as is written, as that cycle began: 15 s (003, 2.1, note 2) or more (X5)."""
+    return not system.last.is_any or (
+        system.last.down_cycles > site.settings.least_down_cycles
+        and site.settings.cycle_ms * (system.last.down_cycles - 1) >= 15_000
+    )
 
 
 def barriers_stay_down_between_close_trains(site: Road, system: Level) -> bool:
-    """No train known when the crossing opened arrives sooner than the least opening and a warning (X4, X5)."""
+    """No train known when the crossing opened arrives sooner than the least opening and a warning (X4, X5).
+
+    In the least opening the arms can rise and come down again.
+    """
     return (
         not system.last.is_any
         or not system.last.was_known
-        or system.last.opened_cycles > site.settings.warning_cycles + site.settings.reopening_cycles
+        or (
+            system.last.opened_cycles > site.settings.warning_cycles + site.settings.reopening_cycles
+            and site.settings.reopening_cycles >= site.settings.lifting_cycles + site.settings.lowering_cycles
+        )
     )
 
 
@@ -83,11 +97,27 @@ def arms_fall_after_the_bell(site: Road, system: Level) -> bool:
     return (
         not system.in_service
         or has_opened
-        or system.lowered_cycles == larger(0, system.crossing.warned_cycles - site.settings.bell_cycles)
+        or system.lowered_cycles == greater(0, system.crossing.warned_cycles - site.settings.bell_cycles)
     )
 
 
 # ---- what it rests on
+
+
+def who_was_told_of_is_known(site: Road, system: Level) -> bool:
+    """The crossing knows those of whom it was told and not yet that they are gone, and nobody else (X1, X3)."""
+    return all(train in system.crossing.asks for train in system.told) and all(
+        train in system.told for train, _asks in system.crossing.asks.items()
+    )
+
+
+def who_struck_out_of_contact_asks(site: Road, system: Level) -> bool:
+    """Of whom a start point told, and nothing else had, that one asks for the warning (X3)."""
+    return all(
+        train in system.crossing.asks and system.crossing.asks[train]
+        for train, body in system.bodies.items()
+        if body.was_struck
+    )
 
 
 def before_service_nothing_happens(site: Road, system: Level) -> bool:
@@ -121,7 +151,7 @@ def an_untold_train_is_far(site: Road, system: Level) -> bool:
     return all(
         body.left_cycles + system.unheard_cycles[body.track] >= site.settings.start_cycles
         for train, body in system.bodies.items()
-        if body.inside and train not in system.crossing.asks and body.track in system.unheard_cycles
+        if body.inside and train not in system.told and body.track in system.unheard_cycles
     )
 
 
@@ -177,6 +207,8 @@ SAFETY = (
 )
 INVARIANTS = (
     *SAFETY,
+    who_was_told_of_is_known,
+    who_struck_out_of_contact_asks,
     before_service_nothing_happens,
     in_service_the_settings_are_lawful,
     every_terminal_is_listened_to,

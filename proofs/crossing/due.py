@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.crossing import arrival
-from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle
+from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle, take_ranging
 from proofs.theory import Theory, by_name
 
 
@@ -15,6 +15,8 @@ def nothing_is_secured(site: Way, system: Answered) -> bool:
         and system.worst.way_um <= system.way_um
         and system.pace_um <= site.bounds.line_um
         and system.worst.short_um == 0
+        and system.followed.age_cycles > site.bounds.silence_cycles
+        and 0 <= system.followed.short_um <= site.bounds.line_um
     )
 
 
@@ -31,7 +33,14 @@ def nobody_arrives_before_he_can(site: Way, system: Answered) -> bool:
 
 def no_pace_is_beyond_the_lines(site: Way, system: Answered) -> bool:
     """What is reckoned with is no faster than the line allows, and does not move away (X2)."""
-    return 0 <= system.worst.short_um <= site.bounds.line_um
+    return 0 <= system.followed.short_um <= site.bounds.line_um and 0 <= system.worst.short_um <= site.bounds.line_um
+
+
+def what_is_followed_bounds_the_train(site: Way, system: Answered) -> bool:
+    """While the ranging counts, the train is no nearer and no faster than the crossing holds it to be (X2)."""
+    return system.followed.age_cycles > site.bounds.silence_cycles or (
+        system.followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.followed.short_um
+    )
 
 
 def the_worst_bounds_the_train(site: Way, system: Answered) -> bool:
@@ -51,11 +60,12 @@ SAFETY = (nobody_arrives_before_he_can,)
 INVARIANTS = (
     *SAFETY,
     no_pace_is_beyond_the_lines,
+    what_is_followed_bounds_the_train,
     the_worst_bounds_the_train,
     even_the_worst_cannot_arrive_too_early,
 )
 PREMISES = (bounds_are_above_zero,)
-STEPS = (answer, run_a_cycle, arrive)
+STEPS = (take_ranging, answer, run_a_cycle, arrive)
 
 THEORY = Theory(
     "due",

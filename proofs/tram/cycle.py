@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from kernel.tram import cycle as machine
-from kernel.tram.cycle import STALE_MS
 from models.tram.cycle import Air, Station, end_cycle, pass_time, receive, restart
 from proofs.theory import Theory, by_name
 
@@ -12,15 +11,15 @@ from proofs.theory import Theory, by_name
 
 def nothing_was_heard(site: Station, system: Air) -> bool:
     """At the start no tram has answered."""
-    return system.heard == machine.nothing_heard(system.heard.slot) and not system.answered and not system.answered_last
+    return system.heard == machine.nothing_heard(system.slot) and not system.answered and not system.answered_last
 
 
 # ---- safety
 
 
 def what_is_fresh_is_no_older_than_11_s(site: Station, system: Air) -> bool:
-    """Data that count are truly no older (G3)."""
-    return not machine.is_fresh(system.heard) or system.age_ms <= STALE_MS
+    """Data that count are truly no older: 7 s (002, 2.3.4) until the next answer, and 4 s when it comes (ours; G3)."""
+    return not machine.is_fresh(system.heard) or system.age_ms <= 11_000
 
 
 def what_is_fresh_was_answered(site: Station, system: Air) -> bool:
@@ -36,6 +35,11 @@ def what_is_known_is_no_older_than_it_says(site: Station, system: Air) -> bool:
     return not system.heard.is_known or system.age_ms <= system.heard.age_ms
 
 
+def the_tram_is_listened_to_in_its_slot(site: Station, system: Air) -> bool:
+    """The station listens in the slot in which it asks the tram (G3)."""
+    return system.heard.slot == system.slot
+
+
 def an_answer_is_noted_in_its_cycle(site: Station, system: Air) -> bool:
     """The station has an answer in this cycle if the tram gave one, and then knows it (G3)."""
     return system.heard.in_this_cycle == system.answered and (system.heard.is_known or not system.answered)
@@ -46,6 +50,7 @@ SAFETY = (what_is_fresh_is_no_older_than_11_s, what_is_fresh_was_answered)
 INVARIANTS = (
     *SAFETY,
     what_is_known_is_no_older_than_it_says,
+    the_tram_is_listened_to_in_its_slot,
     an_answer_is_noted_in_its_cycle,
 )
 STEPS = (pass_time, receive, end_cycle, restart)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from kernel.tram.centre import Tram
-from kernel.tram.dispatching import mark
 from models.tram import dispatching as world
-from models.tram.dispatching import Body, Traffic, Way, place
+from models.tram.dispatching import Body, Traffic, Way, mark, place
 from proofs.theory import Theory, by_name
 
 # ---- the start

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.onboard.arithmetic import magnitude
-from kernel.tram.stopping import SLOW_MM_S
+from models.measures import apart
 from models.tram.stopping import Ride, Street, run_on, take_fix, the_place_is_held_for_twice_the_error
 from proofs.theory import Theory, by_name
 
@@ -16,6 +15,7 @@ def it_begins_at_a_stop(site: Street, system: Ride) -> bool:
         system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
         and not system.stopping.left
         and not system.stopping.stands
+        and system.stopping.stop == system.here
         and not system.wandered
         and not system.fell_back
     )
@@ -27,18 +27,23 @@ def it_begins_at_a_stop(site: Street, system: Ride) -> bool:
 def who_stands_is_at_that_stop(site: Street, system: Ride) -> bool:
     """A tram that counts as standing was, at its last fix, where places are held, within the error of GPS (G2)."""
     return not system.stopping.stands or (
-        magnitude(system.fixed_at_mm - system.here_mm) <= site.limits.held_mm + site.error_mm
+        apart(system.fixed_at_mm, system.here_mm) <= site.limits.held_mm + site.error_mm
     )
 
 
 def who_stands_was_slow(site: Street, system: Ride) -> bool:
-    """And was below 5 km/h when that was told (G2)."""
-    return not system.stopping.stands or system.speed_mm_s < SLOW_MM_S + site.speed_error_mm_s
+    """And was below 5 km/h when that was told: the paper's threshold (002, 3.1.2), rounded up to whole mm/s (G2)."""
+    return not system.stopping.stands or system.speed_mm_s < 1_389 + site.speed_error_mm_s
 
 
 def what_was_reached_was_reached(site: Street, system: Ride) -> bool:
     """The tram is at the stop that it is said to have reached, or farther on (G2)."""
     return system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
+
+
+def stops_are_counted_one_by_one(site: Street, system: Ride) -> bool:
+    """The number of the stop that is told is that of the place in the table by which it was reached (G2)."""
+    return system.stopping.stop == system.here
 
 
 def what_was_left_is_behind(site: Street, system: Ride) -> bool:
@@ -62,7 +67,7 @@ def no_tram_falls_back(site: Street, system: Ride) -> bool:
 def it_began_to_stand_near_the_stop(site: Street, system: Ride) -> bool:
     """Where a tram began to stand was near, and it was not told to have left (G2)."""
     return not system.stopping.stands or (
-        magnitude(system.stood_at_mm - system.here_mm) <= site.limits.near_mm + site.error_mm
+        apart(system.stood_at_mm, system.here_mm) <= site.limits.near_mm + site.error_mm
         and system.at_mm >= system.stood_at_mm
         and not system.stopping.left
     )
@@ -73,6 +78,7 @@ SAFETY = (
     who_stands_is_at_that_stop,
     who_stands_was_slow,
     what_was_reached_was_reached,
+    stops_are_counted_one_by_one,
     what_was_left_is_behind,
     a_standing_tram_never_seems_to_run,
     no_tram_falls_back,

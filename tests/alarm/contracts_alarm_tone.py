@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.alarm.distance import Direction, TrainFix, WorkerFix
+from kernel.alarm.distance import NO_TRAIN_FIX, Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import (
     Display,
     Handset,
@@ -37,7 +37,12 @@ WORKER = WorkerFix(place_mm=0, age_ms=0)
 
 def known(place_mm: int, age_ms: int, from_mm: int, to_mm: int, shown_ms: int) -> Known:
     """What both sources say."""
-    return Known(TrainFix(place_mm, age_ms, Direction.UNKNOWN, False), Display(from_mm, to_mm, shown_ms))
+    return Known(
+        TrainFix(place_mm, age_ms, Direction.UNKNOWN, False),
+        Display(from_mm, to_mm, shown_ms),
+        jumped=False,
+        newest=NO_TRAIN_FIX,
+    )
 
 
 def a_fix_is_fresh_for_ten_seconds(age_ms: int) -> None:

@@ -25,7 +25,7 @@ FIXES = st.builds(TrainFix, PLACES, AGES, st.sampled_from(Direction), st.boolean
 STRETCHES = st.builds(
     lambda from_mm, way_mm, age_ms: Display(from_mm, from_mm + way_mm, age_ms), PLACES, st.integers(0, 6 * KM), AGES
 )
-KNOWN = st.builds(Known, FIXES, STRETCHES)
+KNOWN = st.builds(Known, FIXES, STRETCHES, st.booleans(), FIXES)
 TRAINS = st.sampled_from([Train("1D"), Train("2U"), STABLED, Train("4U")])
 HANDSETS = st.builds(
     Handset,

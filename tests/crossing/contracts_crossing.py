@@ -26,7 +26,15 @@ SETTINGS = Settings(
     silence_cycles=2,
     start_cycles=44,
 )
-BOUNDS = ArrivalBounds(line_um=30_000_000, gain_um=1_000_000, cycle_ms=1_000, warning_cycles=40, silence_cycles=3)
+BOUNDS = ArrivalBounds(
+    line_um=30_000_000,
+    gain_um=1_000_000,
+    cycle_ms=1_000,
+    warning_cycles=40,
+    silence_cycles=3,
+    way_spread_mm=1,
+    speed_spread_mm_s=1,
+)
 
 
 def lawful_settings_leave_fifteen_seconds(warning_cycles: int, bell_cycles: int, lowering_cycles: int) -> None:
@@ -69,7 +77,7 @@ def nobody_is_must_not_be_warned_of(warned_cycles: int) -> None:
 def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:
     """To the micrometre (X2, X4)."""
     assert 0 <= way_um <= 3_000_000_000
-    answer = due(BOUNDS, Followed(way_um, 0, 0, False), 20)
+    answer = due(BOUNDS, Followed(way_um, 0, 0, 0, 0, False), 20)
     assert (answer == Due.NOW) == (way_um <= 42 * 30_000_000)
     assert (answer == Due.FAR) == (way_um > 62 * 30_000_000)
 
@@ -77,4 +85,4 @@ def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:
 def what_is_lost_is_due(way_um: int, age_cycles: int) -> None:
     """However far it was (X3)."""
     assert age_cycles > 3
-    assert due(BOUNDS, Followed(way_um, 30_000_000, age_cycles, False), 20) == Due.NOW
+    assert due(BOUNDS, Followed(way_um, 30_000_000, age_cycles, 0, 0, False), 20) == Due.NOW

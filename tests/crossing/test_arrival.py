@@ -21,6 +21,8 @@ SITES = st.builds(
     cycle_ms=st.just(100),
     warning_cycles=st.integers(0, 60),
     silence_cycles=st.integers(1, 20),
+    way_spread_mm=st.integers(0, 100),
+    speed_spread_mm_s=st.integers(0, 100),
 )
 
 

@@ -64,9 +64,16 @@ def handset(kept: Trace, row: int) -> Handset:
 
 def known(told: Any) -> Known:
     """Give what is known of a train."""
-    _is_there, place_mm, age_ms, direction, runs, from_mm, to_mm, shown_ms = (int(each) for each in told)
-    fix = TrainFix(place_mm, age_ms, list(Direction)[direction], bool(runs))
-    return Known(fix, Display(from_mm, to_mm, shown_ms))
+    _is_there, place_mm, age_ms, direction, runs, from_mm, to_mm, shown_ms, jumped, *newest = (
+        int(each) for each in told
+    )
+    shown = Display(from_mm, to_mm, shown_ms)
+    return Known(fix(place_mm, age_ms, direction, runs), shown, bool(jumped), fix(*newest))
+
+
+def fix(place_mm: int, age_ms: int, direction: int, runs: int) -> TrainFix:
+    """Give a fix."""
+    return TrainFix(place_mm, age_ms, list(Direction)[direction], bool(runs))
 
 
 # ---- what is written on the screen
@@ -151,7 +158,9 @@ def problems(told: Handset) -> list[str]:
     if not machine.is_linked(REGISTER, told):
         found.append("No list from the server" if told.servers_well else "Servers not well")
     for train, each in told.trains.items():
-        if not machine.is_matched(REGISTER, each) and not machine.is_registered(REGISTER, train, each):
+        if each.jumped:
+            found.append(f"Train {number(train)}: GPS has jumped")  # type: ignore[arg-type]
+        elif not machine.is_matched(REGISTER, each) and not machine.is_registered(REGISTER, train, each):
             found.append(f"Train {number(train)} not known")  # type: ignore[arg-type]
     if machine.is_not_to_be_used(REGISTER, told.worker):
         found.append("Not to be used in this section")

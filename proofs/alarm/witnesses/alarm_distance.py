@@ -36,7 +36,7 @@ class Watch(Play[Line, Lookout]):
         """Begin: nothing was told."""
         at_um = UM_A_MM * train_mm
         super().__init__(
-            THEORY, site, Lookout(at_um, heading, UM_A_MM * WORKER_MM, train=NO_TRAIN_FIX, worker=NO_WORKER_FIX)
+            THEORY, site, Lookout(at_um, heading, UM_A_MM * WORKER_MM, NO_TRAIN_FIX, NO_TRAIN_FIX, NO_WORKER_FIX)
         )
 
     def run(self, elapsed_ms: int, heading: Direction, *, speed_mm_s: int = 27_000, walks_mm_s: int = 0) -> None:

@@ -83,31 +83,31 @@ def what_the_worker_hears_goes_into_history() -> None:
     day.come(FIRST, WORKER_MM - 1_400_000)
     day.tell(FIRST, DOWN)
     assert day.tone() == ALARM
-    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False)
+    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False)
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 2_900_000)
     day.tell(FIRST)
     assert day.tone() == CAUTION
-    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False)
+    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False)
+    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False)
     day = Day(worker_mm=40 * KM)
     day.hear()
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, False, False, True)
+    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True)
     day.come(FIRST, 40 * KM)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, False, True)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, False, False)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False)
     day = Day()
     day.hear()
     day.step("look_at_the_battery", battery_well=False)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False)
+    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False)
 
 
 def a_tunnel_goes_into_history_by_its_outer_end() -> None:
@@ -119,7 +119,7 @@ def a_tunnel_goes_into_history_by_its_outer_end() -> None:
             day.come(FIRST, entry_mm, way)
             day.tell(FIRST, way)
             assert day.tone() == (NORMAL if far else ALARM)
-            assert day.system.heard == Heard(day.tone(), False, False, False, False, not far, False)
+            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False)
         day = Day(worker_mm=worker_mm)
         day.hear()
         day.come(FIRST, entry_mm, way)
@@ -152,7 +152,7 @@ def a_train_reaches_from_end_to_end() -> None:
 
 
 def a_wrong_fix_is_found() -> None:
-    """GPS 7 km off: the display contradicts it, and the tone is the fault tone until both agree (A2)."""
+    """GPS 7 km off: the display contradicts it, and the tone is the fault tone until it comes to the worker (A2)."""
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 1_000_000)
@@ -161,6 +161,63 @@ def a_wrong_fix_is_found() -> None:
     day.run(1_000)
     day.tell(FIRST)
     assert day.tone() == ALARM
+
+
+def a_fix_that_jumps_is_a_fault_until_one_fits() -> None:
+    """Where the display shows the train, and off by more than it runs: not taken, and no tone is mild (A1, A2)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 6 * KM)
+    day.tell(FIRST, DOWN)
+    assert day.tone() == NORMAL
+    day.run(1_000)
+    held = day.system.handset.trains[FIRST].fix
+    for off_mm, tone in ((67_000, NORMAL), (67_001, FAULT), (-1 * KM, FAULT), (4 * KM, FAULT), (5 * KM, ALARM)):
+        fix = replace(held, place_mm=held.place_mm + off_mm, age_ms=0)
+        at_um = day.system.bodies[FIRST].antenna_um
+        jumps = machine.jumps(BOUNDS, held, fix)
+        assert jumps == (tone != NORMAL)
+        if jumps:
+            told = day.step("take_fix", train=FIRST, fix=fix, at_um=at_um, is_right=False).handset.trains[FIRST]
+            assert (told.fix, told.jumped, told.newest) == (held, True, fix)
+            assert day.tone() == tone
+            assert day.system.heard.astray
+    day.run(1_000, (FIRST, DOWN))
+    assert day.system.handset.trains[FIRST].newest.age_ms == 1_000
+    day.tell(FIRST, DOWN)
+    assert not day.system.handset.trains[FIRST].jumped
+    assert day.tone() == NORMAL
+
+
+def a_right_fix_after_a_wrong_one_still_alarms() -> None:
+    """Which of the two is wrong the handset cannot know: the nearer counts, and both with time (A2, A3)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 1_000_000)
+    day.tell(FIRST, off_mm=-7 * KM)
+    assert day.tone() == FAULT
+    day.run(1_000)
+    assert day.tell(FIRST).jumped
+    assert day.tone() == ALARM
+    day.run(300_000)
+    day.hear()
+    assert not day.tell(FIRST).jumped
+    assert day.tone() == ALARM
+
+
+def a_fix_too_old_is_a_fault() -> None:
+    """Though the display shows the train, and it is far; and where none counts nothing jumps (A1, A2)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 8 * KM)
+    day.tell(FIRST, DOWN)
+    for elapsed_ms, tone in ((10_000, NORMAL), (1, FAULT)):
+        day.run(elapsed_ms)
+        day.hear()
+        assert day.tone() == tone
+        assert day.system.heard.astray == (tone == FAULT)
+    assert not machine.jumps(BOUNDS, known(0, age_ms=GREATEST_AGE_MS + 1).fix, known(5 * KM).fix)
+    assert not machine.jumps(BOUNDS, known(0).fix, known(5 * KM, age_ms=-1).fix)
 
 
 def a_list_that_is_not_heard_is_the_fault_tone() -> None:
@@ -201,7 +258,7 @@ def what_is_not_on_the_list_stays_unknown() -> None:
     day.step("hear_named", train=FIRST)
     day.step("take_fix", train=FIRST, fix=known(5).fix, at_um=0, is_right=True)
     day.step("take_display", train=FIRST, display=known(5).display, at_um=0)
-    assert day.system.handset.trains == {FIRST: known(5)}
+    assert day.system.handset.trains == {FIRST: replace(known(5), newest=known(5).fix)}
     day.step("hear_named", train=FIRST)
     assert day.system.handset.trains == {FIRST: NOTHING_KNOWN}
 
@@ -307,10 +364,14 @@ def a_wrong_fix_puts_no_train_where_trains_shunt() -> None:
     fix = day.system.handset.trains[FIRST].fix
     before = day.system
     assert day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0) == before
+    day = Day(worker_mm=50 * KM)
+    day.hear()
+    day.come(FIRST, 34 * KM)
     day.tell(FIRST, off_mm=4 * KM)
     day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0)
     assert day.system.handset.trains[FIRST].display == NO_DISPLAY
     assert day.tone() == FAULT
+    day.run(100_000)
     before = day.system
     assert day.step("take_fix", train=FIRST, fix=fix, at_um=before.worker_um, is_right=False) == before
 
@@ -368,6 +429,9 @@ WITNESSES = (
     a_tunnel_goes_into_history_by_its_outer_end,
     a_train_reaches_from_end_to_end,
     a_wrong_fix_is_found,
+    a_fix_that_jumps_is_a_fault_until_one_fits,
+    a_right_fix_after_a_wrong_one_still_alarms,
+    a_fix_too_old_is_a_fault,
     a_list_that_is_not_heard_is_the_fault_tone,
     what_is_not_on_the_list_stays_unknown,
     what_is_no_report_may_say_anything,

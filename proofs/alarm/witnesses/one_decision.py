@@ -112,16 +112,24 @@ def sources_must_agree() -> None:
     """The fix in the stretch that the display shows, to the tolerance (A2)."""
     at_mm = WORKER_MM - 8 * KM
     for off_mm, expected in ((50_000, NORMAL), (50_001, FAULT)):
-        assert tone(Known(known(at_mm).fix, Display(at_mm + off_mm, at_mm + KM, 0))) == expected
-        assert tone(Known(known(at_mm).fix, Display(at_mm - KM, at_mm - off_mm, 0))) == expected
+        assert (
+            tone(Known(known(at_mm).fix, Display(at_mm + off_mm, at_mm + KM, 0), jumped=False, newest=NO_TRAIN_FIX))
+            == expected
+        )
+        assert (
+            tone(Known(known(at_mm).fix, Display(at_mm - KM, at_mm - off_mm, 0), jumped=False, newest=NO_TRAIN_FIX))
+            == expected
+        )
     near = known(WORKER_MM - KM, DOWN).fix
-    assert tone(Known(near, Display(0, KM, 0))) == ALARM
+    assert tone(Known(near, Display(0, KM, 0), jumped=False, newest=NO_TRAIN_FIX)) == ALARM
     past = known(WORKER_MM + KM, DOWN).fix
-    assert tone(Known(past, Display(0, KM, 0))) == ALARM
-    assert tone(Known(past, NO_DISPLAY)) == ALARM
-    assert tone(Known(replace(past, place_mm=WORKER_MM + 4 * KM), NO_DISPLAY)) == FAULT
-    assert tone(Known(NO_TRAIN_FIX, Display(WORKER_MM, WORKER_MM, 0))) == ALARM
-    assert tone(Known(NO_TRAIN_FIX, Display(50 * KM, 51 * KM, 0))) == FAULT
+    assert tone(Known(past, Display(0, KM, 0), jumped=False, newest=NO_TRAIN_FIX)) == ALARM
+    assert tone(Known(past, NO_DISPLAY, jumped=False, newest=NO_TRAIN_FIX)) == ALARM
+    assert (
+        tone(Known(replace(past, place_mm=WORKER_MM + 4 * KM), NO_DISPLAY, jumped=False, newest=NO_TRAIN_FIX)) == FAULT
+    )
+    assert tone(Known(NO_TRAIN_FIX, Display(WORKER_MM, WORKER_MM, 0), jumped=False, newest=NO_TRAIN_FIX)) == ALARM
+    assert tone(Known(NO_TRAIN_FIX, Display(50 * KM, 51 * KM, 0), jumped=False, newest=NO_TRAIN_FIX)) == FAULT
 
 
 def a_shunting_train_counts_both_ways() -> None:
@@ -137,7 +145,7 @@ def a_shunting_train_counts_both_ways() -> None:
     for place_mm in (40 * KM - 1, 41 * KM + 1, 20 * KM + KM, 60 * KM + KM // 2):
         assert tone(known(place_mm, shown=False)) == FAULT
     assert tone(known(40 * KM, age_ms=10_001, shown=False)) == FAULT
-    assert tone(Known(known(40 * KM).fix, Display(0, KM, 0))) == FAULT
+    assert tone(Known(known(40 * KM).fix, Display(0, KM, 0), jumped=False, newest=NO_TRAIN_FIX)) == FAULT
 
 
 def a_stabled_train_counts_by_the_display() -> None:
@@ -164,7 +172,7 @@ def a_stabled_train_counts_by_the_display() -> None:
     roster = frozenset({(STABLED, YARD), (STABLED, TUNNEL)})
     for name in (YARD, TUNNEL):
         section = REGISTER.sections[name]
-        shown = Known(NO_TRAIN_FIX, Display(section.from_mm, section.to_mm, 0))
+        shown = Known(NO_TRAIN_FIX, Display(section.from_mm, section.to_mm, 0), jumped=False, newest=NO_TRAIN_FIX)
         lone = replace(handset(worker_mm=50 * KM), trains={STABLED: shown})
         assert machine.tone(replace(REGISTER, stabled=roster), lone) == FAULT
 
@@ -243,7 +251,7 @@ def from_zone_a_on_a_train_counts_at_the_outer_end() -> None:
             worker_mm = outer_mm + side * (limit_mm + ends_mm)
             assert tone(known(last_mm, way), worker_mm=worker_mm) == inside
             assert tone(known(last_mm + side, way), worker_mm=worker_mm) == outside
-    yard = Known(known(40 * KM, DOWN).fix, Display(40 * KM, 41 * KM, 0))
+    yard = Known(known(40 * KM, DOWN).fix, Display(40 * KM, 41 * KM, 0), jumped=False, newest=NO_TRAIN_FIX)
     assert tone(yard, worker_mm=44 * KM) == NORMAL
 
 
@@ -275,7 +283,12 @@ def every_number_fits_into_64_bits() -> None:
     )
     numbers = [Checked(number) for number in (-HUGE, -GREATEST_PLACE_MM, 0, GREATEST_AGE_MS, GREATEST_PLACE_MM, HUGE)]
     for place_mm, age_ms, shown_mm, own_mm in product(numbers, numbers, numbers, numbers):
-        told = Known(TrainFix(place_mm, age_ms, DOWN, True), Display(shown_mm, place_mm, own_mm))
+        told = Known(
+            TrainFix(place_mm, age_ms, DOWN, True),
+            Display(shown_mm, place_mm, own_mm),
+            jumped=False,
+            newest=NO_TRAIN_FIX,
+        )
         given = Handset(WorkerFix(own_mm, age_ms), shown_mm, True, True, {FIRST: told})
         for elapsed_ms in numbers:
             older = machine.older(given, elapsed_ms)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
 from models.crossing.arrival import Coming, Crossing
@@ -9,8 +11,16 @@ from proofs.crossing.arrival import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
-BOUNDS = ArrivalBounds(line_um=3_000_000, gain_um=10_000, cycle_ms=100, warning_cycles=350, silence_cycles=20)
-"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
+BOUNDS = ArrivalBounds(
+    line_um=3_000_000,
+    gain_um=10_000,
+    cycle_ms=100,
+    warning_cycles=350,
+    silence_cycles=20,
+    way_spread_mm=1,
+    speed_spread_mm_s=1,
+)
+"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s and err by rounding alone."""
 SITE = Crossing(BOUNDS)
 NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
 
@@ -18,17 +28,20 @@ NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
 def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
     """A train that has just been ranged, exactly."""
     way_um, pace_um = UM_A_MM * way_mm, BOUNDS.cycle_ms * speed_mm_s
+    known = Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, way_mm, max(0, speed_mm_s), False)
     return Coming(
         way_um=way_um,
         pace_um=pace_um,
         ranged=Ranging(True, way_mm, speed_mm_s, 0),
         arrived=False,
         decided=False,
-        worst=Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, False),
+        told=Ranging(True, way_mm, speed_mm_s, 0),
+        contradicted=False,
+        worst=known,
         left_cycles=BOUNDS.warning_cycles + 1,
         silent_cycles=0,
         warned_cycles=0,
-        followed=Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, False),
+        followed=known,
     )
 
 
@@ -81,6 +94,18 @@ class Train(Play[Crossing, Coming]):
         return self.system.warned_cycles - 1
 
 
+def brought(way_mm: int, speed_mm_s: int) -> Train:
+    """A train that was ranged in time, has come near, and has then that speed."""
+    train = Train(contacted(1_060_000, 3_000))
+    while train.system.way_um > UM_A_MM * way_mm:
+        train.cycle(300_000)
+        assert not train.warns()
+    while train.system.pace_um < BOUNDS.cycle_ms * speed_mm_s:
+        train.cycle(train.faster())
+    train.cycle(BOUNDS.cycle_ms * speed_mm_s)
+    return train
+
+
 # ---- the moment
 
 
@@ -93,8 +118,7 @@ def at_the_lines_speed_the_warning_time_is_met_to_the_cycle() -> None:
 
 def gaining_all_the_way_the_warning_time_is_met_to_the_cycle() -> None:
     """From a stop 400 m before: it does not come to the line's speed; and from 1000 m, where it does (X2)."""
-    for way_mm, speed_mm_s in ((700_000, 0), (1_000_000, 5_000), (1_500_000, 10_000)):
-        train = Train(contacted(way_mm, speed_mm_s))
+    for train in (brought(700_000, 0), brought(1_000_000, 5_000), Train(contacted(1_500_000, 10_000))):
         assert 350 <= train.to_the_crossing() <= 351
 
 
@@ -123,7 +147,7 @@ def worst_way_um(pace_um: int, cycles: int) -> int:
 
 def a_train_that_stops_short_asks_for_no_warning() -> None:
     """Standing at a station some 790 m before the crossing, for as long as it is ranged; then it starts (X2)."""
-    train = Train(contacted(1_000_000, 5_000))
+    train = Train(contacted(1_060_000, 5_000))
     while train.system.way_um > 800_000_000:
         train.cycle(500_000)
     while train.system.pace_um > 0:
@@ -136,7 +160,7 @@ def a_train_that_stops_short_asks_for_no_warning() -> None:
 
 def a_train_that_reverses_may_turn_again() -> None:
     """Moving away it counts as standing, and one that turns is warned of in time (X2)."""
-    train = Train(contacted(700_000, 0))
+    train = brought(700_000, 0)
     for pace_um in (-10_000, -20_000, -500_000, -500_000):
         train.cycle(pace_um)
         assert not train.warns()
@@ -199,7 +223,7 @@ def a_ranging_again_takes_the_place_of_the_worst() -> None:
     assert train.system.followed.short_um == 850_000
     train.range()
     train.decide()
-    assert train.system.followed == Followed(train.system.way_um, 1_000_000, 0, False)
+    assert train.system.followed == Followed(train.system.way_um, 1_000_000, 0, 2_970_000, 20_000, False)
     assert train.system.silent_cycles == 0
 
 
@@ -212,10 +236,62 @@ def a_late_ranging_is_shortened_by_its_age() -> None:
         train.decide(NOTHING)
         train.run(2_000_000)
     train.decide(Ranging(True, told.way_mm, told.speed_mm_s, 5))
-    assert train.system.followed == Followed(3_000_000_000 - 5 * 3_000_000, 950_000, 5, False)
+    assert train.system.followed == Followed(3_000_000_000 - 5 * 3_000_000, 950_000, 5, 3_000_000, 20_000, False)
     for age_cycles, counts in ((20, True), (21, False), (0, True), (-1, False)):
         assert machine.counts(BOUNDS, Ranging(True, 0, 0, age_cycles)) == counts
     assert machine.taken(BOUNDS, train.system.followed, Ranging(True, 9_000, 29_950, 7)).short_um == 0
+
+
+def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
+    """Off by more than the line's speed lets a train run, nearer or farther; or faster than it can have got (X1)."""
+    for way_mm, speed_mm_s in ((2_996_998, 20_000), (3_003_002, 20_000), (3_000_000, 20_102)):
+        train = Train(contacted(3_000_000, 20_000))
+        train.decide()
+        train.run(0)
+        told = Ranging(True, way_mm, speed_mm_s, 0)
+        assert machine.contradicts(BOUNDS, train.system.followed, told)
+        assert machine.follow(BOUNDS, train.system.followed, told).warns
+        for nearer in (-1, 1):
+            fits = replace(told, way_mm=way_mm + nearer, speed_mm_s=min(speed_mm_s, 20_101))
+            assert machine.contradicts(BOUNDS, train.system.followed, fits) == (
+                fits.way_mm > 3_003_001 or fits.way_mm < 2_996_999
+            )
+    train = Train(contacted(3_000_000, 20_000))
+    train.decide()
+    train.run(2_000_000)
+    train.step("take_ranging", way_mm=2_000_000, speed_mm_s=20_000)
+    train.decide()
+    assert (train.system.contradicted, train.warns()) == (True, True)
+    for _ in range(3):
+        train.run(2_000_000)
+        train.range()
+        train.decide()
+        assert (train.system.contradicted, train.warns()) == (True, True)
+
+
+def an_older_ranging_is_held_against_the_one_before_as_well() -> None:
+    """Repeated by the radio it fits; told otherwise it does not, whichever of them came first (X1)."""
+    train = Train(contacted(3_000_000, 20_000))
+    for _ in range(3):
+        train.cycle(train.faster())
+    held = replace(train.system.followed, age_cycles=1)
+    early = Ranging(True, 3_000_000, 20_000, 4)
+    assert not machine.contradicts(BOUNDS, held, early)
+    assert machine.contradicts(BOUNDS, held, replace(early, way_mm=3_013_026))
+    assert machine.contradicts(BOUNDS, held, replace(early, speed_mm_s=held.told_speed_mm_s - 302))
+    assert not machine.contradicts(BOUNDS, held, replace(early, speed_mm_s=held.told_speed_mm_s - 301))
+    assert not machine.contradicts(BOUNDS, held, replace(early, speed_mm_s=30_000))
+
+
+def what_does_not_count_contradicts_nothing() -> None:
+    """Nothing told, out of range, too old, or after silence: that warns by itself (X1, X3)."""
+    held = contacted(3_000_000, 20_000).followed
+    odd = Ranging(True, 1_000_000, 20_000, 0)
+    assert machine.contradicts(BOUNDS, held, odd)
+    for told in (replace(odd, valid=False), replace(odd, way_mm=FARTHEST_MM + 1), replace(odd, age_cycles=21)):
+        assert not machine.contradicts(BOUNDS, held, told)
+    assert machine.contradicts(BOUNDS, replace(held, age_cycles=20), odd)
+    assert not machine.contradicts(BOUNDS, replace(held, age_cycles=21), odd)
 
 
 def what_is_out_of_range_does_not_count() -> None:
@@ -236,11 +312,11 @@ def what_is_out_of_range_does_not_count() -> None:
 
 def every_number_fits_into_64_bits() -> None:
     """Up to 200 m/s, 4 m/s², a cycle of a second and two minutes of warning (X2)."""
-    bounds = with_ints(Checked, ArrivalBounds(200_000_000, 4_000_000, 1_000, 120, 10))
+    bounds = with_ints(Checked, ArrivalBounds(200_000_000, 4_000_000, 1_000, 120, 10, FARTHEST_MM, 200_000))
     for way_mm in (-FARTHEST_MM, 0, FARTHEST_MM, 2**62):
         for speed_mm_s in (-(2**62), 0, 200_000, 2**62):
             ranging = Ranging(True, Checked(way_mm), Checked(speed_mm_s), Checked(10))
-            held = Followed(Checked(0), Checked(200_000_000), Checked(0), False)
+            held = Followed(Checked(0), Checked(200_000_000), Checked(0), Checked(-FARTHEST_MM), Checked(0), False)
             assert machine.aged(bounds, machine.follow(bounds, held, ranging)).age_cycles <= 11
 
 
@@ -289,6 +365,9 @@ WITNESSES = (
     without_rangings_the_worst_is_reckoned_with,
     a_ranging_again_takes_the_place_of_the_worst,
     a_late_ranging_is_shortened_by_its_age,
+    a_ranging_that_contradicts_the_one_before_warns_now,
+    an_older_ranging_is_held_against_the_one_before_as_well,
+    what_does_not_count_contradicts_nothing,
     what_is_out_of_range_does_not_count,
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
@@ -35,6 +37,7 @@ def new() -> Level:
     return Level(
         in_service=False,
         bodies={},
+        told=frozenset(),
         crossing=Crossing(asks={}, silent_cycles=unheard, warns=False, warned_cycles=0),
         decided=False,
         lowered_cycles=0,
@@ -58,7 +61,7 @@ class Day(Play[Road, Level]):
     def come(self, train: Train, track: CrossingTrack = UP, *, contact: bool = True) -> None:
         """A train comes, in contact if not told otherwise."""
         self.step("come", train=train, track=track, left_cycles=0)
-        assert self.system.bodies[train] == Body(track, False, 0, False, False)
+        assert self.system.bodies[train] == Body(track, False, 0, False, False, False)
         if contact:
             self.step("make_contact", train=train)
             assert self.system.crossing.asks[train] is False
@@ -68,7 +71,7 @@ class Day(Play[Road, Level]):
         body = self.system.bodies[train]
         self.step("pass_start_point", train=train)
         left_cycles = max(body.left_cycles, self.site.settings.start_cycles)
-        assert self.system.bodies[train] == Body(body.track, True, left_cycles, body.has_asked, body.was_known)
+        assert self.system.bodies[train] == replace(body, inside=True, left_cycles=left_cycles)
 
     def cycle(
         self, *dues: tuple[Train, Due], heard: tuple[CrossingTrack, ...] = (UP, DOWN), down: bool | None = None
@@ -156,7 +159,15 @@ def a_train_without_radio_is_warned_of_from_its_start_point() -> None:
     assert day.system.crossing.asks[ONE] is True
     day.cycle((ONE, FAR))
     assert day.warns()
-    day.until_it_can_arrive(ONE, (ONE, FAR))
+    assert day.system.bodies[ONE].was_struck
+    assert day.system.bodies[ONE].has_asked
+    day.until_it_can_arrive(ONE)
+    assert day.arrive(ONE).warned_cycles == 62
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    day.until_it_can_arrive(ONE)
     assert day.arrive(ONE).warned_cycles == 44
 
 
@@ -367,11 +378,19 @@ def settings_are_checked() -> None:
 
 def a_train_is_far_by_the_longer_time() -> None:
     """At 30 m/s: 2 s later for each second that the road would be open (X2, X4)."""
-    bounds = ArrivalBounds(line_um=30_000_000, gain_um=1_000_000, cycle_ms=1_000, warning_cycles=40, silence_cycles=3)
+    bounds = ArrivalBounds(
+        line_um=30_000_000,
+        gain_um=1_000_000,
+        cycle_ms=1_000,
+        warning_cycles=40,
+        silence_cycles=3,
+        way_spread_mm=1,
+        speed_spread_mm_s=1,
+    )
     for cycles, due in ((42, NOW), (43, NEAR), (62, NEAR), (63, FAR)):
-        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, False), 20) == due
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, True), 20) == NOW
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, False), 20) == NOW
+        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, 0, 0, False), 20) == due
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, 0, 0, True), 20) == NOW
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, 0, 0, False), 20) == NOW
 
 
 def every_number_fits_into_64_bits() -> None:

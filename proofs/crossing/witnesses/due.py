@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from kernel.crossing.arrival import ArrivalBounds, Followed
+from dataclasses import replace
+
+from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Settings
 from models.crossing.due import Answered, Way
 from proofs.crossing.due import THEORY
 from proofs.onboard.witnesses.play import Play
 
-BOUNDS = ArrivalBounds(line_um=3_000_000, gain_um=10_000, cycle_ms=100, warning_cycles=350, silence_cycles=20)
+BOUNDS = ArrivalBounds(
+    line_um=3_000_000,
+    gain_um=10_000,
+    cycle_ms=100,
+    warning_cycles=350,
+    silence_cycles=20,
+    way_spread_mm=1,
+    speed_spread_mm_s=1,
+)
 """30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
+NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
 SITE = Way(BOUNDS, Settings(100, 350, 50, 100, 200, 60, 200, 20, 372))
 
 
@@ -19,15 +30,25 @@ class Train(Play[Way, Answered]):
     def __init__(self, way_mm: int, speed_mm_s: int) -> None:
         """Begin."""
         way_um = 1_000 * way_mm
-        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, Followed(way_um, 0, 0, False), 0, 0))
+        nothing = Followed(0, 0, 21, 0, 0, False)
+        super().__init__(
+            THEORY, SITE, Answered(way_um, 100 * speed_mm_s, nothing, Followed(way_um, 0, 0, 0, 0, False), 0, 0)
+        )
+
+    def ranging(self) -> Ranging:
+        """A ranging, exact but for rounding to the safe side."""
+        return Ranging(True, self.system.way_um // 1_000, -(-self.system.pace_um // 100), 0)
 
     def followed(self) -> Followed:
-        """What is known, exactly."""
-        return Followed(self.system.way_um, BOUNDS.line_um - max(0, self.system.pace_um), 0, False)
+        """What is known by it."""
+        told = self.ranging()
+        towards_mm_s = max(0, told.speed_mm_s)
+        return Followed(1_000 * told.way_mm, BOUNDS.line_um - 100 * towards_mm_s, 0, told.way_mm, towards_mm_s, False)
 
     def answer(self) -> int:
         """Give the answer's cycles."""
-        return self.step("answer", followed=self.followed()).left_cycles
+        self.step("take_ranging", ranging=self.ranging())
+        return self.step("answer").left_cycles
 
     def run(self, pace_um: int) -> None:
         """Come to a pace within a cycle, as far as can be."""
@@ -74,9 +95,26 @@ def each_answer_takes_the_place_of_the_one_before() -> None:
     assert held.left_cycles == 102
     assert train.answer() == 352
     assert train.system.worst == train.followed() != held.worst
-    train.run(train.faster())
+    for _ in range(21):
+        train.run(train.faster())
     held = train.system
-    assert train.step("answer", followed=Followed(held.way_um, 0, 21, False)) == held
+    assert held.followed.age_cycles == 21
+    train.step("take_ranging", ranging=NOTHING)
+    assert train.step("answer") == replace(held, followed=replace(held.followed, warns=True))
+
+
+def an_answer_that_is_not_held_leaves_the_one_before() -> None:
+    """It is taken all the same; and what is no answer secures nothing (X2)."""
+    train = Train(1_700_000, 30_000)
+    assert train.answer() == 552
+    train.run(2_000_000)
+    let_go = train.step("take_ranging", ranging=train.ranging())
+    assert (let_go.left_cycles, let_go.followed) == (551, train.followed())
+    for way_mm, speed_mm_s, silent in ((1_000_000, 30_000, 0), (1_700_000, 30_000, 21)):
+        train = Train(way_mm, speed_mm_s)
+        train.step("take_ranging", ranging=train.ranging() if not silent else NOTHING)
+        train.step("answer")
+        assert (train.system.left_cycles, train.system.followed.warns) == (0, True)
 
 
 def the_worst_gains_until_the_lines_speed() -> None:
@@ -98,11 +136,14 @@ def what_nature_does_not_do_does_not_happen() -> None:
     train = Train(2_000_000, 20_000)
     start = train.system
     assert train.step("arrive") == start
-    for way_um, short_um in ((2_000_000_001, 0), (2_000_000_000, 1_000_001), (0, -1)):
-        assert train.step("answer", followed=Followed(way_um, short_um, 0, False)) == start
-    assert train.step("answer", followed=Followed(2_000_000_001, 3_000_001, 21, False)) == start
-    assert train.step("answer", followed=Followed(0, 0, 0, False)) == start
-    assert train.step("answer", followed=Followed(2_000_000_001, 0, 21, False)) == start
+    for way_mm, speed_mm_s, age_cycles in ((2_000_001, 20_000, 0), (2_000_000, 19_999, 0), (2_006_001, 20_000, 2)):
+        told = Ranging(True, way_mm, speed_mm_s, age_cycles)
+        assert train.step("take_ranging", ranging=told) == start
+    for way_mm, speed_mm_s, age_cycles in ((2_000_000, 20_000, 0), (2_006_000, 19_800, 2)):
+        within = Train(2_000_000, 20_000)
+        told = Ranging(True, way_mm, speed_mm_s, age_cycles)
+        within.step("take_ranging", ranging=told)
+        assert within.step("answer").left_cycles == 552
     for to_um, pace_um in ((1_997_999_999, 2_000_000), (1_997_989_999, 2_010_000), (2_000_000_000, 2_010_001)):
         assert train.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == start
     train.run(2_010_000)
@@ -114,6 +155,7 @@ def what_nature_does_not_do_does_not_happen() -> None:
 WITNESSES = (
     an_answer_secures_what_it_says_to_the_cycle,
     each_answer_takes_the_place_of_the_one_before,
+    an_answer_that_is_not_held_leaves_the_one_before,
     the_worst_gains_until_the_lines_speed,
     what_nature_does_not_do_does_not_happen,
 )

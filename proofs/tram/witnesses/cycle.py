@@ -18,7 +18,7 @@ class Polling(Play[Station, Air]):
 
     def __init__(self) -> None:
         """Begin: nothing was heard."""
-        super().__init__(THEORY, SITE, Air(nothing_heard(SLOT), 0, False, False))
+        super().__init__(THEORY, SITE, Air(nothing_heard(SLOT), SLOT, 0, False, False))
 
     def answer(
         self,
@@ -89,7 +89,7 @@ def a_station_that_starts_anew_has_heard_nothing() -> None:
     assert polling.cycle()
     assert polling.answer(9, 9)
     polling.step("restart")
-    assert polling.system == Air(nothing_heard(SLOT), 9, False, False)
+    assert polling.system == Air(nothing_heard(SLOT), SLOT, 9, False, False)
     assert nothing_heard(SLOT).slot == SLOT
     assert nothing_heard(SLOT).age_ms == 0
     assert not is_fresh(polling.system.heard)

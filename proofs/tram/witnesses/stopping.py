@@ -17,7 +17,7 @@ class Along(Play[Street, Ride]):
     def __init__(self, at_mm: int = 0) -> None:
         """Begin."""
         super().__init__(
-            THEORY, SITE, Ride(at_mm, 0, STOPS_MM[1], Stopping(0, False, False), at_mm, 0, at_mm, False, False)
+            THEORY, SITE, Ride(at_mm, 0, 0, STOPS_MM[1], Stopping(0, False, False), at_mm, 0, at_mm, False, False)
         )
 
     def run(self, to_mm: int) -> None:
