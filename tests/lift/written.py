@@ -30,7 +30,7 @@ from proofs.lift.kinds import (
     kind_of_type,
 )
 from proofs.lift.terms import to_z3
-from proofs.lift.values import equal_scalars, is_term
+from proofs.lift.values import Record, equal_scalars, is_term
 from tests.lift.differential import PARTIAL, Code, can_fail, pinned, types_of
 from tests.lift.strategies import Universe
 
@@ -90,7 +90,7 @@ class Draw:
 
 
 class Compared:
-    """A function in CPython, lifted from concrete arguments, and lifted once from symbols.
+    """A function in CPython, lifted from concrete arguments, and lifted once from symbols; records also by name.
 
     Where CPython raises, an obligation must fail; where every obligation holds, the values must be equal.
     """
@@ -101,8 +101,17 @@ class Compared:
         self.symbols = [self.scope.fresh(each, f"argument{index}") for index, each in enumerate(self.types)]
         lifter = Lifter(self.scope, collect=True)
         self.lifted, self.obligations = lifter.call(function, *self.symbols), list(lifter.obligations)
+        self.named, self.definitions = self._named()
         self.axioms = [axiom.formula for axiom in self.scope.axioms()]
         self.failing = 0
+
+    def _named(self) -> tuple[Value | None, list[Any]]:
+        """Give what changed of a record symbols of its own, as the proofs do."""
+        if not isinstance(self.lifted, Record):
+            return None, []
+        alike = [symbol for symbol, each in zip(self.symbols, self.types, strict=True) if each is self.result]
+        named, definitions = self.scope.name(self.lifted, "post", relative_to=alike[0] if alike else None)
+        return named, [definition.formula for definition in definitions]
 
     def check(self, arguments: tuple[Any, ...]) -> None:
         """Compare all ways for these arguments.
@@ -134,6 +143,8 @@ class Compared:
         known = [*self.axioms, *pins]
         assert can_fail(z3.BoolVal(False), known), "no state has these arguments: two symbols share a name"
         yield self.lifted, self.obligations, known
+        if self.named is not None:
+            yield self.named, self.obligations, [*known, *self.definitions]
 
     def _equal(self, lifted: Value, expected: Any) -> Any:
         kind = kind_of_type(self.result)
