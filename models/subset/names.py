@@ -29,6 +29,8 @@ def unfit_name(tree: ast.FunctionDef, function: FunctionType | None = None) -> U
     if around:
         what = f"{', '.join(around)}: a variable of the function around {tree.name}"
         return UnfitName(tree, what, "a parameter, or a constant of the module")
+    if getattr(tree, "type_params", None):
+        return UnfitName(tree, f"{tree.name} has type parameters of its own", "a type of the module")
     return next(_Names(tree).problems(), None)
 
 
