@@ -658,6 +658,10 @@ def f(a: int, b: int) -> int:
 def f(a: int, b: int) -> int:
     return a // b + a % b
 
+## minus_of_what_is_not_there: needs
+def f(m: Mapping[Ship, int], s: Ship) -> int:
+    return -m[s]
+
 ## divided: refused
 def f(a: int, b: int) -> bool:
     return a / b > 1  # here
