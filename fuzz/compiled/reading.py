@@ -59,8 +59,8 @@ from fuzz.compiled.values import (
 )
 from kernel.names import Run
 from models.world.state import Formation, Site
-from proofs.lift.kinds import Scalar, fields_of
-from proofs.lift.sources import Code, definition_of, file_of
+from proofs.lift.kinds import Scalar, check_class, fields_of
+from proofs.lift.sources import Code, check_names, definition_of, file_of
 from proofs.mutated import Sources
 
 Env: TypeAlias = dict[str, Any]
@@ -116,14 +116,25 @@ class Reader:
 
     # ---- functions and statements
 
+    def definition(self, function: Code) -> ast.FunctionDef:
+        """The syntax tree of a function, or of the mutant that stands for it, its names and parameters checked."""
+        tree = self.sources.get(function)
+        if tree is None:
+            tree = definition_of(function)
+        else:
+            check_names(tree, function)
+        every = tree.args
+        if every.posonlyargs or every.kwonlyargs or every.vararg or every.kwarg:
+            raise _Text(self, function).refused(tree, "a parameter that is not a plain one")
+        return tree
+
     def call(self, function: Code, arguments: Mapping[str, Any]) -> Any:
         """The value that a function gives."""
-        tree = self.sources.get(function) or definition_of(function)
+        tree = self.definition(function)
         names = [each.arg for each in tree.args.args]
-        defaults = dict(zip(reversed(names), reversed(tree.args.defaults), strict=False))
-        env: Env = {}
-        for name in names:
-            env[name] = arguments[name] if name in arguments else _Text(self, function).value(defaults[name], {})
+        given = function.__defaults__ or ()
+        defaults = dict(zip(names[len(names) - len(given) :], given, strict=True))
+        env: Env = {name: arguments[name] if name in arguments else self.lifted(defaults[name]) for name in names}
         value = _Text(self, function).body(tree.body, env)
         if self.instead is not None and function in self.asked:
             return self.instead(function, truth_of(value))
@@ -152,6 +163,7 @@ class Reader:
         if isinstance(value, bool):
             return YES if value else NO
         if isinstance(value, Enum):
+            check_class(type(value))
             kind = Scalar(type(value))
             return Word(kind, (constant(self.domains.number(kind, value)),))
         if isinstance(value, int):
@@ -231,10 +243,12 @@ class _Text:
     def _name(self, node: ast.Name, env: Env) -> Any:
         if node.id in env:
             return env[node.id]
-        found = self.function.__globals__.get(node.id)
-        if found is None and node.id in ("any", "all", "frozenset"):
+        names = self.function.__globals__
+        if node.id in names:
+            return self.reader.lifted(names[node.id])
+        if node.id in ("any", "all", "frozenset"):
             return node.id
-        return self.reader.lifted(found)
+        raise self.refused(node, f"the name {node.id}, which the module has not,")
 
     def _attribute(self, node: ast.Attribute, env: Env) -> Any:
         owner = self.value(node.value, env)
@@ -253,7 +267,9 @@ class _Text:
     def _dict(self, node: ast.Dict, env: Env) -> Map:
         made: Map = Entries([])
         entries: list[tuple[Value, Value]] = []
-        for key, value in zip(node.keys, node.values, strict=True):
+        for place, (key, value) in enumerate(zip(node.keys, node.values, strict=True)):
+            if key is None and place > 0:
+                raise self.refused(node, "** that is not first in a display")
             if key is None:
                 made = self.value(value, env)
             else:
@@ -341,12 +357,16 @@ class _Text:
                 raise self.refused(node, "replace of no record")
             return with_fields(record, given)
         if dataclasses.is_dataclass(called) and isinstance(called, type):
+            check_class(called)
             named = dict(zip(fields_of(called), arguments, strict=False)) | given
             return Record(called, lambda name: named[name])
         if not inspect.isfunction(called):
             raise self.refused(node, ast.unparse(node.func))
-        names = [each.arg for each in (self.reader.sources.get(called) or definition_of(called)).args.args]
-        return self.reader.call(called, dict(zip(names, arguments, strict=False)) | given)
+        names = [each.arg for each in self.reader.definition(called).args.args]
+        by_name = dict(zip(names, arguments, strict=False)) | given
+        if len(by_name) != len(arguments) + len(given) or not by_name.keys() <= set(names):
+            raise self.refused(node, f"arguments of {ast.unparse(node)}")
+        return self.reader.call(called, by_name)
 
     def _method(self, node: ast.Call, owner: Any, env: Env) -> Any:
         assert isinstance(node.func, ast.Attribute)
@@ -423,7 +443,8 @@ class _Text:
 
         parts = given.elts if isinstance(given, ast.Tuple) else [given]
         named = {part.id for part in parts if isinstance(part, ast.Name)}
-        if len(named) < len(parts) or not all(_key_names(each) <= named for each in generators):
+        keys = {name for each in generators for name in _key_names(each)}
+        if len(named) < len(parts) or not keys <= named or named & (_target_names(generators) - keys):
             return Comprehension(loops, None)
         return Comprehension(loops, lambda element: self._direct(given, generators, env, element)[0])
 
@@ -431,8 +452,10 @@ class _Text:
         self, given: ast.expr, generators: Sequence[ast.comprehension], env: Env, element: Value
     ) -> tuple[Truth, Env]:
         """Whether the turn that an element names is there; and the names of that turn."""
-        inner, found = {**env, **self.bound(given, element)}, YES
-        condition: Truth = found
+        inner: Env = {**env, **self.bound(given, element)}
+        parts = given.elts if isinstance(given, ast.Tuple) else [given]
+        outer = {part.id for part in parts if isinstance(part, ast.Name)} - _target_names(generators)
+        condition = both(*(equal(inner[name], self._name(ast.Name(name), env)) for name in sorted(outer)))
         for each in generators:
             collection, pairs = self._looped(each.iter, inner)
             target = each.target
@@ -465,6 +488,11 @@ class _Text:
 
 def _is_empty(value: Any) -> bool:
     return (isinstance(value, Literal) and not value.elements) or (isinstance(value, Entries) and not value.entries)
+
+
+def _target_names(generators: Sequence[ast.comprehension]) -> set[str]:
+    """Every name that some loops bind."""
+    return {node.id for each in generators for node in ast.walk(each.target) if isinstance(node, ast.Name)}
 
 
 def _key_names(generator: ast.comprehension) -> set[str]:

@@ -46,6 +46,7 @@ from models.compiled.records import (
     packed,
     tuple_class,
 )
+from models.subset import unfit_class, unfit_name
 
 Code = Callable[..., Any]
 
@@ -120,6 +121,12 @@ class Rewriting(ast.NodeTransformer):
         self._at: ast.AST = tree
         self._made: dict[str, Any] = {}
         self._locals = loops.locals_of(tree)
+        unfit = unfit_name(tree)
+        if unfit is not None:
+            raise self._refused(unfit.node, f"{unfit.what}: {unfit.hint}")
+        hidden = self._locals & (vars(module).keys() | {"any", "all"})
+        if hidden:
+            raise self._refused(tree, f"{min(hidden)} is a name of the module, or any or all, and a local: rename it")
 
     def function(self, names: dict[str, Any]) -> Code:
         """Return the function as numba is to have it, with these global names."""
@@ -257,7 +264,8 @@ class Rewriting(ast.NodeTransformer):
 
     def visit_Call(self, node: ast.Call) -> ast.expr:
         """Construct with every field in order; replace by a function made for it; call what is a function."""
-        if isinstance(node.func, ast.Name) and node.func.id in ("any", "all") and len(node.args) == 1:
+        built_in = isinstance(node.func, ast.Name) and node.func.id in {"any", "all"} - vars(self._module).keys()
+        if built_in and isinstance(node.func, ast.Name) and len(node.args) == 1:
             if not isinstance(node.args[0], ast.GeneratorExp):
                 raise self._refused(node, f"{node.func.id} of what is written nowhere cannot be compiled")
             return self._looped(node, node.args[0].generators, node.func.id, node.args[0].elt)
@@ -315,6 +323,9 @@ def _made(source: str, **names: Any) -> Code:
 
 def _check_class(module: types.ModuleType, tree: ast.ClassDef) -> None:
     cls = getattr(module, tree.name)
+    unfit = unfit_class(cls)
+    if unfit is not None:
+        raise _refused(module, tree, f"{unfit.what}: {unfit.hint}")
     if is_enumeration(cls):
         return
     if not is_record(cls):

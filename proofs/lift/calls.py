@@ -12,6 +12,7 @@ from proofs.lift.comparisons import contains
 from proofs.lift.comprehensions import lift_setcomp, quantified
 from proofs.lift.expressions import CASES, cases_of, construct, evaluate
 from proofs.lift.frames import MISSING, Env, Frame
+from proofs.lift.kinds import kind_of_type
 from proofs.lift.operators import lookup, set_of
 from proofs.lift.statements import lift_function, parameters
 from proofs.lift.terms import same
@@ -73,6 +74,9 @@ def _arguments(frame: Frame, node: ast.Call, env: Env, function: FunctionType) -
     given = dict(zip(names, node.args, strict=False)) | {k.arg: k.value for k in node.keywords if k.arg is not None}
     if len(node.args) > len(names) or len(given) != len(node.args) + len(node.keywords):
         raise frame.outside(node, f"arguments of {ast.unparse(node)}", "each parameter once")
+    by_place = {each.arg for each in frame.state.definition(function).args.posonlyargs}
+    if by_place & {keyword.arg for keyword in node.keywords}:
+        raise frame.outside(node, f"arguments of {ast.unparse(node)}", "what stands before / is given by its place")
     bound: Env = {}
     for name in (*names, *keyword_only):
         if name in given:
@@ -92,10 +96,7 @@ def _arguments(frame: Frame, node: ast.Call, env: Env, function: FunctionType) -
 
 def _construction(frame: Frame, node: ast.Call, env: Env, cls: Any) -> Tree:
     """``Record(field=value)``, with defaults."""
-    if hasattr(cls, "__post_init__") or not cls.__dataclass_params__.frozen:
-        raise frame.outside(
-            node, f"{cls.__name__} is no plain frozen dataclass", "@dataclass(frozen=True), no __post_init__"
-        )
+    kind_of_type(cls)
     fields = {field.name: field for field in dataclasses.fields(cls)}
     given = dict(zip(fields, node.args, strict=False)) | {k.arg: k.value for k in node.keywords if k.arg is not None}
     if len(node.args) > len(fields) or not given.keys() <= fields.keys():

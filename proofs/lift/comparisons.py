@@ -102,7 +102,9 @@ def equal(frame: Frame, left: Value, right: Value) -> Truth:
     match left, right:
         case (Tuple(), Tuple()) | (Record(), Record()):
             ones, others = list(items_of(left)), list(items_of(right))
-            if len(ones) != len(others) or (isinstance(left, Record) and left.cls is not right.cls):
+            if isinstance(left, Record) and left.cls is not right.cls:
+                raise Mismatch(f"a {name_of(left)} is compared with a {name_of(right)}")
+            if len(ones) != len(others):
                 return False
             return and_(*(equal(frame, one, other) for one, other in zip(ones, others, strict=True)))
         case Set(), Set():

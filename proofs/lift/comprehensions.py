@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 from proofs.lift.expressions import condition, conjunction, construct, evaluate
 from proofs.lift.frames import Env, Frame
@@ -56,22 +57,30 @@ class Range:
     is_items: bool = False
 
 
+class Way(Enum):
+    """How the cases of clauses are gone through."""
+
+    BY_SCOPE = "one after the other in a finite scope"
+    BOUND = "with bound constants in any scope"
+    UNORDERED = "with bound constants also for a set whose elements are listed"
+
+
 def each(
-    frame: Frame, clauses: Sequence[ast.comprehension], env: Env, given: Given, symbolic: bool = False
+    frame: Frame, clauses: Sequence[ast.comprehension], env: Env, given: Given, way: Way = Way.BY_SCOPE
 ) -> Iterator[Case]:
-    """Go through the cases of several clauses; ``symbolic``: with bound constants in any scope."""
+    """Go through the cases of several clauses."""
     if not clauses:
         yield Case([], True, env)
         return
-    for case in _cases(frame, clauses[0], env, given, symbolic):
+    for case in _cases(frame, clauses[0], env, given, way):
         with frame.state.assuming(case.guard):
-            for inner in each(frame, clauses[1:], case.env, given, symbolic):
+            for inner in each(frame, clauses[1:], case.env, given, way):
                 yield Case(case.binders + inner.binders, and_(case.guard, inner.guard), inner.env)
 
 
-def _cases(frame: Frame, clause: ast.comprehension, env: Env, given: Given, symbolic: bool) -> Iterator[Case]:
+def _cases(frame: Frame, clause: ast.comprehension, env: Env, given: Given, way: Way) -> Iterator[Case]:
     """Go through the cases of one clause."""
-    for binders, member, element in _elements(frame, clause, env, given, symbolic):
+    for binders, member, element in _elements(frame, clause, env, given, way):
         if member is False:
             continue
         inner = {**env, **bind(frame, clause.target, element)}
@@ -82,9 +91,9 @@ def _cases(frame: Frame, clause: ast.comprehension, env: Env, given: Given, symb
 
 
 def _elements(
-    frame: Frame, clause: ast.comprehension, env: Env, given: Given, symbolic: bool
+    frame: Frame, clause: ast.comprehension, env: Env, given: Given, way: Way
 ) -> Iterator[tuple[list[Term], Truth, Value]]:
-    source = _range(frame, clause.iter, env)
+    source = _range(frame, clause.iter, env, way)
     if not isinstance(source, Range):
         for value in source:
             yield [], _agrees(clause.target, value, given), value
@@ -96,7 +105,7 @@ def _elements(
     kinds = tuple(scalars[index] for index in free)
     names = [places[index][0] or scalars[index].name.lower() for index in free]
     with frame.at(clause.iter):
-        opened = frame.scope.open_symbolic(kinds, names) if symbolic else frame.scope.open(kinds, names)
+        opened = (frame.scope.open if way is Way.BY_SCOPE else frame.scope.open_symbolic)(kinds, names)
         for binders, terms in opened:
             key = list(fixed)
             for index, term in zip(free, terms, strict=True):
@@ -105,10 +114,12 @@ def _elements(
             yield binders, member, source.gets(*key) if member is not False else ABSENT
 
 
-def _range(frame: Frame, node: ast.expr, env: Env) -> Range | Sequence[Value]:
+def _range(frame: Frame, node: ast.expr, env: Env, way: Way) -> Range | Sequence[Value]:
     """Lift what a ``for`` goes through: a set, a map, its items or values, or listed values."""
     method = ""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in _VIEWS:
+        if node.args or node.keywords:
+            raise frame.outside(node, f"arguments of {ast.unparse(node)}", f"m.{node.func.attr}()")
         method, node = node.func.attr, node.func.value
     value = frame.unwrap(evaluate(frame, node, env), node)
     if isinstance(value, Absent):
@@ -116,7 +127,7 @@ def _range(frame: Frame, node: ast.expr, env: Env) -> Range | Sequence[Value]:
     if isinstance(value, Map):
         return _map_range(value, method)
     if isinstance(value, Set) and not method:
-        if value.listed is not None:
+        if value.listed is not None and way is not Way.UNORDERED:
             return value.listed
         kind = value.element
         return Range(kind, value.member, lambda *q: unflat(kind, q), names_key=True) if kind else ()
@@ -281,8 +292,8 @@ def _probe(
     """Go through the comprehension once: collect its obligations, find its kind, refuse what is unclear."""
     _check_clauses(frame, node, node.generators)
     kind: Kind | None = None
-    for case in each(frame, node.generators, env, {}, symbolic=True):
-        found = frame.unwrap(evaluate(frame, key, case.env), key)
+    for case in each(frame, node.generators, env, {}, Way.BOUND):
+        found = frame.key(evaluate(frame, key, case.env), key)
         evaluate(frame, value, case.env)
         if not isinstance(found, Absent):
             kind = frame.scope.kind_of(found)
@@ -292,11 +303,11 @@ def _probe(
 
 
 def _check_key(frame: Frame, node: ast.DictComp, kind: Kind, env: Env) -> None:
-    """Refuse a dict comprehension whose key leaves a loop variable open."""
+    """Refuse a dict comprehension whose key leaves a loop variable open: which value counts would hang on order."""
     scalars = scalars_of(kind)
     with frame.state.deferred(frame.state.path):
         for _, terms in frame.scope.open_symbolic(scalars, [scalar.name.lower() for scalar in scalars]):
-            for case in each(frame, node.generators, env, _given(node.key, kind, terms), symbolic=True):
+            for case in each(frame, node.generators, env, _given(node.key, kind, terms), Way.UNORDERED):
                 if case.binders:
                     raise frame.outside(
                         node,

@@ -159,7 +159,8 @@ def lift_unaryop(frame: Frame, node: ast.UnaryOp, env: Env) -> Value:
     if isinstance(node.op, ast.Not):
         return not_(condition(frame, node.operand, env))
     if isinstance(node.op, ast.USub):
-        return folded(-number(frame, node.operand, env))
+        found = number(frame, node.operand, env)
+        return found if found is ABSENT else folded(-found)
     raise frame.outside(node, f"operator in {ast.unparse(node)}", "`not` and `-` only")
 
 
@@ -184,8 +185,10 @@ CASES[ast.IfExp] = _ifexp_cases
 
 
 def number(frame: Frame, node: ast.expr, env: Env) -> Term:
-    """Lift an expression that must be an int."""
+    """Lift an expression that must be an int; ABSENT where nothing is there."""
     value = frame.unwrap(evaluate(frame, node, env), node)
+    if isinstance(value, Absent):
+        return ABSENT
     if is_term(value) and frame.scope.scalar_of(value) == INT:
         return value
     raise frame.outside(node, f"{ast.unparse(node)} is no int", "calculate with int only")

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import ast
 import builtins
+import inspect
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from enum import Enum
+from enum import Enum, EnumType
+from types import FunctionType, MappingProxyType, ModuleType
 from typing import Any, NamedTuple
 
 import z3
 
 from proofs.lift.errors import OutsideSubset
+from proofs.lift.kinds import check_class, fields_of
 from proofs.lift.scopes import Scope
-from proofs.lift.sources import Code, definition_of, file_of
+from proofs.lift.sources import Code, check_names, definition_of, file_of
 from proofs.lift.terms import Truth, and_, implies_, not_, same, to_z3
 from proofs.lift.values import (
     ABSENT,
@@ -28,6 +31,7 @@ from proofs.lift.values import (
     Record,
     Tuple,
     Value,
+    flat,
     listed_map,
     listed_set,
     name_of,
@@ -69,6 +73,17 @@ class State:
     obligations: list[Obligation] = field(default_factory=list)
     path: tuple[Truth, ...] = ()
     calls: tuple[Code, ...] = ()
+    checked: set[Code] = field(default_factory=set)
+
+    def definition(self, function: Code) -> ast.FunctionDef:
+        """Return the syntax tree of a function, or of the mutant that stands for it, its names checked."""
+        mutant = self.sources.get(function)
+        if mutant is None:
+            return definition_of(function)
+        if function not in self.checked:
+            check_names(mutant, function)
+            self.checked.add(function)
+        return mutant
 
     @contextmanager
     def assuming(self, *truths: Truth) -> Iterator[None]:
@@ -118,11 +133,12 @@ class Frame:
     @property
     def definition(self) -> ast.FunctionDef:
         """The syntax tree of the function, or of the mutant that stands for it."""
-        return self.state.sources.get(self.function) or definition_of(self.function)
+        return self.state.definition(self.function)
 
     def outside(self, node: ast.AST, what: str, hint: str) -> OutsideSubset:
         """Return the error that says that a construct is outside the subset."""
-        return OutsideSubset(file_of(self.function), getattr(node, "lineno", self.definition.lineno), what, hint)
+        line = getattr(node, "lineno", 0) or self.definition.lineno
+        return OutsideSubset(file_of(self.function), line, what, hint)
 
     @contextmanager
     def at(self, node: ast.AST) -> Iterator[None]:
@@ -151,6 +167,15 @@ class Frame:
             return value.value
         return value
 
+    def key(self, value: Value, node: ast.AST) -> Value:
+        """Return a value that is to be an element or a key: nothing in it may be ``None`` here."""
+        value = self.unwrap(value, node)
+        if isinstance(value, Absent):
+            return value
+        defined = flat(value)[0]
+        self.require(defined, node)
+        return ABSENT if defined is False else value
+
     def truth(self, value: Value, node: ast.AST) -> Truth:
         """Return a value that must be a bool."""
         if isinstance(value, (bool, z3.BoolRef)):
@@ -169,9 +194,7 @@ class Frame:
             names: Mapping[str, Any] = self.function.__globals__
             return names.get(node.id, getattr(builtins, node.id, MISSING))
         if isinstance(node, ast.Attribute):
-            owner = self.global_object(node.value, env)
-            if owner is not MISSING and (isinstance(owner, type) or type(owner).__name__ == "module"):
-                return getattr(owner, node.attr, MISSING)
+            return attribute_of(self.global_object(node.value, env), node.attr)
         return MISSING
 
     def literal(self, value: Any, node: ast.AST) -> Value:
@@ -186,17 +209,46 @@ class Frame:
             return z3.IntVal(value)
         if type(value) is tuple:
             return Tuple(tuple(self.literal(item, node) for item in value))
-        if isinstance(value, frozenset):
-            items = tuple(self.literal(item, node) for item in value)
+        if type(value) is frozenset:
+            items = tuple(self._constant_key(item, node) for item in value)
             return listed_set(self.scope.kind_of(items[0]), items) if items else EMPTY_SET
-        if isinstance(value, Mapping):
-            entries = tuple((self.literal(k, node), self.literal(v, node)) for k, v in value.items())
+        if is_plain_map(value):
+            entries = tuple((self._constant_key(k, node), self.literal(v, node)) for k, v in value.items())
             return listed_map(self.scope.kind_of(entries[0][0]), entries) if entries else EMPTY_MAP
-        if hasattr(type(value), "__dataclass_fields__") and not isinstance(value, type):
-            names = type(value).__dataclass_fields__
-            return Record(type(value), {name: self.literal(getattr(value, name), node) for name in names})
+        cls: Any = type(value)
+        if hasattr(cls, "__dataclass_fields__"):
+            check_class(cls)
+            return Record(cls, {name: self.literal(getattr(value, name), node) for name in fields_of(cls)})
         raise self.outside(
             node,
             f"constant {value!r} of type {type(value).__name__} is outside the subset",
             "constants are bool, int, None, enum members, and frozen collections and records of them",
         )
+
+    def _constant_key(self, value: Any, node: ast.AST) -> Value:
+        """Lift an element or a key of a constant, in which nothing is ``None``."""
+        key = self.literal(value, node)
+        if flat(key)[0] is not True:
+            raise self.outside(node, f"a constant set or map with the key {value!r}", "keys without None")
+        return key
+
+
+def attribute_of(owner: Any, name: str) -> Any:
+    """Return what a module or a class has by a name without running code; MISSING if nothing."""
+    if isinstance(owner, ModuleType):
+        return vars(owner).get(name, MISSING)
+    if isinstance(owner, EnumType):
+        return owner.__members__.get(name, MISSING)
+    if isinstance(owner, type) and type(owner) is type:
+        found = inspect.getattr_static(owner, name, MISSING)
+        if isinstance(found, staticmethod):
+            return found.__func__
+        return found if isinstance(found, FunctionType) or not hasattr(type(found), "__get__") else MISSING
+    return MISSING
+
+
+def is_plain_map(value: Any) -> bool:
+    """Whether a constant is a dict, or a view of one: other maps find, unite and compare by rules of their own."""
+    if isinstance(value, MappingProxyType):
+        value = value.copy()
+    return type(value) is dict

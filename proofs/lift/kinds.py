@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 import types
 import typing
 from collections.abc import Mapping
@@ -17,6 +18,7 @@ from functools import cache
 from typing import Any, NewType, TypeAlias
 
 from kernel.maps import Map, Members
+from models.subset import unfit_class
 from proofs.lift.errors import OutsideSubset
 
 
@@ -114,11 +116,22 @@ def kind_of_type(annotation: Any, owner: Any = None) -> Kind:
     elif origin in (Mapping, Map):
         return MapKind(_key(arguments[0], owner), kind_of_type(arguments[1], owner))
     elif isinstance(annotation, type):
-        if issubclass(annotation, Enum) or (issubclass(annotation, tuple) and hasattr(annotation, "_fields")):
-            return Scalar(annotation)
-        if dataclasses.is_dataclass(annotation) and annotation.__dataclass_params__.frozen:  # type: ignore[attr-defined]
-            return RecordKind(annotation)
+        is_scalar = issubclass(annotation, Enum) or (issubclass(annotation, tuple) and hasattr(annotation, "_fields"))
+        if is_scalar or dataclasses.is_dataclass(annotation):
+            check_class(annotation)
+            return Scalar(annotation) if is_scalar else RecordKind(annotation)
     raise _outside(annotation, owner)
+
+
+def check_class(cls: Any) -> None:
+    """Refuse a class that means something else than its fields or members say."""
+    unfit = unfit_class(cls)
+    if unfit is not None:
+        raise OutsideSubset(*_place(cls), f"class outside the subset: {unfit.what}", unfit.hint)
+
+
+RESERVED = re.compile(r"is_none|has\d*")
+"""What ``components`` calls the parts of an optional value and of a map, beside its fields' own names."""
 
 
 @cache
@@ -127,6 +140,10 @@ def fields_of(cls: Any) -> Mapping[str, Kind]:
     hints = typing.get_type_hints(cls)
     names = cls._fields if issubclass(cls, tuple) else [field.name for field in dataclasses.fields(cls)]
     kinds = {name: kind_of_type(hints[name], cls) for name in names}
+    taken = next((name for name in names if RESERVED.fullmatch(name)), None)
+    if taken is not None:
+        what = f"the field {cls.__name__}.{taken} has the name of a part of an optional value or a map"
+        raise OutsideSubset(*_place(cls), what, "give it another name than is_none and has")
     if issubclass(cls, tuple) and not all(isinstance(kind, Scalar) for kind in kinds.values()):
         raise OutsideSubset(*_place(cls), f"NamedTuple {cls.__name__} has a field that is no scalar", "use a dataclass")
     return kinds

@@ -34,6 +34,8 @@ def lift_subscript(frame: Frame, node: ast.Subscript, env: Env) -> Value:
     """``m[k]``, which needs ``k in m``; and ``t[0]`` of a tuple."""
     whole = frame.unwrap(evaluate(frame, node.value, env), node.value)
     if isinstance(whole, Tuple) and isinstance(node.slice, ast.Constant) and type(node.slice.value) is int:
+        if node.slice.value >= len(whole.items):
+            raise frame.outside(node, f"{ast.unparse(node)} of a tuple of {len(whole.items)}", "an item that it has")
         return whole.items[node.slice.value]
     if not isinstance(whole, (Map, Absent)):
         raise frame.outside(node, f"subscript of a {name_of(whole)}", "m[k] of a Mapping, t[0] of a tuple")
@@ -72,7 +74,7 @@ def lift_set(frame: Frame, node: ast.Set, env: Env) -> Value:
 
 def set_of(frame: Frame, values: tuple[Value, ...], node: ast.AST) -> Set:
     """Return the set of some values, none of which may be ``None``."""
-    values = tuple(frame.unwrap(value, node) for value in values)
+    values = tuple(frame.key(value, node) for value in values)
     kept = tuple(value for value in values if not isinstance(value, Absent))
     return listed_set(frame.scope.kind_of(kept[0]), kept) if kept else listed_set(None, ())
 
@@ -86,7 +88,7 @@ def lift_dict(frame: Frame, node: ast.Dict, env: Env) -> Value:
         if key_node is None:
             part = frame.unwrap(value, value_node)
         else:
-            key = frame.unwrap(evaluate(frame, key_node, env), key_node)
+            key = frame.key(evaluate(frame, key_node, env), key_node)
             absent = isinstance(key, Absent)
             part = EMPTY_MAP if absent else listed_map(frame.scope.kind_of(key), ((key, value),))
         if isinstance(part, Absent):

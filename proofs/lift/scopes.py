@@ -14,7 +14,18 @@ from typing import Any, NamedTuple
 import z3
 
 from proofs.lift.components import Component, Function, Keys, components, grow
-from proofs.lift.kinds import BOOL, INT, Kind, RecordKind, Scalar, TupleKind, fields_of, kind_of_type
+from proofs.lift.kinds import (
+    BOOL,
+    INT,
+    Kind,
+    RecordKind,
+    Scalar,
+    TupleKind,
+    check_class,
+    fields_of,
+    kind_of_type,
+    scalars_of,
+)
 from proofs.lift.terms import (
     Term,
     Truth,
@@ -58,6 +69,8 @@ class Scope(ABC):
     def sort(self, scalar: Scalar) -> Any:
         """Return the Z3 sort of a scalar."""
         if scalar not in self._sorts:
+            if any(other.name == scalar.name for other in self._sorts):
+                raise Mismatch(f"{scalar.name} is the name of two types")
             self._sorts[scalar] = self._sort(scalar)
             self._scalars[address(self._sorts[scalar])] = scalar
         return self._sorts[scalar]
@@ -80,13 +93,22 @@ class Scope(ABC):
         if isinstance(value, Tuple):
             return TupleKind(tuple(self.kind_of(item) for item in value.items))
         if isinstance(value, Record):
-            return RecordKind(value.cls)
+            return self._record_key(value.cls)
         if is_term(value):
             return self.scalar_of(value)
         raise Mismatch(f"a {name_of(value)} cannot be an element or a key")
 
+    def _record_key(self, cls: type) -> RecordKind:
+        kind = RecordKind(cls)
+        try:
+            scalars_of(kind)
+        except TypeError:
+            raise Mismatch(f"a {cls.__name__} has a field that cannot be part of a key") from None
+        return kind
+
     def member(self, member: Any) -> Term:
         """Return the term of an Enum member."""
+        check_class(type(member))
         scalar = Scalar(type(member))
         self.sort(scalar)
         return enumeration(*_members(scalar))[1][list(scalar.source).index(member)]

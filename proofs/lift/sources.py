@@ -7,8 +7,10 @@ import inspect
 import textwrap
 from collections.abc import Callable
 from functools import cache
+from types import FunctionType
 from typing import Any
 
+from models.subset import unfit_name
 from proofs.lift.errors import OutsideSubset
 
 Code = Callable[..., Any]
@@ -35,4 +37,14 @@ def definition_of(function: Code) -> ast.FunctionDef:
     ast.increment_lineno(tree, first - 1)
     if not isinstance(tree, ast.FunctionDef) or tree.name != function.__name__:
         raise OutsideSubset(file, line, f"{function.__name__} is no plain function", "define it by def, without yield")
+    check_names(tree, function)
     return tree
+
+
+def check_names(tree: ast.FunctionDef, function: Code) -> None:
+    """Refuse a function, or a mutant that stands for it, in which a name means something else than it seems to."""
+    unfit = unfit_name(tree, function if isinstance(function, FunctionType) else None)
+    if unfit is not None:
+        raise OutsideSubset(
+            file_of(function), getattr(unfit.node, "lineno", tree.lineno), f"{unfit.what}: {tree.name}", unfit.hint
+        )

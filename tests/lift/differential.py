@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import inspect
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import z3
@@ -63,24 +63,25 @@ def check_function(function: Code, universe: Universe, examples: int = 25, symbo
         try:
             expected = function(**dict(zip(names, arguments, strict=True)))
         except PARTIAL:
-            assert any(_can_fail(obligation.claim) for obligation in lifter.obligations), "an error without obligation"
+            assert any(can_fail(obligation.claim) for obligation in lifter.obligations), "an error without obligation"
             return
         assert concretise(None, scope, lifted, result) == expected, "from a concrete state"
         if result is bool:
             quantified = QuantifiedScope.of_universe(universe)
             again = [embed(quantified, argument, each) for argument, each in zip(arguments, types, strict=True)]
-            assert not _can_fail(Lifter(quantified).formula(function, *again) == expected), "with quantifiers"
+            assert not can_fail(Lifter(quantified).formula(function, *again) == expected), "with quantifiers"
         if symbols is not None:
             symbols.check(arguments, expected)
 
     compare()
 
 
-def _can_fail(claim: Any) -> bool:
+def can_fail(claim: Any, known: Sequence[Any] = ()) -> bool:
+    """Whether a claim can be false where this is known; it must be decided."""
     if z3.is_true(claim):
         return False
     solver = z3.SimpleSolver()
-    solver.add(z3.Not(claim))
+    solver.add(*known, z3.Not(claim))
     answer = solver.check()
     assert answer != z3.unknown
     return bool(answer == z3.sat)
@@ -129,7 +130,7 @@ def pinned(scope: FiniteScope, value: Value, concrete: Value, kind: Kind | Optio
     """Say that symbols have the values of a concrete state; what that leaves open stays open."""
     found = []
     for part in components(kind, "pinned"):
-        for _, terms in scope.open(part.keys, [key.name for key in part.keys]):
+        for _, terms in FiniteScope.open(scope, part.keys, [key.name for key in part.keys]):
             wanted: Term | Absent = part.read(concrete, *terms)
             if not isinstance(wanted, Absent):
                 found.append(to_z3(equal_terms(part.read(value, *terms), wanted)))

@@ -175,14 +175,6 @@ def only_on_one_path(harbour: Harbour) -> int:
     return amount  # type: ignore[possibly-undefined]  # here
 
 
-def thawed(berth: Berth) -> Thawed:
-    return Thawed(berth)  # here
-
-
-def checked(berth: Berth) -> Checked:
-    return Checked(berth)  # here
-
-
 def slot_without_field(ship: Ship) -> Slot:
     return Slot(holder=ship)  # type: ignore[call-arg]  # here
 

@@ -276,4 +276,4 @@ def test_a_fault_in_the_lifter_is_noticed(fault: str) -> None:
         for change in mutant():
             stack.enter_context(change)
         with pytest.raises((AssertionError, OutsideSubset, AttributeError, TypeError)):
-            check_function(function, harbour.UNIVERSE)
+            check_function(function, harbour.UNIVERSE, examples=100)

@@ -48,7 +48,10 @@ def test_a_lambda_is_refused() -> None:
         Lifter(UnboundedScope()).call(lambda: True)
 
 
-@pytest.mark.parametrize("type_", [outside.Thawed, outside.Floating, outside.Counted, list[int], dict[str, int], str])
+@pytest.mark.parametrize(
+    "type_",
+    [outside.Thawed, outside.Checked, outside.Floating, outside.Counted, list[int], dict[str, int], str],
+)
 def test_a_type_outside_the_subset_is_refused(type_: Any) -> None:
     with pytest.raises(OutsideSubset, match="outside the subset"):
         UnboundedScope().fresh(type_, "value")

@@ -230,6 +230,30 @@ REFUSED = {
         3,
         "field",
     ),
+    "a local unset on one path": (
+        "LIMIT = 3\ndef f(x: bool) -> int:\n    if x:\n        LIMIT = 4\n    return LIMIT",
+        5,
+        "not set on every path",
+    ),
+    "a local by the name of a function": ("def g() -> int:\n    return 1\ndef f(g: int) -> int:\n    return g", 3, "g"),
+    "a parameter by the name of any": ("def f(any: int) -> int:\n    return any", 1, "any"),
+    "a field left out of comparison": (
+        "from dataclasses import field\n@dataclass(frozen=True)\nclass C:\n    x: int = field(compare=False)",
+        3,
+        "compare=False",
+    ),
+    "a field given by name only": (
+        "@dataclass(frozen=True, kw_only=True)\nclass C:\n    x: int",
+        2,
+        "by name only",
+    ),
+    "a record of its own equality": (
+        "@dataclass(frozen=True, eq=False)\nclass C:\n    x: int",
+        2,
+        "eq=False",
+    ),
+    "members that are numbers": ("from enum import IntEnum\nclass C(IntEnum):\n    A = 1", 2, "numbers"),
+    "a member of two names": ("class C(Enum):\n    A = 1\n    B = 1", 1, "C.B"),
     "a loop outside": ("for x in (1, 2):\n    pass", 1, "For"),
 }
 
