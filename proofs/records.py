@@ -55,11 +55,15 @@ class Obligation(TypedDict):
 
 
 class CanarySeen(TypedDict):
-    """One question whose answer is known (:mod:`proofs.canaries`), put to one solver, and what it answered."""
+    """One question whose answer is known (:mod:`proofs.canaries`), put to one solver, and what it answered.
+
+    ``process``: the id of the process that asked; every one that answers obligations asks for itself.
+    """
 
     canary: str
     solver: str
     solver_version: str
+    process: int
     answer: str
     noticed: bool
 
@@ -80,7 +84,7 @@ class Record(TypedDict):
 class Report:
     """What a proof run gives back; ``seconds`` of lifting are apart from those of the whole run.
 
-    ``canaries``: what each solver answered to questions whose answer is known.
+    ``canaries``: what each solver answered to questions whose answer is known, in every process that worked.
     """
 
     obligations: Sequence[Obligation]

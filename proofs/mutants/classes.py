@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from proofs import canaries
 from proofs.catalogue import INTERLOCKING
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
@@ -94,7 +95,11 @@ def objection(entry: Entry) -> str:
 def not_implied(mutant: Mutant, because: list[str]) -> str:
     """Say in which transition the drop could make a difference, as far as is proved."""
     for transition in transitions_of(mutant.function):
-        mine = bench(theory_of(transition)[0].name)
+        theory = theory_of(transition)[0].name
+        missed = [each["canary"] for each in canaries.seen(("z3",), theory) if not each["noticed"]]
+        if missed:
+            return f"z3 does not notice {missed[0]}: nothing that it proves is believed"
+        mine = bench(theory)
         known = [name for name in because if name in {**mine.assumed, **mine.invariants}]
         if not proved(mine, sameness(mine, transition, mutant.sources), known):
             return f"not proved to make no difference in {transition}"

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import ast
 import copy
+import importlib
 import inspect
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from types import ModuleType
 from typing import Any
 
@@ -83,6 +85,24 @@ def mutants_of(function: Code) -> list[Mutant]:
         name = edit.text if names[key] == 1 else f"{edit.text} ({names[key]})"
         found.append(Mutant(function, edit.kind, name, tree))
     return found
+
+
+@cache
+def by_name(function: Code) -> Mapping[str, Mutant]:
+    """Every mutant of a function by its name."""
+    return {each.name: each for each in mutants_of(function)}
+
+
+def named(name: str) -> Mutant:
+    """The mutant of a function that has this name; ``KeyError`` if there is none any more."""
+    module, _, function = name.partition(": ")[0].rpartition(".")
+    try:
+        code = getattr(importlib.import_module(module), function)
+    except (ImportError, AttributeError, ValueError):
+        raise KeyError(name) from None
+    if not inspect.isfunction(code):
+        raise KeyError(name)
+    return by_name(code)[name]
 
 
 def edited(tree: ast.FunctionDef, edit: Edit) -> ast.FunctionDef:
