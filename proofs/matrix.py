@@ -148,6 +148,7 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
         *_empty(cells),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
         *on_canaries(report.canaries),
+        *(f"{offence}: what rests on it is not proved" for offence in report.offences),
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
     ]
     split = sum(len({answer["verdict"] for answer in cell}) > 1 for cell in cells.values())

@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 
 from models.processes import spread
-from proofs import canaries, lookups, promised, scripts, smtlib, solvers
+from proofs import canaries, lints_apart, lookups, promised, scripts, smtlib, solvers
 from proofs.records import CanarySeen, Obligation, Report, Source, Verdict, write_whole
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
@@ -172,4 +172,5 @@ def prove_all(
         lifting += settled.lifting
         seen |= {(each["process"], each["solver"], each["canary"]): each for each in settled.canaries}
         progress(done, len(todo), todo[done - 1].row)
-    return Report(obligations, lifting, time.perf_counter() - began, [*seen.values()])
+    offences = lints_apart.unlisted(lints_apart.offences(), lints_apart.listed()) if todo else []
+    return Report(obligations, lifting, time.perf_counter() - began, [*seen.values()], offences)
