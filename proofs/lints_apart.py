@@ -182,6 +182,32 @@ def rests_on_kernel(theory: Theory, name: str, predicate: Code) -> list[str]:
     ]
 
 
+def noted_in_assumptions(theory: Theory) -> list[str]:
+    """Find what is assumed of nature by what a machine has noted: a brake that nobody built."""
+    machine = machine_fields(theory.system)
+    return [
+        f"{theory.name}: {name} rests on {path}"
+        for name, predicate in assumed(theory).items()
+        for path in sorted({each for word in own_words(predicate) for each in paths_in(definition_of(word), machine)})
+    ]
+
+
+def paths_in(tree: ast.AST, fields: frozenset[str]) -> set[str]:
+    """Give the ways from a state into these fields, each as far as it is read."""
+    inside = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Attribute | ast.Subscript)}
+    found = set()
+    for node in ast.walk(tree):
+        path: list[str] = []
+        below = node
+        while isinstance(below, ast.Attribute | ast.Subscript):
+            path = [below.attr, *path] if isinstance(below, ast.Attribute) else path
+            below = below.value
+        outermost = id(node) not in inside
+        if outermost and isinstance(below, ast.Name) and below.id == "system" and fields & set(path):
+            found.add(".".join([below.id, *path]))
+    return found
+
+
 def kernel_in_guards(theory: Theory) -> list[str]:
     """Find steps of nature, which write into no machine, that are refused by a function of the kernel."""
     machine = machine_fields(theory.system)
@@ -410,6 +436,7 @@ def offences() -> Lines:
     of_theories = {
         "assumptions": kernel_in_assumptions,
         "guards": kernel_in_guards,
+        "noted": noted_in_assumptions,
         "claims": kernel_numbers_in_claims,
         "judgements": judgements,
         "truth": truth_into_kernel,

@@ -47,6 +47,7 @@ WORDS: Mapping[str, str] = {
     "sign": "`{}` keeps its sign",
     "rounding": "`{}` is rounded down",
     "term": "`{}` is left out of the sum",
+    "constant": "another number: `{}`",
 }
 """What a drop does, by its kind."""
 

@@ -18,7 +18,7 @@ from proofs.lift.sources import Code
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
 from proofs.mutants.sameness import proved, sameness
-from proofs.mutants.targets import called_by, mutants, rows_of, theories_with
+from proofs.mutants.targets import called_by, mutants, rows_of
 from proofs.mutants.trial import ready_for, tried_with
 from proofs.theories import THEORIES, theory_of
 from proofs.workbench import Workbench
@@ -97,7 +97,7 @@ def objection(entry: Entry) -> str:
 
 def not_implied(mutant: Mutant, because: list[str]) -> str:
     """Say in which transition the drop could make a difference, as far as is proved."""
-    told = [name for theory in theories_with(mutant) for name, claim in theory.read.items() if asks(claim, mutant)]
+    told = [name for theory in THEORIES.values() for name, claim in theory.read.items() if asks(claim, mutant)]
     if mutant.is_of_a_module and told:
         return f"{told[0]} reads it, and so becomes another with it"
     for transition in rows_of(mutant):
@@ -114,7 +114,7 @@ def not_implied(mutant: Mutant, because: list[str]) -> str:
 
 def asks(claim: Code, mutant: Mutant) -> bool:
     """Tell whether a predicate reads what a mutant changes."""
-    return any(function in mutant.functions for function in (claim, *called_by(claim)))
+    return any(map(mutant.touches, (claim, *called_by(claim))))
 
 
 def not_second(mutant: Mutant, pair: str) -> str:

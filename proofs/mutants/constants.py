@@ -1,6 +1,6 @@
-"""Integer constants of the kernel with other values: in a function by its text, of a module wherever it is read.
+"""Constants of the kernel's modules with other values: integers, and what stands in a record or a tuple.
 
-A constant of a module is changed as an edit of its line would change it: for the kernel's functions and for whoever
+A constant is changed as an edit of its line would change it: for the kernel's functions and for whoever
 else imports it.  A claim or an assumption that reads it becomes another with it, and then says nothing of it; only
 what states its own number can notice.
 """
@@ -8,8 +8,10 @@ what states its own number can notice.
 from __future__ import annotations
 
 import ast
+import dataclasses
 import inspect
 import sys
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -36,7 +38,7 @@ class Constant(Mutant):
 
     module: str
     constant: str
-    value: int
+    value: Any
     readers: tuple[Code, ...]
 
     @property
@@ -53,6 +55,10 @@ class Constant(Mutant):
     def sources(self) -> Mapping[Code, ast.FunctionDef]:
         """No function has another body."""
         return {}
+
+    def touches(self, function: Code) -> bool:
+        """Tell whether a function, a predicate too, reads the constant."""
+        return reads(function, self.module, self.constant)
 
     @property
     def is_of_a_module(self) -> bool:
@@ -138,18 +144,34 @@ def rooms() -> list[ModuleType]:
 
 
 def constants_of(module: ModuleType, readable: Sequence[Code]) -> list[Mutant]:
-    """Give every integer constant of a module with each of its other values, if a function reads it."""
+    """Give every constant of a module with each of its other values, if a function reads it."""
     found: list[Mutant] = []
-    for name in assigned(module):
-        value = getattr(module, name)
+    for name, written in assigned(module).items():
         readers = tuple(each for each in readable if reads(each, module.__name__, name))
-        if type(value) is not int or not readers:
-            continue
-        for other in others(value):
-            text = f"{value} is {other}"
+        for text, value in values(module, name, written) if readers else ():
             tree = definition_of(readers[0])
-            found.append(Constant(readers[0], "value", text, tree, module.__name__, name, other, readers))
+            found.append(Constant(readers[0], "value", text, tree, module.__name__, name, value, readers))
     return found
+
+
+def values(module: ModuleType, name: str, written: ast.expr) -> Iterator[tuple[str, Any]]:
+    """Give the other values of a constant: of an integer as it is, of a record by each number and truth in it."""
+    value = getattr(module, name)
+    if type(value) is int:
+        for other in others(value):
+            yield f"{value} is {other}", other
+    if not dataclasses.is_dataclass(value) and not isinstance(value, tuple):
+        return
+    times: Counter[str] = Counter()
+    for node in [each for each in ast.walk(written) if isinstance(each, ast.Constant)]:
+        kept = node.value
+        for other in (not kept,) if isinstance(kept, bool) else others(kept) if isinstance(kept, int) else ():
+            text = f"{ast.unparse(written)}: {kept!r} is {other!r}"
+            times[text] += 1
+            node.value = other
+            anew = eval(compile(ast.Expression(written), module.__name__, "eval"), vars(module))
+            node.value = kept
+            yield text if times[text] == 1 else f"{text} ({times[text]})", anew
 
 
 def reads(function: Code, module: str, name: str) -> bool:

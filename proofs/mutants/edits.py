@@ -63,6 +63,10 @@ class Mutant:
         """The functions that are otherwise than they were."""
         return (self.function,)
 
+    def touches(self, function: Code) -> bool:
+        """Tell whether a function is another with it."""
+        return function is self.function
+
     @property
     def is_of_a_module(self) -> bool:
         """Whether it is not in a function alone."""

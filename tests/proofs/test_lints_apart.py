@@ -26,6 +26,7 @@ from proofs.lints_apart import (
     kernel_numbers_in_claims,
     listed,
     mended,
+    noted_in_assumptions,
     offences,
     told_by_simulation,
     truth_into_kernel,
@@ -142,6 +143,14 @@ def states_its_own(site: Line) -> bool:
     return magnitude(site.length_mm) <= CYCLE_MS * OWN_MM
 
 
+def asks_what_is_noted(site: Line, system: Running, speed_um_s: int) -> bool:
+    return not system.motion.trusted or speed_um_s == 0
+
+
+def asks_what_is_so(site: Line, system: Running, speed_um_s: int) -> bool:
+    return not system.slipped or speed_um_s == 0
+
+
 def claims(site: Line, system: Running) -> bool:
     return system.front_nm <= CAUTION_MM
 
@@ -188,6 +197,12 @@ def test_an_assumption_that_asks_the_kernel_or_reads_its_number_is_seen(planted:
         "reads reads kernel.alarm.tone.CAUTION_MM",
         "reads_what_is_reckoned reads kernel.alarm.tone.CAUTION_MM",
     )
+
+
+def test_an_assumption_that_asks_what_a_machine_has_noted_is_seen(planted: ModuleType) -> None:
+    premises = {name: vars(planted)[name] for name in ("asks_what_is_noted", "asks_what_is_so")}
+    found = [line for line in noted_in_assumptions(replace(ODOMETRY, premises=premises)) if "asks_what" in line]
+    assert found == of("asks_what_is_noted rests on system.motion.trusted")
 
 
 def test_a_claim_that_takes_its_number_from_the_kernel_is_seen(planted: ModuleType) -> None:
