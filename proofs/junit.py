@@ -26,15 +26,25 @@ def junit_xml(report: Report) -> bytes:
         case = etree.SubElement(suite, "testcase", classname="heisoku", name="something is proved")
         etree.SubElement(case, "failure", type="undecided", message="no obligation was put to a solver")
     missed = [each for each in report.canaries if not each["noticed"]]
-    if missed:
-        suite = etree.SubElement(root, "testsuite", name="canaries", tests=str(len(missed)), failures=str(len(missed)))
-        for each in missed:
-            case = etree.SubElement(
-                suite, "testcase", classname="canaries", name=clean(f"{each['canary']} [{each['solver']}]")
-            )
-            etree.SubElement(case, "failure", type="undecided", message=f"{each['solver']} answers {each['answer']}")
+    add_doubts(
+        root,
+        "canaries",
+        [(f"{each['canary']} [{each['solver']}]", f"{each['solver']} answers {each['answer']}") for each in missed],
+    )
+    add_doubts(root, "sources", [(offence, "what rests on it is not proved") for offence in report.offences])
     count(root)
     return etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True)
+
+
+def add_doubts(root: etree._Element, name: str, doubts: Sequence[tuple[str, str]]) -> None:
+    """Add a suite of what leaves everything undecided, each with what is wrong; none if nothing does."""
+    if not doubts:
+        return
+    count = str(len(doubts))
+    suite = etree.SubElement(root, "testsuite", name=name, tests=count, failures=count)
+    for what, wrong in doubts:
+        case = etree.SubElement(suite, "testcase", classname=name, name=clean(what))
+        etree.SubElement(case, "failure", type="undecided", message=clean(wrong))
 
 
 def add_suite(root: etree._Element, transition: str, obligations: Sequence[Obligation]) -> None:

@@ -148,6 +148,7 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
         *_empty(cells),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
         *on_canaries(report.canaries),
+        *(f"{offence}: what rests on it is not proved" for offence in report.offences),
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
     ]
     split = sum(len({answer["verdict"] for answer in cell}) > 1 for cell in cells.values())
@@ -166,10 +167,12 @@ def on_canaries(seen: Sequence[CanarySeen]) -> list[str]:
     """Whether each solver saw what does not hold; whatever it says is worth nothing where it did not."""
     missed = [each for each in seen if not each["noticed"]]
     if not missed:
-        return [f"{len(seen)} canaries put to the solvers, none missed"] * bool(seen)
+        processes = len({each["process"] for each in seen})
+        count = len({each["canary"] for each in seen})
+        return [f"{count} canaries put to the solvers in {processes} processes, none missed"] * bool(seen)
     return [
-        f"{each['solver']} {each['solver_version']} answers {each['answer']} to what does not hold,"
-        f" {each['canary']}: nothing that it proved is believed"
+        f"{each['solver']} {each['solver_version']} in process {each['process']} answers {each['answer']}"
+        f" to what does not hold, {each['canary']}: nothing that it proved is believed"
         for each in missed
     ]
 

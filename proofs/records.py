@@ -55,11 +55,15 @@ class Obligation(TypedDict):
 
 
 class CanarySeen(TypedDict):
-    """One question whose answer is known (:mod:`proofs.canaries`), put to one solver, and what it answered."""
+    """One question whose answer is known (:mod:`proofs.canaries`), put to one solver, and what it answered.
+
+    ``process``: the id of the process that asked; every one that answers obligations asks for itself.
+    """
 
     canary: str
     solver: str
     solver_version: str
+    process: int
     answer: str
     noticed: bool
 
@@ -72,6 +76,7 @@ class Record(TypedDict):
     lifting_seconds: float
     wall_seconds: float
     canaries: list[CanarySeen]
+    offences: list[str]
     versions: dict[str, str]
     commit: str | None
 
@@ -80,18 +85,21 @@ class Record(TypedDict):
 class Report:
     """What a proof run gives back; ``seconds`` of lifting are apart from those of the whole run.
 
-    ``canaries``: what each solver answered to questions whose answer is known.
+    ``canaries``: what each solver answered to questions whose answer is known, in every process that worked.
+    ``offences``: what assumptions and claims take from the kernel that they must not (:mod:`proofs.lints_apart`).
     """
 
     obligations: Sequence[Obligation]
     lifting_seconds: float
     wall_seconds: float
     canaries: Sequence[CanarySeen] = ()
+    offences: Sequence[str] = ()
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict on the whole run; a solver that misses a canary has decided nothing."""
-        doubted: list[Verdict] = ["undecided"] * (not all(each["noticed"] for each in self.canaries))
+        """The verdict on the whole run: with a missed canary, or an offence of the sources, nothing is decided."""
+        believed = all(each["noticed"] for each in self.canaries) and not self.offences
+        doubted: list[Verdict] = ["undecided"] * (not believed)
         return overall([*doubted, *(obligation["verdict"] for obligation in self.obligations)])
 
     @property
@@ -107,6 +115,7 @@ class Report:
             "lifting_seconds": round(self.lifting_seconds, 3),
             "wall_seconds": round(self.wall_seconds, 3),
             "canaries": [*self.canaries],
+            "offences": [*self.offences],
             "versions": versions(),
             "commit": commit(),
         }

@@ -13,8 +13,8 @@ from functools import cache
 from pathlib import Path
 
 from models.processes import spread
-from proofs import canaries, lookups, promised, scripts, smtlib, solvers
-from proofs.records import Obligation, Report, Source, Verdict, write_whole
+from proofs import canaries, lints_apart, lookups, promised, scripts, smtlib, solvers
+from proofs.records import CanarySeen, Obligation, Report, Source, Verdict, write_whole
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.workbench import Part, Workbench
@@ -107,8 +107,18 @@ def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], dig
     return {**told, "note": NOTHING_TO_ASK} if empty else told
 
 
-def work(task: Task) -> tuple[list[Obligation], float]:
-    """Settle a task; tell the lifting time that it took apart."""
+@dataclass(frozen=True)
+class Done:
+    """A task settled; ``lifting``: seconds.  ``canaries``: what the solvers noticed in the process that settled it."""
+
+    obligations: list[Obligation]
+    lifting: float
+    canaries: list[CanarySeen]
+
+
+def work(task: Task) -> Done:
+    """Settle a task, once the solvers of this process have been put to the test."""
+    seen = canaries.seen(task.solvers, theory_of(task.row)[0].name)
     before = lifting_seconds()
     found = []
     for column in task.columns:
@@ -121,7 +131,7 @@ def work(task: Task) -> tuple[list[Obligation], float]:
             for solver in task.solvers
             for seed in range(task.seeds)
         ]
-    return found, lifting_seconds() - before
+    return Done(found, lifting_seconds() - before, seen)
 
 
 def kept(folder: Path, row: str, column: str) -> Path:
@@ -154,11 +164,13 @@ def prove_all(
     began = time.perf_counter()
     asked = ("z3", "cvc5") if solver == "both" else (solver,)
     todo = list(tasks(asked, seeds, only, keep))
-    seen = canaries.seen(asked) if todo else []
+    seen: dict[tuple[int, str, str], CanarySeen] = {}
     obligations: list[Obligation] = []
     lifting = 0.0
-    for done, (found, seconds) in enumerate(spread(work, todo, jobs), 1):
-        obligations += found
-        lifting += seconds
+    for done, settled in enumerate(spread(work, todo, jobs), 1):
+        obligations += settled.obligations
+        lifting += settled.lifting
+        seen |= {(each["process"], each["solver"], each["canary"]): each for each in settled.canaries}
         progress(done, len(todo), todo[done - 1].row)
-    return Report(obligations, lifting, time.perf_counter() - began, seen)
+    offences = lints_apart.unlisted(lints_apart.offences(), lints_apart.listed()) if todo else []
+    return Report(obligations, lifting, time.perf_counter() - began, [*seen.values()], offences)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fuzz.campaign.files import DATABASE
 from fuzz.campaign.problems import CampaignError
+from fuzz.campaign.sought import Sought
 from fuzz.campaign.store import Store
 
 
@@ -36,8 +37,16 @@ def merge(into: Path, folders: Sequence[Path]) -> int:
             for start in each.starts():
                 when, begun_with = str(start.pop("at")), int(str(start.pop("seed")))
                 result.note_start(when, begun_with, start)
+            for seed in each.seeds():
+                result.note_canaries(seed, worse(result.canaries(seed), each.canaries(seed)))
             for seed, target, number, weights in each.ask("SELECT seed, target, round, weights FROM rounds"):
                 result.note_round(seed, target, number, json.loads(weights))
             added += sum(result.add_row(row, failures) for row, failures in each.rows())
         result.write_traces()
     return added
+
+
+def worse(one: Sequence[Sought], other: Sequence[Sought]) -> list[Sought]:
+    """What became of a seed's canaries in two campaigns: each was found only if both found it."""
+    missed = {each.kind: each for each in one if not each.target}
+    return [missed.get(each.kind, each) for each in other]

@@ -22,7 +22,7 @@ from fuzz.campaign.identity import identity_of
 from fuzz.campaign.merging import merge
 from fuzz.campaign.pool import Pool, Workers
 from fuzz.campaign.problems import CampaignError
-from fuzz.campaign.sought import seek
+from fuzz.campaign.sought import seek, unsought
 from fuzz.campaign.store import Store
 from fuzz.campaign.view import View
 from fuzz.campaign.worker import work_on
@@ -111,13 +111,16 @@ def go_on(options: Options, targets: Sequence[Target] | None = None) -> int:
         plan = plan_of(options, store)
         store.keep_layouts(options.layouts)
         store.note_start(datetime.now(UTC).isoformat(), plan.seed, {"commit": commit(), "versions": versions()})
+        if not store.canaries(plan.seed):
+            store.note_canaries(plan.seed, unsought(run_on, plan.seed))
         store.write_traces()
         with View(store, out, aside, plan.seconds) as view:
             with closing(workers_of(options, run_on, identity, view.say)) as workers:
                 run(store, run_on, plan, workers, view.update, stopped.is_set)
             rates = view.rates()
-        if not stopped.is_set() and not store.canaries():
-            store.note_canaries(plan.seed, seek(run_on, plan.seed, options.workers))
+        if not stopped.is_set() and any(not each.batches for each in store.canaries(plan.seed)):
+            came_to = seek(run_on, plan.seed, options.workers)
+            store.note_canaries(plan.seed, [] if stopped.is_set() else came_to)
         code = UNDECIDED if stopped.is_set() else summary.verdict(store)
         finish(out, store, rates, code, options.json)
     if stopped.is_set():

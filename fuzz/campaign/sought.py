@@ -25,7 +25,11 @@ class Plantable(Protocol):
 
 @dataclass(frozen=True)
 class Sought:
-    """What became of a canary: found by which target, in how many batches; ``target`` is empty if by none."""
+    """What became of a canary: found by which target, in how many batches; ``target`` is empty if by none.
+
+    One of no batches has not been sought yet: it stands in the store from the beginning, so that a campaign that was
+    broken off before, whatever ended it, has not found it.
+    """
 
     kind: str
     fault: str
@@ -40,9 +44,22 @@ def carriers(targets: Sequence[Target], canary: Canary) -> list[Target]:
     return [each for each in carried if each is not None]
 
 
+def carried(targets: Sequence[Target], seed: int) -> list[tuple[Canary, list[Target]]]:
+    """The canaries of a seed that these targets can carry, each with the targets that it runs in."""
+    return [(canary, found) for canary in canaries(seed) if (found := carriers(targets, canary))]
+
+
+def unsought(targets: Sequence[Target], seed: int) -> list[Sought]:
+    """What is to be sought, as long as it is not."""
+    return [Sought(canary.kind, canary.name, "", 0, 0.0) for canary, _ in carried(targets, seed)]
+
+
 def seek(targets: Sequence[Target], seed: int, workers: int) -> list[Sought]:
-    """Run every canary that a target can carry, each in a process of its own, until it is found or has had its time."""
-    wanted = [(canary, found) for canary in canaries(seed) if (found := carriers(targets, canary))]
+    """Run every canary that a target can carry, each in a process of its own, until it is found or has had its time.
+
+    An interruption is passed on: what was found until then counts for nothing.
+    """
+    wanted = carried(targets, seed)
     if not wanted:
         return []
     with processes(workers, one_each=True) as pool:

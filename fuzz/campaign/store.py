@@ -296,10 +296,10 @@ class Store:
                 "INSERT OR REPLACE INTO canaries VALUES (?, ?, ?, ?, ?, ?)", [(seed, *astuple(each)) for each in sought]
             )
 
-    def canaries(self) -> list[Sought]:
-        """What became of every canary."""
-        found = self.ask("SELECT kind, fault, target, batches, seconds FROM canaries ORDER BY seed, kind")
-        return [Sought(*each) for each in found]
+    def canaries(self, seed: int | None = None) -> list[Sought]:
+        """What became of every canary, or of one seed's."""
+        found = self.ask("SELECT seed, kind, fault, target, batches, seconds FROM canaries ORDER BY seed, kind")
+        return [Sought(*each) for of, *each in found if seed in (None, of)]
 
     # ---- traces as files
 

@@ -8,18 +8,16 @@ from __future__ import annotations
 
 import argparse
 import ast
-import importlib
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from random import Random
 
 from fuzz.planted.killed import killed, module_of, rows
 from models.exit_codes import BAD_INPUT, HOLDS
-from proofs.lift.sources import Code, definition_of, file_of
-from proofs.mutants.edits import Mutant, mutants_of
+from proofs.lift.sources import definition_of, file_of
+from proofs.mutants.edits import Mutant, by_name, named
 from proofs.mutated import Sources
 from proofs.theories import THEORIES, theory_of
 
@@ -49,6 +47,7 @@ WORDS: Mapping[str, str] = {
     "sign": "`{}` keeps its sign",
     "rounding": "`{}` is rounded down",
     "term": "`{}` is left out of the sum",
+    "constant": "another number: `{}`",
 }
 """What a drop does, by its kind."""
 
@@ -83,32 +82,15 @@ class Planted:
         return next((loop for loop, machines in LOOPS.items() if self.machine in machines), "")
 
 
-@cache
-def mutant(name: str) -> Mutant:
-    """The mutant of this name; ``KeyError`` if there is none any more."""
-    home = name.partition(": ")[0]
-    module, _, function = home.rpartition(".")
-    try:
-        code = getattr(importlib.import_module(module), function)
-    except (ImportError, AttributeError, ValueError):
-        raise KeyError(name) from None
-    return _by_name(code)[name]
-
-
-@cache
-def _by_name(function: Code) -> Mapping[str, Mutant]:
-    return {each.name: each for each in mutants_of(function)}
-
-
 def planted(name: str) -> Sources:
     """The kernel's functions with this fault, for CPython and for the compiled engine; ``KeyError`` if unknown."""
-    return mutant(name).sources
+    return named(name).sources
 
 
 def name_of(sources: Sources) -> str | None:
     """The name of the mutant that these sources are; none if they are no single one."""
     for function, tree in sources.items():
-        for each in _by_name(function).values() if len(sources) == 1 else ():
+        for each in by_name(function).values() if len(sources) == 1 else ():
             if each.tree is tree or ast.unparse(each.tree) == ast.unparse(tree):
                 return each.name
     return None
@@ -116,7 +98,7 @@ def name_of(sources: Sources) -> str | None:
 
 def described(name: str) -> Planted:
     """Everything that is said of a planted fault."""
-    found = mutant(name)
+    found = named(name)
     file = Path(file_of(found.function)).resolve()
     return Planted(
         name=name,

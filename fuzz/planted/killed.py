@@ -40,10 +40,13 @@ def module_of(name: str) -> str:
 
 
 def text_of(trials: Mapping[str, Mapping[str, str]]) -> str:
-    """The file's text, from the outcome of every trial by the mutant's name; the world's mutants are left out."""
+    """The file's text, from the outcome of every trial by the mutant's name.
+
+    Left out are the world's mutants, and constants of modules: they are in no function that a fault is planted in.
+    """
     found: dict[str, dict[str, str]] = {}
     for name, verdict in trials.items():
-        if verdict["outcome"] == "counterexample" and name.startswith("kernel."):
+        if verdict["outcome"] == "counterexample" and name.startswith("kernel.") and ": value " not in name:
             found.setdefault(module_of(name), {})[name] = verdict["by"]
     return HEAD + "".join(_table(module, found[module]) for module in sorted(found))
 

@@ -12,12 +12,14 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from proofs import canaries
 from proofs.catalogue import INTERLOCKING
+from proofs.lift.sources import Code
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
 from proofs.mutants.sameness import proved, sameness
-from proofs.mutants.targets import mutants, transitions_of
-from proofs.mutants.trial import tried_with
+from proofs.mutants.targets import called_by, mutants, rows_of
+from proofs.mutants.trial import ready_for, tried_with
 from proofs.theories import THEORIES, theory_of
 from proofs.workbench import Workbench
 
@@ -84,7 +86,9 @@ def objection(entry: Entry) -> str:
     if entry.kind == IMPLIED:
         return not_implied(mutant, list(entry.because))
     if entry.kind == SERVICE:
-        failing = [failure.witness for failure in failures(mutant.function, mutant.sources, first_only=False)]
+        ready_for(mutant)
+        with mutant.planted():
+            failing = [failure.witness for failure in failures(mutant, mutant.sources, first_only=False)]
         return "" if entry.witness in failing else f"{entry.witness} does not fail; these do: {failing}"
     if entry.kind == SECOND_LINE:
         return not_second(mutant, entry.pair)
@@ -93,12 +97,24 @@ def objection(entry: Entry) -> str:
 
 def not_implied(mutant: Mutant, because: list[str]) -> str:
     """Say in which transition the drop could make a difference, as far as is proved."""
-    for transition in transitions_of(mutant.function):
-        mine = bench(theory_of(transition)[0].name)
+    told = [name for theory in THEORIES.values() for name, claim in theory.read.items() if asks(claim, mutant)]
+    if mutant.is_of_a_module and told:
+        return f"{told[0]} reads it, and so becomes another with it"
+    for transition in rows_of(mutant):
+        theory = theory_of(transition)[0].name
+        missed = [each["canary"] for each in canaries.seen(("z3",), theory) if not each["noticed"]]
+        if missed:
+            return f"z3 does not notice {missed[0]}: nothing that it proves is believed"
+        mine = bench(theory)
         known = [name for name in because if name in {**mine.assumed, **mine.invariants}]
-        if not proved(mine, sameness(mine, transition, mutant.sources), known):
+        if not proved(mine, sameness(mine, transition, mutant.sources, mutant.planted()), known):
             return f"not proved to make no difference in {transition}"
     return ""
+
+
+def asks(claim: Code, mutant: Mutant) -> bool:
+    """Tell whether a predicate reads what a mutant changes."""
+    return any(map(mutant.touches, (claim, *called_by(claim))))
 
 
 def not_second(mutant: Mutant, pair: str) -> str:
@@ -106,5 +122,7 @@ def not_second(mutant: Mutant, pair: str) -> str:
     other = mutants().get(pair)
     if other is None:
         return f"there is no mutant {pair}"
-    verdict = tried_with(mutant, {**mutant.sources, **other.sources})
+    ready_for(mutant)
+    with other.planted():
+        verdict = tried_with(mutant, {**mutant.sources, **other.sources})
     return "" if verdict.outcome == "counterexample" else "no counterexample to both drops together"

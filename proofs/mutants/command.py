@@ -33,6 +33,7 @@ def mutate(
 ) -> None:
     """Drop each guard, condition and update, one after the other: a proof or a witness must notice.
 
+    The kernel's integers are changed as well: by one, by ten times, to 0, in their sign.
     A mutant is killed by a counterexample that is replayed in CPython, or by a witness that fails.  What survives
     stands in a class that is checked; anything else is a hole (1).
 

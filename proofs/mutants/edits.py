@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import ast
 import copy
+import importlib
 import inspect
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from functools import cache
 from types import ModuleType
 from typing import Any
 
@@ -55,6 +58,24 @@ class Mutant:
         """The mutant, for the lifter and for CPython."""
         return {self.function: self.tree}
 
+    @property
+    def functions(self) -> tuple[Code, ...]:
+        """The functions that are otherwise than they were."""
+        return (self.function,)
+
+    def touches(self, function: Code) -> bool:
+        """Tell whether a function is another with it."""
+        return function is self.function
+
+    @property
+    def is_of_a_module(self) -> bool:
+        """Whether it is not in a function alone."""
+        return False
+
+    def planted(self) -> AbstractContextManager[None]:
+        """What is to be so while the mutant is tried, beside its sources."""
+        return nullcontext()
+
 
 def functions_of(*modules: ModuleType) -> list[Code]:
     """The functions that modules define, in their order."""
@@ -72,7 +93,8 @@ def mutants_of(function: Code) -> list[Mutant]:
     known = {normal(own)}
     found: list[Mutant] = []
     names: dict[str, int] = {}
-    for edit in edits(own):
+    numbers = constants(own) if function.__module__.startswith("kernel.") else ()
+    for edit in [*edits(own), *numbers]:
         tree = edited(own, edit)
         text = normal(tree)
         if text in known:
@@ -83,6 +105,24 @@ def mutants_of(function: Code) -> list[Mutant]:
         name = edit.text if names[key] == 1 else f"{edit.text} ({names[key]})"
         found.append(Mutant(function, edit.kind, name, tree))
     return found
+
+
+@cache
+def by_name(function: Code) -> Mapping[str, Mutant]:
+    """Every mutant of a function by its name."""
+    return {each.name: each for each in mutants_of(function)}
+
+
+def named(name: str) -> Mutant:
+    """The mutant of a function that has this name; ``KeyError`` if there is none any more."""
+    module, _, function = name.partition(": ")[0].rpartition(".")
+    try:
+        code = getattr(importlib.import_module(module), function)
+    except (ImportError, AttributeError, ValueError):
+        raise KeyError(name) from None
+    if not inspect.isfunction(code):
+        raise KeyError(name)
+    return by_name(code)[name]
 
 
 def edited(tree: ast.FunctionDef, edit: Edit) -> ast.FunctionDef:
@@ -249,6 +289,27 @@ def terms(place: Place, node: ast.AST) -> Iterator[Edit]:
     if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
         yield Edit(place, "term", ast.unparse(node.right), node.left)
         yield Edit(place, "term", ast.unparse(node.left), node.right)
+
+
+def constants(tree: ast.FunctionDef) -> Iterator[Edit]:
+    """Every integer constant of a function with another value: one more or less, ten times, a tenth, 0, its sign."""
+    for place, node in places(tree):
+        if not isinstance(node, (ast.expr, ast.keyword, ast.Return)):
+            continue
+        for field, value in ast.iter_fields(node):
+            below = value if isinstance(value, list) else [value]
+            for index, child in enumerate(below):
+                if isinstance(child, ast.Constant) and type(child.value) is int:
+                    at = (*place, (field, index if isinstance(value, list) else None))
+                    for other in others(child.value):
+                        text = f"{ast.unparse(node)}: {child.value} is {other}"
+                        yield Edit(at, "constant", text, ast.parse(str(other), mode="eval").body)
+
+
+def others(value: int) -> list[int]:
+    """Give what stands in a constant's place, each once: one more, one less, ten times, a tenth, 0, the other sign."""
+    found = (value + 1, value - 1, 10 * value, value // 10, 0, -value)
+    return [each for each in dict.fromkeys(found) if each != value]
 
 
 KEEPING = {"Centre": "centre", "Unit": "unit", "Terminal": "terminal"}

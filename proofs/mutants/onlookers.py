@@ -17,7 +17,8 @@ from unittest.mock import patch
 from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
 from proofs.mutants import plays, services, services_on_board
-from proofs.mutants.targets import called_by, theories_of
+from proofs.mutants.edits import Mutant
+from proofs.mutants.targets import called_by, theories_with
 from proofs.mutated import Sources, running, table_running
 from proofs.witnesses.registry import WITNESSES, Witness
 from proofs.witnesses.scenario import STEPS, Scenario
@@ -88,12 +89,12 @@ def steps_of(function: Code) -> frozenset[str]:
     return frozenset(name for name, step in STEPS.items() if step is function or function in called_by(step))
 
 
-def failures(function: Code, sources: Sources, first_only: bool = True) -> list[Failure]:
-    """The witnesses that fail with ``function`` replaced, of all theories that it takes part in."""
+def failures(mutant: Mutant, sources: Sources, first_only: bool = True) -> list[Failure]:
+    """The witnesses that fail with a mutant planted, of all theories that it takes part in."""
     found: list[Failure] = []
-    for theory in theories_of(function):
+    for theory in theories_with(mutant):
         if theory is INTERLOCKING:
-            found += _failures(function, sources, first_only)
+            found += _failures(mutant, sources, first_only)
         else:
             found += [Failure(*one) for one in plays.failing(theory.name, sources, first_only)]
         if found and first_only:
@@ -101,8 +102,8 @@ def failures(function: Code, sources: Sources, first_only: bool = True) -> list[
     return found
 
 
-def _failures(function: Code, sources: Sources, first_only: bool) -> list[Failure]:
-    steps = steps_of(function)
+def _failures(mutant: Mutant, sources: Sources, first_only: bool) -> list[Failure]:
+    steps = frozenset[str]().union(*map(steps_of, mutant.functions))
     found: list[Failure] = []
     for name, noted in calls().items():
         if not any(_differs(call, sources) for call in noted if call.step in steps):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import random
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
@@ -272,6 +272,11 @@ def stepped(row: str, site: Any, before: Any, event: Mapping[str, Any], sources:
 @cache
 def lifted(theory: str, site: int | None = None) -> Lifted:
     """A theory lifted once a process, on any site or on one of its witnesses'."""
+    return lifted_anew(theory, site)
+
+
+def lifted_anew(theory: str, site: int | None = None) -> Lifted:
+    """The same, lifted now: for a mutant that premises and claims may read."""
     return Lifted(THEORIES[theory], None if site is None else sites(theory)[site])
 
 
@@ -285,15 +290,19 @@ def sites(theory: str) -> list[Any]:
     return found
 
 
-def search(row: str, sources: Sources, milliseconds: int) -> tuple[Found | None, str]:
+Lifting = Callable[[str, int | None], Lifted]
+"""Gives a theory lifted, on any site or on one of its witnesses'."""
+
+
+def search(row: str, sources: Sources, milliseconds: int, lift: Lifting = lifted) -> tuple[Found | None, str]:
     """Look for a counterexample: on any site, on the witnesses' sites, near the witnesses' states."""
     theory = theory_of(row)[0]
-    found, verdict = lifted(theory.name).search(row, sources, milliseconds)
+    found, verdict = lift(theory.name, None).search(row, sources, milliseconds)
     if verdict != "unknown":
         return found, verdict
     if not identifiers(theory.site):
         for place in range(min(3, len(sites(theory.name)))):
-            found, _ = lifted(theory.name, place).search(row, sources, milliseconds)
+            found, _ = lift(theory.name, place).search(row, sources, milliseconds)
             if found is not None:
                 return found, "found on a witness's site"
     found = near_witnesses(row, sources)

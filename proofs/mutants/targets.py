@@ -16,12 +16,22 @@ import models.tram
 import models.world
 from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
+from proofs.mutants.constants import constants_of
 from proofs.mutants.edits import Mutant, functions_of, mutants_of
 from proofs.reach import called_by, transitions_of
 from proofs.theories import THEORIES, theory_of
 from proofs.theory import Theory
 
-__all__ = ["called_by", "modules", "mutants", "of_interlocking", "theories_of", "transitions_of"]
+__all__ = [
+    "called_by",
+    "modules",
+    "mutants",
+    "of_interlocking",
+    "rows_of",
+    "theories_of",
+    "theories_with",
+    "transitions_of",
+]
 
 NOT_STEPS = frozenset(
     {
@@ -58,13 +68,24 @@ def _inside(room: ModuleType) -> list[str]:
 
 @cache
 def mutants() -> Mapping[str, Mutant]:
-    """Every mutant by name."""
-    return {
-        mutant.name: mutant
-        for function in functions_of(*modules())
-        if not is_said_only(function)
-        for mutant in mutants_of(function)
-    }
+    """Every mutant by name: of functions, and of the kernel's constants."""
+    functions = [function for function in functions_of(*modules()) if not is_said_only(function)]
+    found = [mutant for function in functions for mutant in mutants_of(function)]
+    reading = [function for function in functions if theories_of(function)]
+    for module in modules():
+        if module.__name__.startswith("kernel."):
+            found += constants_of(module, reading)
+    return {mutant.name: mutant for mutant in found}
+
+
+def rows_of(mutant: Mutant) -> tuple[str, ...]:
+    """The rows of the transitions that a mutant takes part in."""
+    return tuple(dict.fromkeys(row for function in mutant.functions for row in transitions_of(function)))
+
+
+def theories_with(mutant: Mutant) -> list[Theory]:
+    """The theories that a mutant takes part in."""
+    return list(dict.fromkeys(theory for function in mutant.functions for theory in theories_of(function)))
 
 
 def is_said_only(function: Code) -> bool:

@@ -12,13 +12,15 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
+from proofs.catalogue import INTERLOCKING
 from proofs.counterexample import Unfaithful, search
 from proofs.finite import LARGER, SMALL, Sizes, World
 from proofs.lift import Mismatch, OutsideSubset
 from proofs.mutants import steps
 from proofs.mutants.edits import Mutant
-from proofs.mutants.onlookers import failures
-from proofs.mutants.targets import of_interlocking, theories_of, transitions_of
+from proofs.mutants.onlookers import calls, failures
+from proofs.mutants.steps import sites
+from proofs.mutants.targets import of_interlocking, rows_of, theories_with
 from proofs.mutated import Sources
 
 NOT_LIFTED = (OutsideSubset, Mismatch, AttributeError, TypeError)
@@ -65,12 +67,23 @@ def tried_with(mutant: Mutant, sources: Sources) -> Verdict:
     """Try a mutant, perhaps with others beside it."""
     began = time.perf_counter()
     searched: dict[str, str] = {}
-    for look in (_in("small"), _in_integers, _by_witnesses, _in("larger")):
-        found = look(mutant, sources, searched)
-        if found is not None:
-            outcome, by, finding = found
-            return Verdict(outcome, by, finding, searched, round(time.perf_counter() - began, 2))
+    ready_for(mutant)
+    with mutant.planted():
+        for look in (_in("small"), _in_integers, _by_witnesses, _in("larger")):
+            found = look(mutant, sources, searched)
+            if found is not None:
+                outcome, by, finding = found
+                return Verdict(outcome, by, finding, searched, round(time.perf_counter() - began, 2))
     return Verdict("survived", "", "", searched, round(time.perf_counter() - began, 2))
+
+
+def ready_for(mutant: Mutant) -> None:
+    """Note what the witnesses do as long as nothing is planted: it is noted once a process."""
+    for theory in theories_with(mutant):
+        if theory is INTERLOCKING:
+            calls()
+        else:
+            sites(theory.name)
 
 
 Found = tuple[str, str, str] | None
@@ -81,9 +94,10 @@ def _in(size: str) -> Look:
     """Look for a counterexample in a world of this size."""
 
     def look(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:
-        for transition in filter(of_interlocking, transitions_of(mutant.function)):
+        lift = cache(world.__wrapped__) if mutant.is_of_a_module else world
+        for transition in filter(of_interlocking, rows_of(mutant)):
             try:
-                answer = search(world(size), transition, sources, MILLISECONDS[size])
+                answer = search(lift(size), transition, sources, MILLISECONDS[size])
             except Unfaithful as error:
                 searched[f"{transition}, {size}"] = f"error of ours: {error}"
                 continue
@@ -103,15 +117,16 @@ def _in_integers(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> 
 
     What only a claim asks of a machine, and no step, is looked for in a single state.
     """
-    steps_with_it = transitions_of(mutant.function)
+    steps_with_it = rows_of(mutant)
+    lift = cache(steps.lifted_anew) if mutant.is_of_a_module else steps.lifted
     rows = [row for row in steps_with_it if not of_interlocking(row)]
-    claimed = [] if steps_with_it else [theory.name for theory in theories_of(mutant.function)]
+    claimed = [] if steps_with_it else [theory.name for theory in theories_with(mutant)]
     for place in [*rows, *claimed]:
         try:
             if place in claimed:
-                found, searched[place] = steps.lifted(place).search_claims(sources, MILLISECONDS["integers"])
+                found, searched[place] = lift(place, None).search_claims(sources, MILLISECONDS["integers"])
             else:
-                found, searched[place] = steps.search(place, sources, MILLISECONDS["integers"])
+                found, searched[place] = steps.search(place, sources, MILLISECONDS["integers"], lift)
         except Unfaithful as error:
             searched[place] = f"error of ours: {error}"
             continue
@@ -125,6 +140,6 @@ def _in_integers(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> 
 
 def _by_witnesses(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:
     """Look for a witness that fails."""
-    found = failures(mutant.function, sources)
+    found = failures(mutant, sources)
     searched["witnesses"] = "fails" if found else "none"
     return ("witness", found[0].witness, found[0].message[:400]) if found else None

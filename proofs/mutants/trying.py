@@ -10,7 +10,7 @@ from typing import Any
 from models.processes import as_they_end
 from proofs.mutants.classes import SERVICE, objection, table
 from proofs.mutants.record import Trials
-from proofs.mutants.targets import mutants, of_interlocking, theories_of, transitions_of
+from proofs.mutants.targets import mutants, of_interlocking, rows_of, theories_with
 from proofs.mutants.trial import tried
 
 Verdicts = dict[str, dict[str, Any]]
@@ -22,7 +22,7 @@ def try_all(names: list[str], jobs: int, trials: Trials, progress: Progress = la
     """Try those that have no verdict yet, judge all, and keep it."""
     todo = [name for name in names if name not in trials.verdicts]
     for done, (name, verdict) in enumerate(as_they_end(trial, todo, jobs), 1):
-        trials.note(name, [theory.name for theory in theories_of(mutants()[name].function)], verdict)
+        trials.note(name, [theory.name for theory in theories_with(mutants()[name])], verdict)
         progress(done, len(todo), name, verdict)
     dead = {name: killed(name, trials.verdicts[name]["outcome"]) for name in names}
     for name, kind, wrong in as_they_end(judged, list(dead.items()), jobs):
@@ -42,9 +42,8 @@ def killed(name: str, outcome: str) -> bool:
     In the interlocking what only a witness kills stands in the table, with what is lost; beside it a
     witness is enough, since its docstring says so.
     """
-    function = mutants()[name].function
     return outcome == "counterexample" or (
-        outcome == "witness" and not any(map(of_interlocking, transitions_of(function)))
+        outcome == "witness" and not any(map(of_interlocking, rows_of(mutants()[name])))
     )
 
 

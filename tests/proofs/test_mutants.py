@@ -13,7 +13,7 @@ from proofs.lift.sources import definition_of
 from proofs.mutants.classes import IMPLIED, SERVICE, Entry, objection, table
 from proofs.mutants.edits import Mutant, mutants_of
 from proofs.mutants.onlookers import ONLOOKERS
-from proofs.mutants.targets import mutants, theories_of
+from proofs.mutants.targets import mutants, theories_with
 from proofs.mutants.trial import tried
 from proofs.witnesses.registry import WITNESSES
 
@@ -58,7 +58,7 @@ def test_every_guard_of_a_refusal_is_dropped_once() -> None:
 
 
 def test_every_mutant_takes_part_in_a_transition_or_in_what_is_said_of_a_machine() -> None:
-    idle = [mutant for mutant in mutants().values() if not theories_of(mutant.function)]
+    idle = [mutant for mutant in mutants().values() if not theories_with(mutant)]
     assert sorted({mutant.home for mutant in idle}) == []
 
 

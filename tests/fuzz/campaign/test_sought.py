@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import signal
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from fuzz.campaign.session import Options, go_on
-from fuzz.campaign.sought import carriers, hunted, in_words
+from fuzz.campaign import session
+from fuzz.campaign.problems import CampaignError
+from fuzz.campaign.session import Options, go_on, put_together
+from fuzz.campaign.sought import Sought, carriers, hunted, in_words
 from fuzz.campaign.store import Store
+from fuzz.campaign.summary import verdict
 from fuzz.planted.canaries import KINDS, NOTHING_SHOWN, canaries, findable
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Batch, Result, Target
 from fuzz.targets.walks import Walks
-from models.exit_codes import UNDECIDED
+from models.exit_codes import HOLDS, UNDECIDED
 from tests.fuzz.campaign.quick import Quick
 
 SEED = 1
@@ -72,6 +76,57 @@ def test_a_campaign_that_misses_its_canaries_is_worth_nothing(
     assert "1 of 2" in in_words([missed, replace(found, kind="points")])
     assert in_words([found]).startswith("all 1 canaries found")
     assert "no canary" in in_words([])
+
+
+@pytest.fixture
+def carrying(monkeypatch: pytest.MonkeyPatch) -> list[Sought]:
+    """Campaigns that carry one canary; whoever seeks it appends what becomes of it."""
+    came_to: list[Sought] = []
+    monkeypatch.setattr(session, "unsought", lambda targets, seed: [Sought("points", "some fault", "", 0, 0.0)])
+    monkeypatch.setattr(session, "seek", lambda targets, seed, workers: came_to)
+    return came_to
+
+
+FOUND = Sought("points", "some fault", "walks", 2, 0.1)
+
+
+def test_a_canary_not_sought_yet_is_not_found_and_is_sought_when_the_campaign_goes_on(
+    tmp_path: Path, carrying: list[Sought]
+) -> None:
+    options = Options(tmp_path, seed=SEED, batches=2)
+    assert go_on(options, [Quick()]) == UNDECIDED
+    carrying.append(FOUND)
+    assert go_on(options, [Quick()]) == HOLDS
+    carrying[:] = [replace(FOUND, target="")]
+    assert go_on(options, [Quick()]) == HOLDS, "what was found is not sought again"
+
+
+def test_an_interruption_while_canaries_are_sought_finds_none(
+    tmp_path: Path, carrying: list[Sought], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(targets: list[Target], seed: int, workers: int) -> list[Sought]:
+        signal.raise_signal(signal.SIGINT)
+        return [FOUND]
+
+    monkeypatch.setattr(session, "seek", interrupted)
+    with pytest.raises(CampaignError, match="interrupted") as raised:
+        go_on(Options(tmp_path, seed=SEED, batches=2), [Quick()])
+    assert raised.value.code == UNDECIDED
+    with Store(tmp_path) as store:
+        assert not any(each.target for each in store.canaries())
+        assert verdict(store) == UNDECIDED
+
+
+def test_merged_campaigns_have_found_what_each_of_them_found(tmp_path: Path, carrying: list[Sought]) -> None:
+    carrying.append(FOUND)
+    for name, seed in (("one", 1), ("two", 2)):
+        assert go_on(Options(tmp_path / name, seed=seed, batches=2), [Quick()]) == HOLDS
+    assert put_together(tmp_path / "both", [tmp_path / "one", tmp_path / "two"], None) == HOLDS
+    carrying.clear()
+    assert go_on(Options(tmp_path / "broken off", seed=1, batches=2), [Quick()]) == UNDECIDED
+    for number, order in enumerate((["broken off", "one"], ["one", "broken off"], ["two", "broken off"])):
+        folders = [tmp_path / name for name in order]
+        assert put_together(tmp_path / str(number), folders, None) == UNDECIDED
 
 
 def test_a_canary_lives_no_longer_than_its_time() -> None:

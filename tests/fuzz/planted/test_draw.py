@@ -10,13 +10,14 @@ import pytest
 
 from fuzz.planted import draw, killed, reachable
 from proofs.lift.sources import definition_of
+from proofs.mutants.edits import named
 
 SOME = 40
 
 
 def test_every_fault_on_record_is_still_a_mutant() -> None:
     for name in killed.rows():
-        assert draw.mutant(name).name == name
+        assert named(name).name == name
 
 
 def test_no_fault_on_record_stands_with_the_survivors() -> None:
@@ -48,7 +49,7 @@ def test_a_draw_that_cannot_be_is_refused(count: int, capsys: pytest.CaptureFixt
 def test_a_fault_is_where_it_is_said_to_be() -> None:
     """The line given is the first in which the function with the fault reads otherwise."""
     for fault in draw.drawn(seed=3):
-        mutant = draw.mutant(fault.name)
+        mutant = named(fault.name)
         own = definition_of(mutant.function)
         assert own.end_lineno is not None
         assert own.lineno < fault.line <= own.end_lineno
