@@ -128,7 +128,7 @@ LAYOUTS: dict[str, Rows] = {
 }
 """Lines that close on themselves, junctions, ends, a block shorter than every train, a station with a trap."""
 REAL = ("osrd-small_infra.json", "osrd-overlapping_routes.json", "osrd-three_trains.json")
-LENGTHS_MM = {"ring": (60_000, 150_000, 390_000, 390_000), "line": (40_000, 140_000, 260_000)}
+LENGTHS_MM = {"ring": (120_000, 390_000, 390_000), "line": (40_000, 140_000, 260_000)}
 USUAL_LENGTHS_MM = (35_000, 90_000, 150_000, 260_000)
 REAL_LENGTHS_MM = (80_000, 200_000, 600_000)
 

@@ -383,6 +383,10 @@ class Calls:
             return frozenset()
         return authority_end.ends_mm(self.layout, board.unit, run, found[1], front_least_mm)
 
+    def end_mm(self, board: Board) -> int:
+        """The end that the driver is shown."""
+        return board.brake.end_mm
+
     def supervise(self, board: Board, front_most_mm: int, speed_mm_s: int, demanded: bool, acknowledged: bool) -> bool:
         """One cycle of the brake; whether it is on."""
         demanded = demanded or board.held
@@ -467,6 +471,12 @@ class Calls:
         if grant.cancelling:
             return order.given_back
         return grant.stage != Stage.SET or order.permitted
+
+    def is_ahead(self, centre: Centre, board: Board, run: Run) -> bool:
+        """Whether a route is set or wanted that the train has not begun to run by."""
+        order = board.unit.orders.get(run)
+        over = run.route == STANDING or centre.runs[run].stage == Stage.OVER
+        return not over and (order is None or not order.begun)
 
     def is_proved(self, centre: Centre, machine: Terminal, point: Point) -> bool:
         """Whether the centre needs no more word of a point's lock."""

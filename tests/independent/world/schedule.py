@@ -9,7 +9,6 @@ from collections.abc import Callable
 from random import Random
 
 from kernel.names import Run, Stage, Train
-from tests.independent.world.kernel_calls import STANDING
 from tests.independent.world.rails import BETWEEN
 from tests.independent.world.trains import OnRails
 from tests.independent.world.world import Event, World
@@ -19,35 +18,71 @@ TRIES = 6
 """So often another actor is asked before an event that may change nothing is taken."""
 
 
+Habit = dict[str, tuple[float, ...]]
+ANYTHING: Habit = {
+    "missed_of_100": (0, 0, 0, 3, 20),
+    "turns": (0.01, 0.05, 0.2),
+    "halts": (0.02, 0.1, 0.3),
+    "repeats": (0.0, 0.05, 0.2),
+    "losses": (0.0, 0.05, 0.2),
+    "shuttles": (0.0, 0.0, 0.6),
+    "short_mm": (0, 8_000, 8_000),
+    "hesitates": (0.0, 0.0, 0.8),
+    "long_routes": (0.0, 0.8, 0.8),
+    "most_pending": (0, 0, 1, 4),
+    "recalls": (0.0, 0.3, 3.0),
+    "restarts": (0.0, 0.05, 0.3),
+    "trouble": (0.0, 0.3, 1.0),
+}
+"""What a seed draws from: reads missed, how often drivers turn, halt, stop astride and wait, how far off the end they
+keep, how long and how many routes are asked for, and what goes wrong."""
+QUIET: Habit = {"missed_of_100": (0,), "repeats": (0.0,), "losses": (0.0,), "restarts": (0.0,), "trouble": (0.0,)}
+HABITS: dict[str, Habit] = {
+    "anything": {},
+    "anything as well": {},
+    "laps": QUIET
+    | {"turns": (0.01,), "halts": (0.02,), "shuttles": (0.0,), "short_mm": (8_000,), "hesitates": (0.0,)}
+    | {"long_routes": (0.9,), "most_pending": (0,), "recalls": (0.0,)},
+    "to and fro": QUIET
+    | {"turns": (0.3,), "halts": (0.05,), "shuttles": (0.6,), "short_mm": (8_000,), "hesitates": (0.0,)}
+    | {"long_routes": (0.0,), "most_pending": (1,), "recalls": (0.0,)},
+    "recalls": QUIET
+    | {"turns": (0.05,), "shuttles": (0.0,), "short_mm": (0,), "hesitates": (0.8,)}
+    | {"most_pending": (1,), "recalls": (3.0,)},
+}
+"""Ways to run a line that wear at one place: round and round, to and fro over a boundary, routes taken back."""
+
+
 class Schedule:
     """A biased random choice of events; each seed has faults and habits of its own."""
 
     def __init__(self, world: World, seed: int) -> None:
         self.world = world
         self.random = Random(seed ^ 0x5EED)
-        chance = self.random
-        world.missed_of_100 = chance.choice((0, 0, 0, 3, 20))
-        self.turns = chance.choice((0.01, 0.05, 0.2))
+        habit = self.random.choice(list(HABITS.values()))
+        of = {name: self.random.choice(values) for name, values in (ANYTHING | habit).items()}
+        world.missed_of_100 = int(of["missed_of_100"])
+        self.turns = of["turns"]
         self.halting = dict.fromkeys(world.trains, False)
-        self.halts = chance.choice((0.02, 0.1, 0.3))
-        self.repeats = chance.choice((0.0, 0.05, 0.2))
-        self.losses = chance.choice((0.0, 0.05, 0.2))
-        self.shuttles = chance.choice((0.0, 0.6))
-        self.hesitates = chance.choice((0.0, 0.8))
-        self.long_routes = chance.choice((0.0, 0.7))
-        self.most_pending = chance.choice((2, 3, 6))
-        trouble = chance.choice((0.0, 0.3, 1.0))
+        self.halts = of["halts"]
+        self.repeats = of["repeats"]
+        self.losses = of["losses"]
+        self.shuttles = of["shuttles"]
+        self.short_mm = int(of["short_mm"])
+        self.hesitates = of["hesitates"]
+        self.long_routes = of["long_routes"]
+        self.most_pending = of["most_pending"]
         self.actors: list[tuple[Callable[[], Event | None], float]] = [
             (self.a_train, 34.0),
             (self.the_air, 34.0),
             (self.the_centre, 16.0),
             (self.a_point, 8.0),
             (self.the_signaller, 6.0),
-            (self.recalls, chance.choice((0.0, 0.3, 3.0))),
-            (self.a_reading, chance.choice((0.1, 0.5))),
-            (self.a_restart, chance.choice((0.0, 0.05, 0.3))),
-            (self.two_persons, 0.3 * trouble),
-            (self.a_fault, 0.01 * trouble),
+            (self.recalls, of["recalls"]),
+            (self.a_reading, 0.3),
+            (self.a_restart, of["restarts"]),
+            (self.two_persons, 0.3 * of["trouble"]),
+            (self.a_fault, 0.01 * of["trouble"]),
         ]
         self.weights = [weight for _, weight in self.actors]
 
@@ -93,7 +128,14 @@ class Schedule:
         if not train.at_rest and chance.random() < 0.1:
             return self._says(train)
         cycles = chance.randrange(2, 15) if chance.random() < 0.3 else chance.randrange(15, 60)
-        return "move", train.name, cycles, pull, chance.getrandbits(63)
+        if (
+            pull
+            and self.short_mm
+            and train.at_rest
+            and self.world.calls.end_mm(train.board) - train.place < self.short_mm
+        ):
+            return self._stands(train)
+        return "move", train.name, cycles, self.short_mm if pull else None, chance.getrandbits(63)
 
     def _stands(self, train: OnRails) -> Event | None:
         """A train at rest: its driver changes ends, or it says what there is to say."""
@@ -222,7 +264,7 @@ class Schedule:
         wanted = [
             run
             for run in world.calls.runs(centre)
-            if run.train == train.name and run.route != STANDING and world.calls.stage(centre, run) != Stage.OVER
+            if run.train == train.name and world.calls.is_ahead(centre, train.board, run)
         ]
         if not bases or not world.calls.orders(train.board) or len(wanted) > self.most_pending:
             return None

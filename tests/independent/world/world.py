@@ -57,7 +57,7 @@ class World:
         self.air: list[Message] = []
         self.trains: dict[Train, OnRails] = {}
         self.statements: dict[Train, tuple[Any, ...]] = {}
-        self.routes_from: dict[Block, list[Route]] = {block: [] for block in told.layout.blocks}
+        self.routes_from: dict[Block, list[Route]] = {block: [] for block in sorted(told.layout.blocks)}
         for route in sorted(told.layout.routes):
             self.routes_from[told.layout.start[route]].append(route)
         for number in range(1, trains + 1):
@@ -135,25 +135,31 @@ class World:
 
     # ---- trains
 
-    def move(self, name: Train, cycles: int, pull: bool, bits: int) -> bool:
-        """A train runs, as far as its brake lets it, for some cycles."""
+    def move(self, name: Train, cycles: int, short_mm: int | None, bits: int) -> bool:
+        """A train runs for some cycles, as far as its brake lets it and its driver wants.
+
+        ``short_mm``: the driver stops so far before the end that he is shown; none: at once.
+        """
         train = self.trains[name]
         self.bits = bits
-        if train.isolated or (train.at_rest and not pull):
+        if train.isolated or (train.at_rest and short_mm is None):
             return False
         train.errors_mm = self.draw(ODOMETER_MM), self.draw(ODOMETER_MM)
         before = train.place
         for _ in range(cycles):
-            if not self._cycle(train, pull):
+            if not self._cycle(train, short_mm):
                 break
         if train.place == before:
             return False
         self.check_apart(train)
         return True
 
-    def _cycle(self, train: OnRails, pull: bool) -> bool:
+    def _cycle(self, train: OnRails, short_mm: int | None) -> bool:
         """A tenth of a second; whether it rolls."""
         was, speed = train.speed_mm_s, train.speed_mm_s
+        pull = short_mm is not None
+        if short_mm:
+            pull = train.place + (speed + 100) ** 2 // 2_000 + speed // 5 + short_mm < self.calls.end_mm(train.board)
         if not train.whole:
             train.parted_cycles += 1
         demanded = train.demanded or train.parted_cycles > LINE_SILENT_CYCLES
@@ -172,6 +178,8 @@ class World:
                 speed = max(was, min(self.told.speed_mm_s, speed + BOUNDS.gains_mm_s2 // 10))
             else:
                 speed = max(0, speed - BOUNDS.slows_mm_s2 // 10)
+        if was == speed == 0:
+            return False
         train.speed_mm_s = speed
         self._advance(train, max(was, speed) // 10)
         return True
