@@ -14,10 +14,11 @@ from multiprocessing import get_context
 
 from tests.independent import files
 from tests.independent.world.drawn import LAYOUTS, REAL, told
+from tests.independent.world.hazards import Hazard
 from tests.independent.world.kernel_calls import Calls
 from tests.independent.world.planted_faults import KERNELS
 from tests.independent.world.schedule import Schedule
-from tests.independent.world.world import Event, Hazard, World
+from tests.independent.world.world import Event, World
 
 STEPS_A_LIFE = 3_000
 """So many steps a world lasts; the next seed makes another."""

@@ -10,6 +10,7 @@ import pytest
 from kernel.names import Point, Position, Train
 from tests.independent.world.campaign import Found, Tally, campaign, campaigns, happens_again, layouts, live, shrunk
 from tests.independent.world.drawn import LAYOUTS, told
+from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
 from tests.independent.world.kernel_calls import Board, Calls
 from tests.independent.world.planted_faults import (
     BrakeNotHeld,
@@ -21,7 +22,7 @@ from tests.independent.world.planted_faults import (
 )
 from tests.independent.world.told import TAG_MM
 from tests.independent.world.trains import LAID_MM, OVERHANG_MM, WINDOW_MM
-from tests.independent.world.world import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard, World
+from tests.independent.world.world import World
 
 KERNEL_IS_MENDED = False
 """Make this True once the kernel has no hole left that the planted faults show; the kernel itself is run then."""

@@ -9,6 +9,7 @@ from random import Random
 from typing import Any
 
 from kernel.names import Block, Point, Position, Read, Record, Route, Run, Tag, Train
+from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
 from tests.independent.world.kernel_calls import BOUNDS, CENTRE, Calls, Message
 from tests.independent.world.rails import Body, Piece, Rails
 from tests.independent.world.told import Told
@@ -20,22 +21,6 @@ LONGEST_AIR = 60
 OVERDUE_MM = 4_000
 LINE_SILENT_CYCLES = 20
 MASK = (1 << 64) - 1
-
-
-class Hazard(Exception):
-    """What must never happen: its kind, and the trains and places of it."""
-
-    def __init__(self, kind: str, text: str) -> None:
-        super().__init__(f"{kind}: {text}")
-        self.kind = kind
-
-
-COLLISION = "two trains in one place"
-POINT = "a car on a moving or wrongly lying point"
-FREED = "a block freed around a car"
-UNHELD = "a train where nothing is held for it"
-TRACK_ENDS = "a train beyond the end of track"
-KINDS = (COLLISION, POINT, FREED, UNHELD, TRACK_ENDS)
 
 
 class World:
