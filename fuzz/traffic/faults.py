@@ -214,7 +214,7 @@ BEYOND: tuple[Fault, ...] = (
         "boundary",
         uniform(0.05, 0.5),
         0.1,
-        ("a_train_short_of_its_run_has_not_entered",),
+        ("a_head_runs_no_farther_than_its_brake_lets_it",),
     ),
     Fault(
         "falsely within the destination",

@@ -30,6 +30,7 @@ class Approach:
     brake may be off, the head may be when the brake responds; then what is left of them.
     ``left_nm``: history: the way that was left for the brake by that decision.
     ``brake``: what the brake control knows.
+    ``wanted``, ``wanted_mm``: the end of authority that the unit wants, if there is one.
     """
 
     head_nm: int
@@ -39,6 +40,8 @@ class Approach:
     reach_nm: int
     left_nm: int
     brake: Brake
+    wanted: bool
+    wanted_mm: int
 
 
 # ---- premises
@@ -108,7 +111,8 @@ def run_a_cycle(
         begun = decided(site, system, front_most_mm, speed_most_mm_s, brake)
         return replace(begun, head_nm=to_nm, speed_um_s=speed_um_s)
     slowed_um_s = larger(0, system.worst_um_s - CYCLE_MS * site.bounds.slows_mm_s2)
-    return Approach(
+    return replace(
+        system,
         head_nm=to_nm,
         speed_um_s=speed_um_s,
         response_cycles=system.response_cycles if responds else system.response_cycles - 1,
@@ -139,6 +143,12 @@ def take_end(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_
     if not the_range_contains_the_head(system, front_most_mm, speed_most_mm_s):
         return system
     brake = braking.take_end(site.bounds, system.brake, front_most_mm, speed_most_mm_s, end_mm)
+    asked = replace(system, wanted=True, wanted_mm=end_mm)
     if brake.end_mm < system.brake.end_mm:
-        return decided(site, system, front_most_mm, speed_most_mm_s, brake)
-    return replace(system, brake=brake)
+        return decided(site, asked, front_most_mm, speed_most_mm_s, brake)
+    return replace(asked, brake=brake)
+
+
+def withhold_end(site: Vehicle, system: Approach) -> Approach:
+    """The unit has no end of authority to give (T4, T9)."""
+    return replace(system, brake=braking.withhold_end(system.brake), wanted=False)

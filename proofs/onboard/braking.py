@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.onboard.arithmetic import CYCLE_MS, NM_A_MM
-from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
+from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows, withhold_end
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -19,6 +19,8 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and system.worst_um_s == 0
         and system.reach_nm == system.head_nm
         and system.left_nm == 0
+        and system.brake.withheld
+        and not system.wanted
     )
 
 
@@ -30,7 +32,19 @@ def head_stays_inside_authority(site: Vehicle, system: Approach) -> bool:
     return system.head_nm <= NM_A_MM * system.brake.end_mm
 
 
+def no_end_is_held_beyond_the_one_wanted(site: Vehicle, system: Approach) -> bool:
+    """The brake is applied, or the end it holds is no farther than the one that the unit wants (T4, T9, T12)."""
+    return system.brake.applied or (system.wanted and system.brake.end_mm <= system.wanted_mm)
+
+
 # ---- what it rests on
+
+
+def a_withheld_end_keeps_the_brake_applied(site: Vehicle, system: Approach) -> bool:
+    """While no end is wanted, or a nearer one than is held, no acknowledgement releases the brake (T9, T12)."""
+    return (not system.brake.withheld or system.brake.applied) and (
+        system.brake.withheld or (system.wanted and system.brake.end_mm <= system.wanted_mm)
+    )
 
 
 def no_speed_is_negative(site: Vehicle, system: Approach) -> bool:
@@ -69,9 +83,10 @@ def the_way_left_is_enough(site: Vehicle, system: Approach) -> bool:
 
 
 INITIAL = (the_train_stands_inside_its_authority,)
-SAFETY = (head_stays_inside_authority,)
+SAFETY = (head_stays_inside_authority, no_end_is_held_beyond_the_one_wanted)
 INVARIANTS = (
     *SAFETY,
+    a_withheld_end_keeps_the_brake_applied,
     no_speed_is_negative,
     the_response_ends,
     it_gets_no_faster_before_the_response,
@@ -80,7 +95,7 @@ INVARIANTS = (
     the_way_left_is_enough,
 )
 PREMISES = (the_brake_slows,)
-STEPS = (run_a_cycle, take_end)
+STEPS = (run_a_cycle, take_end, withhold_end)
 
 THEORY = Theory(
     "braking",

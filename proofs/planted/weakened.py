@@ -63,6 +63,7 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
         | {
             run: Order(
                 permitted=False,
+                recalled=False,
                 given_back=False,
                 loop_closed=True,
                 begun=False,
@@ -74,10 +75,10 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
     )
 
 
-def give_back_at_once(unit: Unit, run: Run, stands_short: bool) -> Unit:
-    """Give a run back wherever the train is."""
+def give_back_at_once(layout: Layout, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
+    """Give a run back whatever end the brake holds."""
     order = unit.orders.get(run)
-    if order is None or order.begun:
+    if order is None or not order.recalled or order.begun:
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
 

@@ -33,7 +33,7 @@ WEAKENINGS: tuple[Fault, ...] = (
     ),
     Fault(
         "no approach locking",
-        "The train gives a run back while it rolls towards it, and comes into blocks that are another's by then.",
+        "The train gives a run back while its brake lets it in, and comes into blocks that are another's by then.",
         "give_back",
         {first_loop.give_back: weakened.give_back_at_once},
     ),

@@ -112,7 +112,16 @@ def accounted(scenario: Scenario, run: Run, blocks: frozenset[Block], cause: Cau
 def tell_back(scenario: Scenario, run: Run) -> None:
     """The centre tells the train under which run it stands."""
     scenario.does("send_standing_run", {"radio": {"standing_runs": came(run)}}, run=run)
-    stands = Order(permitted=False, given_back=True, loop_closed=True, begun=True, stopped=True, expected=None, left={})
+    stands = Order(
+        permitted=False,
+        recalled=False,
+        given_back=True,
+        loop_closed=True,
+        begun=True,
+        stopped=True,
+        expected=None,
+        left={},
+    )
     scenario.does("take_standing", {"units": {run.train: {"orders": {run: stands}}}}, run=run)
 
 
