@@ -210,7 +210,7 @@ BEYOND: tuple[Fault, ...] = (
     ),
     Fault(
         "falsely short of the run",
-        "A train that rolls under a run says that it stands short of it.",
+        "A train that rolls into a run says that its brake holds the end before it.",
         "boundary",
         uniform(0.05, 0.5),
         0.1,

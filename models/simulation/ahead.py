@@ -25,7 +25,7 @@ class Ahead:
     """
 
     begins_mm: int
-    ends_mm: Mapping[Block, int]
+    ends_mm: Map[Block, int]
     tags_mm: Mapping[Tag, int]
     arrives: Heading
 
@@ -63,7 +63,7 @@ def _pieces(rails: Rails, train: OnRails, wanted: Set[Block], lies: Map[Point, P
         piece = None if onward is None else Piece(onward, piece.to_mm, piece.to_mm + rails.length_mm(onward))
 
 
-def follows_the_way(layout: Layout, run: Run, ends_mm: Mapping[Block, int]) -> bool:
+def follows_the_way(layout: Layout, run: Run, ends_mm: Map[Block, int]) -> bool:
     """Whether a survey has the run's blocks in their order, from its start: not so of a train that faces back."""
     way, overlap = layout.way[run.route], layout.overlap[run.route]
     return layout.start[run.route] in ends_mm and all(
