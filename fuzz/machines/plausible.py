@@ -85,8 +85,8 @@ def _requests(site: Site, system: System) -> Events:
 
 def _given_back(site: Site, system: System) -> Events:
     """The brake holds the end before a recalled run, or one beyond it."""
-    for _, unit in system.units.items():
-        for run, order in sorted(unit.orders.items()):
+    for train in sorted(system.units):
+        for run, order in sorted(system.units[train].orders.items()):
             if order.recalled:
                 yield {"run": run, "held_end_mm": 0, "start_end_mm": 0}
                 yield {"run": run, "held_end_mm": 1, "start_end_mm": 0}

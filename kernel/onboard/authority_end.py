@@ -35,23 +35,9 @@ def is_open(layout: Layout, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]]
     )
 
 
-def holds_the_head(
-    unit: Unit,
-    run: Run,
-    begins_mm: Map[Run, int],
-    block_ends_mm: Map[Run, Map[Block, int]],
-    front_least_mm: int,
-    to_mm: int,
-) -> bool:
-    """Tell whether a run not given back covers the track from before the front up to ``to_mm`` (T4, T9)."""
-    order = unit.orders.get(run)
-    return (
-        order is not None
-        and not order.given_back
-        and run in begins_mm
-        and begins_mm[run] <= front_least_mm
-        and any(to_mm <= end_mm for _, end_mm in block_ends_mm[run].items())
-    )
+def covers_the_head(begins_mm: int, block_ends_mm: Map[Block, int], front_least_mm: int, to_mm: int) -> bool:
+    """Tell whether a list covers the track from before the front up to ``to_mm``, so that no block is missed (T4)."""
+    return begins_mm <= front_least_mm and any(to_mm <= end_mm for _, end_mm in block_ends_mm.items())
 
 
 def ends_mm(
@@ -80,8 +66,9 @@ def ends_mm(
             for beside, other_mm in block_ends_mm[other].items()
         )
         and any(
-            holds_the_head(unit, over, begins_mm, block_ends_mm, front_least_mm, smaller(front_most_mm, end_mm))
-            for over in block_ends_mm
+            covers_the_head(begins_mm[over], block_ends_mm[over], front_least_mm, smaller(front_most_mm, end_mm))
+            for over in begins_mm
+            if over in block_ends_mm
         )
     )
 

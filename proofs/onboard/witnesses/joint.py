@@ -219,14 +219,13 @@ def released(brake: Brake, front_mm: int) -> Brake:
 
 
 def a_train_that_was_told_nothing_stands() -> None:
-    """Without a list, without an order: no end, and the brake stays on (T4)."""
+    """Without a list no end, without an order none beyond the block, and the brake stays on (T4)."""
     station = located()
     assert not station.ends(399_000, 401_000)
     station.holds(401_000, withheld=True)
     station.refuses("head_runs", train=T1, to_mm=400_001)
     station.listed(RUN, BEGINS_MM, ENDS_MM)
-    assert not station.ends(399_000, 401_000)
-    station.holds(401_000, withheld=True)
+    station.holds(440_000, withheld=True)
     assert station.system.standing == {T1}
     assert not station.rolling()
     assert released(station.system.brake[T1], 401_000).applied
@@ -402,7 +401,7 @@ def a_train_that_rolls_in_keeps_its_run() -> None:
 def a_run_that_another_leads_on_from_is_not_given_back() -> None:
     """The farther run first: without the nearer one the end of authority would lie beyond track that is nobody's (T9).
 
-    And were it gone, there would be no end: the head is in no block that the other covers.
+    And were it gone, the end would be that of the block; or none, where no list covers that.
     """
     station = two_runs()
     station.told({RUN: RECALLED, ONWARD: PERMITTED})
@@ -413,11 +412,20 @@ def a_run_that_another_leads_on_from_is_not_given_back() -> None:
     assert station.gives_back(ONWARD)
     assert station.gives_back(RUN)
     station = two_runs()
-    station.told({RUN: GIVEN_BACK, ONWARD: PERMITTED})
-    assert not station.ends(399_000, 401_000)
-    assert station.asks() == Brake(applied=True, end_mm=1_000_000, withheld=True)
+    for order in (GIVEN_BACK, RECALLED):
+        station.told({RUN: order, ONWARD: PERMITTED})
+        assert station.ends(399_000, 401_000) == {440_000}
+    station.told({ONWARD: PERMITTED})
+    station.holds(440_000)
+    station.refuses("head_passes", train=T1, to_mm=440_001, block=THROAT, block_end_mm=550_000)
+    station = located()
+    station.listed(ONWARD, 550_000, ONWARD_MM)
     station.told({ONWARD: PERMITTED})
     assert not station.ends(399_000, 401_000)
+    assert not station.ends(549_999, 551_000)
+    assert station.ends(550_000, 551_000) == {1_000_000}
+    station.holds(401_000, withheld=True)
+    assert released(station.system.brake[T1], 401_000).applied
 
 
 def a_permit_after_the_recall_permits_nothing() -> None:
