@@ -31,7 +31,7 @@ OTHERS: Mapping[str, Theory] = {name: theory for name, theory in THEORIES.items(
 TOLD: Mapping[str, Mapping[str, str]] = {
     "joint": {
         "block_ends_mm": "the survey is what units are given",
-        "head_mm": "a run begins once; under which runs trains count is no more than their names",
+        "head_mm": "lists come for trains that are located; which these are is no more than their names",
     },
     "alarm_tone": {"bodies": "which trains there are on the line; of a train nothing but what is told of it"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
@@ -41,7 +41,9 @@ TOLD: Mapping[str, Mapping[str, str]] = {
 Of a site a field with all that is in it; of a state only which keys there are.
 """
 
-NOTED: Mapping[str, Mapping[str, str]] = {}
+NOTED: Mapping[str, Mapping[str, str]] = {
+    "braking": {"wanted_mm": "the end that the unit wants is what the control is told"},
+}
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""
 
 

@@ -170,6 +170,70 @@ def what_the_tail_left_is_behind_the_head(head_mm: int, block_ends_mm: Map[Block
     return block not in block_ends_mm or block_ends_mm[block] < head_mm
 
 
+def lists_tell_the_track(system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int) -> bool:
+    """Every list of the train is true of the place that its head comes to (T1)."""
+    return all(
+        run.train != train
+        or run not in system.begins_mm
+        or a_list_tells_the_track(system.begins_mm[run], system.block_ends_mm[run], head_mm, block, block_end_mm)
+        for run in system.block_ends_mm
+    )
+
+
+def a_head_is_located_in_its_block(head_mm: int, block_end_mm: int, front_most_mm: int) -> bool:
+    """A train is located where it is: its head is no farther than told, and before the end of its block (P7)."""
+    return head_mm <= front_most_mm and head_mm <= block_end_mm
+
+
+def a_head_is_in_its_block(system: Joint, train: Train, to_mm: int) -> bool:
+    """A head that has passed no boundary is no farther than where its block ends (T1)."""
+    return to_mm <= system.block_end_mm[train]
+
+
+def a_head_passes_one_boundary_at_a_time(system: Joint, train: Train, to_mm: int, block_end_mm: int) -> bool:
+    """A head that has passed the end of its block is in the next one (T1)."""
+    return system.block_end_mm[train] < to_mm <= block_end_mm
+
+
+def no_car_gets_ahead_of_its_head(
+    site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under: Map[Car, Map[Block, Run]]
+) -> bool:
+    """The same of all cars and every listed run (T2)."""
+    return all(
+        run.train not in system.head_mm
+        or no_car_is_ahead_of_the_head(site, system.head_mm[run.train], run, system.block_ends_mm[run], at, under)
+        for run in system.block_ends_mm
+    )
+
+
+def a_list_fits_the_train(
+    site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_mm: Map[Block, int]
+) -> bool:
+    """A list that comes is true of where the train is, of its cars, and of what its tail has left (T1, T2)."""
+    return (
+        a_list_follows_the_way(site, run, block_ends_mm)
+        and a_list_tells_the_track(
+            begins_mm,
+            block_ends_mm,
+            system.head_mm[run.train],
+            system.block[run.train],
+            system.block_end_mm[run.train],
+        )
+        and no_car_is_ahead_of_the_head(
+            site,
+            system.head_mm[run.train],
+            run,
+            block_ends_mm,
+            system.system.track.at,
+            system.system.track.under,
+        )
+        and all(
+            other != run or what_the_tail_left_is_behind_the_head(system.head_mm[run.train], block_ends_mm, block)
+            for other, block in system.system.track.behind
+        )
+    )
+
+
 # ---- transitions
 
 
@@ -177,7 +241,7 @@ def locate(
     site: Survey, system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int, front_most_mm: int
 ) -> Joint:
     """A train at rest is located, in a new kilometrage: after a restart, a loss of position, a change of ends (P7)."""
-    if head_mm > front_most_mm or head_mm > block_end_mm:
+    if not a_head_is_located_in_its_block(head_mm, block_end_mm, front_most_mm):
         return system
     track = system.system.track
     return replace(
@@ -202,20 +266,7 @@ def take_list(site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_
     """The list of a run comes, surveyed in the train's kilometrage (T1, T4)."""
     if run.train not in system.head_mm or run in system.block_ends_mm:
         return system
-    head_mm = system.head_mm[run.train]
-    if not a_list_follows_the_way(site, run, block_ends_mm):
-        return system
-    if not a_list_tells_the_track(
-        begins_mm, block_ends_mm, head_mm, system.block[run.train], system.block_end_mm[run.train]
-    ):
-        return system
-    track = system.system.track
-    if not no_car_is_ahead_of_the_head(site, head_mm, run, block_ends_mm, track.at, track.under):
-        return system
-    if not all(
-        other != run or what_the_tail_left_is_behind_the_head(head_mm, block_ends_mm, block)
-        for other, block in track.behind
-    ):
+    if not a_list_fits_the_train(site, system, run, begins_mm, block_ends_mm):
         return system
     return replace(
         system,
@@ -284,7 +335,9 @@ def head_runs(site: Survey, system: Joint, train: Train, to_mm: int) -> Joint:
     if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
         return system
     block, block_end_mm = system.block[train], system.block_end_mm[train]
-    if to_mm > block_end_mm or not lists_tell_the_track(system, train, to_mm, block, block_end_mm):
+    if not a_head_is_in_its_block(system, train, to_mm):
+        return system
+    if not lists_tell_the_track(system, train, to_mm, block, block_end_mm):
         return system
     return replace(system, head_mm=system.head_mm | {train: to_mm})
 
@@ -293,7 +346,7 @@ def head_passes(site: Survey, system: Joint, train: Train, to_mm: int, block: Bl
     """The head runs over the end of its block into the next, where track and points lead it (T12)."""
     if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
         return system
-    if to_mm <= system.block_end_mm[train] or block_end_mm < to_mm:
+    if not a_head_passes_one_boundary_at_a_time(system, train, to_mm, block_end_mm):
         return system
     if not the_track_goes_on_as_listed(site, system, train, block, block_end_mm):
         return system
@@ -307,23 +360,9 @@ def head_passes(site: Survey, system: Joint, train: Train, to_mm: int, block: Bl
     )
 
 
-def lists_tell_the_track(system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int) -> bool:
-    """Every list of the train is true of the place that its head comes to (T1)."""
-    return all(
-        run.train != train
-        or run not in system.begins_mm
-        or a_list_tells_the_track(system.begins_mm[run], system.block_ends_mm[run], head_mm, block, block_end_mm)
-        for run in system.block_ends_mm
-    )
-
-
 def cars_move(site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under: Map[Car, Map[Block, Run]]) -> Joint:
     """Cars come into blocks and leave them, none ahead of its train's head (T2)."""
-    if not all(
-        run.train not in system.head_mm
-        or no_car_is_ahead_of_the_head(site, system.head_mm[run.train], run, system.block_ends_mm[run], at, under)
-        for run in system.block_ends_mm
-    ):
+    if not no_car_gets_ahead_of_its_head(site, system, at, under):
         return system
     track = replace(system.system.track, at=at, under=under)
     return replace(system, system=replace(system.system, track=track))

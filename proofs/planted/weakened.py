@@ -75,12 +75,10 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
     )
 
 
-def give_back_at_once(layout: Layout, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
-    """Give a run back whatever end the brake holds."""
+def acknowledges_at_once(unit: Unit, run: Run) -> bool:
+    """Acknowledge a recall whatever end the brake holds."""
     order = unit.orders.get(run)
-    if order is None or not order.recalled or order.begun:
-        return unit
-    return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
+    return order is not None and order.recalled and not order.begun
 
 
 def any_antenna(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:

@@ -123,7 +123,7 @@ class Station(Play[Survey, Joint]):
         """A cycle on board: the brake does what the kernel says."""
         head_mm = self.system.head_mm[T1]
         least_mm, most_mm = head_mm - error_mm, head_mm + error_mm
-        (brake,) = machine.obey(
+        asked = machine.obey(
             self.site.site.layout,
             self.unit(),
             self.system.begins_mm,
@@ -134,6 +134,8 @@ class Station(Play[Survey, Joint]):
             most_mm,
             speed_mm_s,
         )
+        assert len(asked) == 1
+        (brake,) = asked
         self.step("ask_for_the_end", train=T1, front_least_mm=least_mm, front_most_mm=most_mm, brake=brake)
         assert self.system.brake[T1] == brake
         return brake
