@@ -10,9 +10,19 @@ from kernel.unit import Unit
 
 
 def may_proceed(unit: Unit, run: Run) -> bool:
-    """Tell whether the train may move under ``run``: permitted, not given back, second loop closed (T4, T5, T9)."""
+    """Tell whether the train may move under ``run``: permitted, not wanted back, second loop closed (T4, T5, T9).
+
+    A recall takes the authority away at once, long before the run is given back; but a train that has
+    begun the run keeps it.
+    """
     order = unit.orders.get(run)
-    return order is not None and order.permitted and not order.given_back and not unit.loop_open
+    return (
+        order is not None
+        and order.permitted
+        and not order.given_back
+        and (order.begun or not order.recalled)
+        and not unit.loop_open
+    )
 
 
 def may_overrun(unit: Unit, run: Run) -> bool:

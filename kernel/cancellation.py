@@ -8,6 +8,7 @@ from kernel.centre import Centre
 from kernel.claims import end_run
 from kernel.layout import Layout
 from kernel.names import Cause, Run, Stage
+from kernel.refusal import Refusal
 
 
 def withdraw(layout: Layout, centre: Centre, run: Run) -> Centre:
@@ -18,10 +19,33 @@ def withdraw(layout: Layout, centre: Centre, run: Run) -> Centre:
     return end_run(layout, centre, run, grant, Cause.WITHDRAWN)
 
 
-def cancel(centre: Centre, run: Run) -> Centre:
+def leads_on(layout: Layout, centre: Centre, run: Run) -> bool:
+    """Tell whether a later run of the train, not yet over, starts in what ``run`` covers (T9)."""
+    return any(
+        other.train == run.train
+        and run.serial < other.serial
+        and grant.stage != Stage.OVER
+        and layout.start.get(other.route) in layout.covers[run.route]
+        for other, grant in centre.runs.items()
+    )
+
+
+def cancel_refusal(layout: Layout, centre: Centre, run: Run) -> Refusal | None:
+    """Say why the train cannot be asked for ``run`` (T9)."""
+    grant = centre.runs.get(run)
+    if grant is None:
+        return Refusal.NO_SUCH_RUN
+    if grant.stage != Stage.OFFERED and grant.stage != Stage.SET:
+        return Refusal.WRONG_STAGE
+    if leads_on(layout, centre, run):
+        return Refusal.A_RUN_LEADS_ON
+    return None
+
+
+def cancel(layout: Layout, centre: Centre, run: Run) -> Centre:
     """Begin to ask the train for a run it has been told of; nothing is freed by asking (T9)."""
     grant = centre.runs.get(run)
-    if grant is None or (grant.stage != Stage.OFFERED and grant.stage != Stage.SET):
+    if grant is None or cancel_refusal(layout, centre, run) is not None:
         return centre
     return replace(centre, runs=centre.runs | {run: replace(grant, cancelling=True)})
 

@@ -1,4 +1,4 @@
-"""First loop and cancellation on board: store, echo, permit, give back (T4, T9)."""
+"""First loop and cancellation on board: store, echo, permit, recall, give back (T4, T9)."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
         | {
             run: Order(
                 permitted=False,
+                recalled=False,
                 given_back=False,
                 begun=False,
                 stopped=False,
@@ -48,6 +49,7 @@ def take_standing(unit: Unit, run: Run) -> Unit:
         | {
             run: Order(
                 permitted=False,
+                recalled=False,
                 given_back=True,
                 begun=True,
                 stopped=True,
@@ -73,14 +75,36 @@ def take_permit(unit: Unit, run: Run) -> Unit:
     return replace(unit, orders=unit.orders | {run: replace(order, permitted=True)})
 
 
-def give_back(unit: Unit, run: Run, stands_short: bool) -> Unit:
-    """Give a run back that the centre asks for: only while standing short of it (接近鎖錠; T9).
+def recall(unit: Unit, run: Run) -> Unit:
+    """Note that the centre asks for a run: its blocks are authority no more, and the brake is asked for less (T9).
 
-    ``stands_short``: by odometer and tags the whole train stands still outside the run's blocks
-    but for its start.
+    Nothing is given back by that: the brake may not be able to hold the nearer end yet.
     """
     order = unit.orders.get(run)
-    if order is None or order.begun or not stands_short:
+    if order is None or order.begun:
+        return unit
+    return replace(unit, orders=unit.orders | {run: replace(order, recalled=True)})
+
+
+def is_followed(layout: Layout, unit: Unit, run: Run) -> bool:
+    """Tell whether a later run starts in what ``run`` covers, and was not given back (T9)."""
+    return run.route in layout.covers and any(
+        run.serial < other.serial and not order.given_back and layout.start.get(other.route) in layout.covers[run.route]
+        for other, order in unit.orders.items()
+    )
+
+
+def give_back(layout: Layout, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
+    """Give a run back that was recalled, once the brake keeps the train out of it (接近鎖錠; T9, T12).
+
+    ``held_end_mm``: the end of authority that the brake control holds.  ``start_end_mm``: where the block
+    that the run starts in ends, on the same kilometrage.  The train may still be moving: the head does
+    not pass the end that the brake holds.  The runs that lead on from this one are given back first.
+    """
+    order = unit.orders.get(run)
+    if order is None or not order.recalled or order.begun or held_end_mm > start_end_mm:
+        return unit
+    if is_followed(layout, unit, run):
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
 

@@ -23,6 +23,8 @@ def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refu
     secured = centre.runs.get(base)
     if secured is None or (secured.stage != Stage.SET and secured.stage != Stage.STANDING):
         return Refusal.START_NOT_SECURED
+    if secured.cancelling:
+        return Refusal.START_WANTED_BACK
     if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
         return Refusal.START_NOT_HELD
     return conflict(layout, centre, run)

@@ -21,6 +21,7 @@ class Order:
     """A run as the train knows it (T4, T5).
 
     ``permitted``: the route-complete message has come.
+    ``recalled``: the centre has asked for it; no authority any more, unless the head has begun it (T9).
     ``given_back``: acknowledged as cancelled; never to be entered again (T9).
     ``begun``: the head has read both tags at the end of the start block.
     ``stopped``: the train has told that it stands in the destination (T9).
@@ -31,6 +32,7 @@ class Order:
     """
 
     permitted: bool
+    recalled: bool
     given_back: bool
     begun: bool
     stopped: bool

@@ -31,7 +31,7 @@ OTHERS: Mapping[str, Theory] = {name: theory for name, theory in THEORIES.items(
 TOLD: Mapping[str, Mapping[str, str]] = {
     "joint": {
         "block_ends_mm": "the survey is what units are given",
-        "head_mm": "a run begins once; under which runs trains count is no more than their names",
+        "head_mm": "lists come for trains that are located; which these are is no more than their names",
     },
     "alarm_tone": {
         "bodies": "which trains there are on the line; of a train nothing but what is told of it",
@@ -48,7 +48,10 @@ NOTED: Mapping[str, Mapping[str, str]] = {
     "antenna_spacing": {
         "head_newest": "a tag is numbered by where it lies; that it was read is what the machine is told"
     },
-    "braking": {"demanded": "what is claimed of a demand is claimed of the one that the control was given"},
+    "braking": {
+        "demanded": "what is claimed of a demand is claimed of the one that the control was given",
+        "wanted_mm": "the end that the unit wants is what the control is told",
+    },
     "brake_demand": {
         "may_proceed": "what is claimed of an order is claimed of what the unit was told",
         "acknowledged": "what is claimed of a release is claimed of what the driver did",

@@ -33,6 +33,7 @@ TRANSITIONS: tuple[Transition, ...] = (
     at_the_centre.note_statement_confirmed,
     on_board.take_offer,
     on_board.take_permit,
+    on_board.recall,
     on_board.give_back,
     on_board.take_standing,
     on_board.head_reads,

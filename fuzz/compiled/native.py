@@ -44,7 +44,7 @@ ASSUMED: tuple[str, ...] = (
     "rails_lead",
     "a_pair_read_in_order_proves_the_exit",
     "a_healthy_line_reaches_the_tail",
-    "a_train_short_of_its_run_has_not_entered",
+    "a_head_runs_no_farther_than_its_brake_lets_it",
     "a_train_within_its_destination_is_not_beyond",
     "a_located_train_stands_where_it_says",
     "two_persons_do_not_err_alike",

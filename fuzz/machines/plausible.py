@@ -48,7 +48,7 @@ MESSAGES: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "note_statement_confirmed": ("confirmed_statements", ("train", "life", "epoch")),
     "take_offer": ("offers", ("run",)),
     "take_permit": ("permits", ("run",)),
-    "give_back": ("recalls", ("run",)),
+    "recall": ("recalls", ("run",)),
     "take_standing": ("standing_runs", ("run",)),
     "obey_order": ("relayed_orders", ("run", "point", "life")),
     "answer_enquiry": ("relayed_enquiries", ("run", "point", "life")),
@@ -68,8 +68,6 @@ def _messages(site: Site, system: System, step: str) -> Events:
             event["detected"] = system.track.lies[event["point"]]
         elif step in ("note_standing", "note_statement_confirmed"):
             event["run"] = next_run(system, event["train"], event["life"])
-        elif step == "give_back":
-            event["stands_short"] = True
         yield event
 
 
@@ -83,6 +81,15 @@ def _requests(site: Site, system: System) -> Events:
             for route in sorted(layout.routes):
                 if base in system.centre.claimed.get(layout.start[route], ()):
                     yield {"run": next_run(system, base.train, base.life, route), "base": base}
+
+
+def _given_back(site: Site, system: System) -> Events:
+    """The brake holds the end before a recalled run, or one beyond it."""
+    for train in sorted(system.units):
+        for run, order in sorted(system.units[train].orders.items()):
+            if order.recalled:
+                yield {"run": run, "held_end_mm": 0, "start_end_mm": 0}
+                yield {"run": run, "held_end_mm": 1, "start_end_mm": 0}
 
 
 def _granted(site: Site, system: System) -> Events:
@@ -310,6 +317,7 @@ SOURCES: Mapping[str, Source] = {
     "send_echo": _ordered,
     "send_permit": _granted,
     "send_recall": _granted,
+    "give_back": _given_back,
     "send_return": _ordered,
     "send_tail_report": _tail_reports,
     "send_stop": _ordered,

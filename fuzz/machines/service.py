@@ -38,6 +38,7 @@ BEGINNING = (
 """What brings the system into service after a restart."""
 RUNNING = (
     "send_recall",
+    "recall",
     "give_back",
     "send_return",
     "note_given_back",

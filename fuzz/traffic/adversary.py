@@ -39,7 +39,6 @@ from fuzz.traffic.tables import (
     CAR_FOLLOWS,
     CAR_LEAVES,
     CAR_MOVES,
-    GIVE_BACK,
     IS_BLOCK,
     IS_BLOCKS,
     IS_CAB,
@@ -134,8 +133,6 @@ def arrives_stale(memory: Any, desk: Any, kind: Any) -> None:
         return
     if kind == OBEY_ORDER:
         memory[event + 3] = get1(memory, desk, TRACK_LIES_VALUE, memory[event + 1])
-    elif kind == GIVE_BACK:
-        memory[event + 1] = below(desk, 2)
     take(memory, desk, kind)
 
 

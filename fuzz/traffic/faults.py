@@ -210,11 +210,11 @@ BEYOND: tuple[Fault, ...] = (
     ),
     Fault(
         "falsely short of the run",
-        "A train that rolls under a run says that it stands short of it.",
+        "A train that rolls into a run says that its brake holds the end before it.",
         "boundary",
         uniform(0.05, 0.5),
         0.1,
-        ("a_train_short_of_its_run_has_not_entered",),
+        ("a_head_runs_no_farther_than_its_brake_lets_it",),
     ),
     Fault(
         "falsely within the destination",

@@ -55,7 +55,7 @@ from fuzz.traffic.places import (
     WANTED,
 )
 from fuzz.traffic.standing import AFRESH, accounted, adopt_points, tell
-from fuzz.traffic.steps import put2, route_of, set_train, take1, take_beyond, train_word
+from fuzz.traffic.steps import put2, put3, route_of, set_train, take1, take_beyond, train_word
 from fuzz.traffic.tables import (
     CANCEL,
     COME_TO_REST,
@@ -63,6 +63,7 @@ from fuzz.traffic.tables import (
     NOTE_GIVEN_BACK,
     NOTE_STOPPED,
     OVERRUN,
+    RECALL,
     RELEASE_OVERLAP,
     SEND_RECALL,
     SEND_RETURN,
@@ -243,7 +244,8 @@ def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
     if strikes(desk, FALSELY_SHORT, train):
         take1(memory, desk, CANCEL, run)
         take1(memory, desk, SEND_RECALL, run)
-        put2(memory, desk, run, 1)
+        take1(memory, desk, RECALL, run)
+        put3(memory, desk, run, 0, 0)
         desk[BY] = FALSELY_SHORT
         take_beyond(memory, desk, GIVE_BACK)
         take1(memory, desk, SEND_RETURN, run)

@@ -66,6 +66,7 @@ from fuzz.traffic.tables import (
     NOTE_TERMINAL_LIFE,
     OBEY_ORDER,
     OPEN_FIRST_LOOP,
+    RECALL,
     RELAY_CONFIRMATION,
     RELAY_ORDER,
     RELEASE_BLOCK,
@@ -237,12 +238,16 @@ def close_loop(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
 
 @entry
 def ask_back(memory_at: Any, desk_at: Any, train: Any, run: Any, short: Any) -> Any:
-    """The centre asks for a run that it wants back; the train gives it back if it says that it stands short of it."""
+    """The centre asks for a run that it wants back; the train gives it back if its brake holds the end before it."""
     memory, desk = both(memory_at, desk_at)
     take1(memory, desk, SEND_RECALL, run)
-    says = 1 if short and not strikes(desk, DOUBT, train) else 0
-    put2(memory, desk, run, says)
-    arrive(memory, desk, GIVE_BACK, train)
+    memory[desk[EVENT]] = run
+    arrive(memory, desk, RECALL, train)
+    if not short or strikes(desk, DOUBT, train):
+        put3(memory, desk, run, 1, 0)
+    else:
+        put3(memory, desk, run, 0, 0)
+    take(memory, desk, GIVE_BACK)
     take1(memory, desk, SEND_RETURN, run)
     memory[desk[EVENT]] = run
     arrive(memory, desk, NOTE_GIVEN_BACK, train)

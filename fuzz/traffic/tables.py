@@ -48,6 +48,7 @@ NOTE_STATEMENT = NUMBERS["note_statement"]
 NOTE_STATEMENT_CONFIRMED = NUMBERS["note_statement_confirmed"]
 TAKE_OFFER = NUMBERS["take_offer"]
 TAKE_PERMIT = NUMBERS["take_permit"]
+RECALL = NUMBERS["recall"]
 GIVE_BACK = NUMBERS["give_back"]
 TAKE_STANDING = NUMBERS["take_standing"]
 HEAD_READS = NUMBERS["head_reads"]
@@ -150,7 +151,7 @@ ARRIVALS: tuple[tuple[str, str, tuple[int, ...], int], ...] = (
     ("take_offer", "radio_offers", (), 0),
     ("note_echo", "radio_echoes", (), 0),
     ("take_permit", "radio_permits", (), 0),
-    ("give_back", "radio_recalls", (), 0),
+    ("recall", "radio_recalls", (), 0),
     ("note_given_back", "radio_returns", (), 0),
     ("release_overlap", "radio_stops", (), 0),
     ("take_standing", "radio_standing_runs", (), 0),

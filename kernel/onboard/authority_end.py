@@ -1,17 +1,21 @@
 """Where the authority ends, in mm: the joint between blocks and the brake (T4, T9, T12).
 
 The authority is made of blocks, and the brake of millimetres.  The end of a block is on the list that the
-unit was given, as a distance from tag to tag (T1); the end of authority is the nearest end, ahead of the
-train, of a block that the head may not leave.  The overlap is kept free beyond it, and never counted in.
+unit was given, as a distance from tag to tag (T1).  There is one end for the train, whatever number of runs
+it has been given: the nearest end, ahead of it, of a block that no order lets the head leave.  Where
+the head may be outside of what one order covers there is none, and the train brakes.  The overlap is kept free
+beyond the end, and never counted in.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from kernel.authority import may_leave
+from kernel.authority import may_leave, may_proceed
 from kernel.layout import Layout
+from kernel.maps import Map
 from kernel.names import Block, Run
+from kernel.onboard import braking
+from kernel.onboard.arithmetic import smaller
+from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.unit import Unit
 
 
@@ -21,21 +25,75 @@ def may_be_left(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
     return target is not None and target not in layout.overlap[run.route] and may_leave(layout, unit, run, block)
 
 
-def ends_mm(
-    layout: Layout, unit: Unit, run: Run, block_ends_mm: Mapping[Block, int], front_least_mm: int
-) -> frozenset[int]:
-    """Give the end of authority: one number, or none where no block of the list ends ahead (T12).
+def is_open(layout: Layout, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]], block: Block, end_mm: int) -> bool:
+    """Tell whether some order lets the head run on out of ``block`` where that ends at ``end_mm`` (T4).
 
-    ``block_ends_mm``: where each block of the route ends for a head that runs through it, less what the
-    list may be wrong by.  ``front_least_mm``: the train's front is no less far than this (P7).
+    On a loop one block may lie ahead twice, and an order for the first time is none for the second.
+    """
+    return any(
+        block_ends_mm[run].get(block) == end_mm and may_be_left(layout, unit, run, block) for run in block_ends_mm
+    )
+
+
+def covers_the_head(begins_mm: int, block_ends_mm: Map[Block, int], front_least_mm: int, to_mm: int) -> bool:
+    """Tell whether a list covers the track from before the front up to ``to_mm``, so that no block is missed (T4)."""
+    return begins_mm <= front_least_mm and any(to_mm <= end_mm for _, end_mm in block_ends_mm.items())
+
+
+def ends_mm(
+    layout: Layout,
+    unit: Unit,
+    begins_mm: Map[Run, int],
+    block_ends_mm: Map[Run, Map[Block, int]],
+    front_least_mm: int,
+    front_most_mm: int,
+) -> frozenset[int]:
+    """Give the end of the train's authority: one number, or none where its head may be on track of no order (T12).
+
+    ``begins_mm``: for each run where the block that it starts in begins.  ``block_ends_mm``: for each run
+    where its blocks end for a head that runs through them, less what its list may be wrong by; all on one
+    kilometrage of the train.  ``front_least_mm``, ``front_most_mm``: its front is between them (P7).
     """
     return frozenset(
         end_mm
-        for block, end_mm in block_ends_mm.items()
+        for run in block_ends_mm
+        for block, end_mm in block_ends_mm[run].items()
         if end_mm >= front_least_mm
-        and not may_be_left(layout, unit, run, block)
+        and not is_open(layout, unit, block_ends_mm, block, end_mm)
         and all(
-            end_mm <= other_mm or other_mm < front_least_mm or may_be_left(layout, unit, run, other)
-            for other, other_mm in block_ends_mm.items()
+            end_mm <= other_mm or other_mm < front_least_mm or is_open(layout, unit, block_ends_mm, beside, other_mm)
+            for other in block_ends_mm
+            for beside, other_mm in block_ends_mm[other].items()
+        )
+        and any(
+            covers_the_head(begins_mm[over], block_ends_mm[over], front_least_mm, smaller(front_most_mm, end_mm))
+            for over in begins_mm
+            if over in block_ends_mm
         )
     )
+
+
+def is_stopped(unit: Unit, block_ends_mm: Map[Run, Map[Block, int]]) -> bool:
+    """Tell whether the train is to stand: none of the runs that the unit has lists of lets it move (T4, T5)."""
+    return not any(may_proceed(unit, run) for run in block_ends_mm)
+
+
+def obey(
+    layout: Layout,
+    unit: Unit,
+    begins_mm: Map[Run, int],
+    block_ends_mm: Map[Run, Map[Block, int]],
+    bounds: BrakeBounds,
+    brake: Brake,
+    front_least_mm: int,
+    front_most_mm: int,
+    speed_most_mm_s: int,
+) -> frozenset[Brake]:
+    """Give what the brake becomes by all that the unit knows: one state, asked for in every cycle (T4, T9, T12)."""
+    wanted_mm = ends_mm(layout, unit, begins_mm, block_ends_mm, front_least_mm, front_most_mm)
+    if not any(True for _ in wanted_mm):
+        return frozenset({braking.withhold_end(brake)})
+    taken = frozenset(braking.take_end(bounds, brake, front_most_mm, speed_most_mm_s, end_mm) for end_mm in wanted_mm)
+    if is_stopped(unit, block_ends_mm):
+        return frozenset(braking.withhold_end(each) for each in taken)
+    return taken

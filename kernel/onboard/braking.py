@@ -42,10 +42,13 @@ class Brake:
 
     ``applied``: the emergency brake is commanded; it stays so until released at a standstill.
     ``end_mm``: the end of authority, on the line's kilometrage.
+    ``withheld``: the unit wants a nearer end, which the train could overrun, or has none to give; the brake
+    stays applied until an end is taken, whoever acknowledges (T4, T9).
     """
 
     applied: bool
     end_mm: int
+    withheld: bool = False
 
 
 def worst_um_s(bounds: BrakeBounds, speed_most_mm_s: int) -> int:
@@ -96,7 +99,7 @@ def supervise(
     numbers need not be true (T5, P5).
     ``acknowledged``: the driver has acknowledged it; it is released at a standstill, if nothing wants it any more.
     """
-    safe = not demanded and stops_before(bounds, front_most_mm, speed_most_mm_s, brake.end_mm)
+    safe = not demanded and not brake.withheld and stops_before(bounds, front_most_mm, speed_most_mm_s, brake.end_mm)
     still = -bounds.standstill_mm_s <= speed_least_mm_s and speed_most_mm_s <= bounds.standstill_mm_s
     stands = acknowledged and still
     return replace(brake, applied=not safe or (brake.applied and not stands))
@@ -105,8 +108,22 @@ def supervise(
 def take_end(bounds: BrakeBounds, brake: Brake, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> Brake:
     """Take a new end of authority: farther at any time, nearer if the train can still stop before it (T4, T9, T12).
 
-    A nearer end that it could overrun is not taken; the brake comes on, and the old end stands.
+    A nearer end that it could overrun is not taken: the old one stands, and the brake comes on and stays on
+    until the end that is wanted can be held.  So it is asked in each cycle.
     """
     if end_mm >= brake.end_mm or stops_before(bounds, front_most_mm, speed_most_mm_s, end_mm):
-        return replace(brake, end_mm=end_mm)
-    return replace(brake, applied=True)
+        return replace(brake, end_mm=end_mm, withheld=False)
+    return replace(brake, applied=True, withheld=True)
+
+
+def withhold_end(brake: Brake) -> Brake:
+    """Brake, since the unit has no end of authority to give; nothing but an end that is taken lifts this (T4, T12)."""
+    return replace(brake, applied=True, withheld=True)
+
+
+def stand_still(front_most_mm: int) -> Brake:
+    """Begin where the train stands: braked, with no authority beyond its front (T12).
+
+    ``front_most_mm``: the front is no farther than this.
+    """
+    return Brake(applied=True, end_mm=front_most_mm, withheld=True)

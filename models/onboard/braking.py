@@ -32,6 +32,7 @@ class Approach:
     ``demanded``: history: the brake was demanded when the control last decided.
     ``released_amiss``: history: it has gone off while it was demanded, unacknowledged, or while the train moved.
     ``brake``: what the brake control knows.
+    ``wanted``, ``wanted_mm``: the end of authority that the unit wants, if there is one.
     """
 
     head_nm: int
@@ -43,6 +44,8 @@ class Approach:
     demanded: bool
     released_amiss: bool
     brake: Brake
+    wanted: bool
+    wanted_mm: int
 
 
 # ---- premises
@@ -133,7 +136,8 @@ def run_a_cycle(
             released_amiss=system.released_amiss or amiss,
         )
     slowed_um_s = larger(0, system.worst_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
-    return Approach(
+    return replace(
+        system,
         head_nm=to_nm,
         speed_um_s=speed_um_s,
         response_cycles=system.response_cycles if responds else system.response_cycles - 1,
@@ -141,7 +145,6 @@ def run_a_cycle(
         reach_nm=system.reach_nm + MS_A_CYCLE * system.worst_um_s if responds else system.reach_nm,
         left_nm=system.left_nm - MS_A_CYCLE * slowed_um_s if responds else system.left_nm,
         demanded=demanded,
-        released_amiss=system.released_amiss,
         brake=brake,
     )
 
@@ -174,6 +177,12 @@ def take_end(
         return system
     brake = braking.take_end(site.bounds, system.brake, front_most_mm, speed_most_mm_s, end_mm)
     amiss = system.released_amiss or (system.brake.applied and not brake.applied)
+    asked = replace(system, wanted=True, wanted_mm=end_mm)
     if brake.end_mm < system.brake.end_mm:
-        return replace(decided(site, system, front_most_mm, speed_most_mm_s, brake), released_amiss=amiss)
-    return replace(system, brake=brake, released_amiss=amiss)
+        return replace(decided(site, asked, front_most_mm, speed_most_mm_s, brake), released_amiss=amiss)
+    return replace(asked, brake=brake, released_amiss=amiss)
+
+
+def withhold_end(site: Vehicle, system: Approach) -> Approach:
+    """The unit has no end of authority to give (T4, T9)."""
+    return replace(system, brake=braking.withhold_end(system.brake), wanted=False)

@@ -2,59 +2,59 @@
 
 Each side is taken as the other's proof leaves it after its previous step: the unit may change in any way
 at any moment, as the interlocking's world lets it; the head runs anywhere up to the end that the brake
-control was given.  What comes out is the interlocking's own assumption that a train obeys its authority.
+control holds.  What comes out are the interlocking's own assumptions: that a train obeys its authority, and that
+it keeps out of a run while its brake holds an end before it.
+
+Each train has one kilometrage, in which its head runs forward, until it is located anew at a standstill.  Of
+the interlocking's ``rolling`` this world makes the least that it may: a run is among them from the moment when
+the brake takes an end beyond the block that the run starts in until it takes one before it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from kernel.authority import may_proceed
 from kernel.maps import Map
-from kernel.names import Block, Route, Run, Train
-from kernel.onboard import authority_end
+from kernel.names import Block, Car, Run, Train
+from kernel.onboard import authority_end, braking
+from kernel.onboard.braking import Brake
 from kernel.unit import Unit
 from models.world.state import Site, System
 
 
 @dataclass(frozen=True)
 class Survey:
-    """What does not change: the site of the interlocking, and where its blocks end (T1).
-
-    ``block_ends_mm``: for each route where its blocks end, for a head that runs along it.
-    """
+    """What does not change: the site of the interlocking (T1)."""
 
     site: Site
-    block_ends_mm: Mapping[Route, Mapping[Block, int]]
 
 
 @dataclass(frozen=True)
 class Joint:
-    """The interlocking, and each train's head under the run that it runs under.
+    """The interlocking, and of each train its head, its brake, and the lists of its runs.
 
-    ``head_mm``: where the head is.  ``end_mm``: the end of authority that the brake control holds.
-    ``leavable``: history: the blocks that might be left when an end was taken.
+    ``head_mm``: where the head is; ``block``, ``block_end_mm``: the block it is in, and where that ends ahead.
+    ``brake``: what the brake control knows.
+    ``standing``: trains at rest whose brake has not been free since they were located.
+    ``begins_mm``, ``block_ends_mm``: for each listed run where its start block begins, and where its blocks end.
+    ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
+    ``leavable``: history: the blocks of runs that might be left then.
     """
 
     system: System
-    head_mm: Map[Run, int]
-    end_mm: Map[Run, int]
+    head_mm: Map[Train, int]
+    block: Map[Train, Block]
+    block_end_mm: Map[Train, int]
+    brake: Map[Train, Brake]
+    standing: frozenset[Train]
+    begins_mm: Map[Run, int]
+    block_ends_mm: Map[Run, Map[Block, int]]
+    asked: frozenset[Run]
     leavable: frozenset[tuple[Run, Block]]
 
 
 # ---- premises
-
-
-def blocks_end_one_after_another(site: Survey) -> bool:
-    """Along a route each block ends beyond the one before it, and every route's ends are surveyed (T1)."""
-    return all(
-        route in site.block_ends_mm
-        and block in site.block_ends_mm[route]
-        and site.site.layout.way[route][block] in site.block_ends_mm[route]
-        and site.block_ends_mm[route][block] < site.block_ends_mm[route][site.site.layout.way[route][block]]
-        for route in site.site.layout.way
-        for block in site.site.layout.way[route]
-    )
 
 
 def every_route_has_an_overlap(site: Survey) -> bool:
@@ -62,71 +62,310 @@ def every_route_has_an_overlap(site: Survey) -> bool:
     return all(route in site.site.layout.overlap for route in site.site.layout.way)
 
 
+# ---- assumptions: of the track and its survey
+
+
+def a_list_follows_the_way(site: Survey, run: Run, block_ends_mm: Map[Block, int]) -> bool:
+    """A list has the start block first, and beyond each block but the last the one that the way leads into (T1)."""
+    return (
+        run.route in site.site.layout.start
+        and site.site.layout.start[run.route] in block_ends_mm
+        and all(block_ends_mm[site.site.layout.start[run.route]] <= block_ends_mm[block] for block in block_ends_mm)
+        and all(
+            run.route not in site.site.layout.way
+            or block not in site.site.layout.way[run.route]
+            or site.site.layout.way[run.route][block] in site.site.layout.overlap[run.route]
+            or (
+                site.site.layout.way[run.route][block] in block_ends_mm
+                and block_ends_mm[block] < block_ends_mm[site.site.layout.way[run.route][block]]
+            )
+            for block in block_ends_mm
+        )
+    )
+
+
+def a_list_tells_the_track(
+    begins_mm: int, block_ends_mm: Map[Block, int], head_mm: int, block: Block, block_end_mm: int
+) -> bool:
+    """A head within what a list covers is in a block of that list, which ends where the list says (T1)."""
+    return (
+        head_mm < begins_mm
+        or all(end_mm < head_mm for _, end_mm in block_ends_mm.items())
+        or (block in block_ends_mm and block_ends_mm[block] == block_end_mm)
+    )
+
+
+def the_track_goes_on_as_listed(site: Survey, system: Joint, train: Train, block: Block, block_end_mm: int) -> bool:
+    """Beyond the head's block comes the block that the lists have there, and it ends where they say (T1, T10).
+
+    Points lie for every run that is listed: `points_lie_for_the_set_route`.
+    """
+    return all(
+        run.train != train
+        or run not in system.block_ends_mm
+        or run.route not in site.site.layout.way
+        or system.block_ends_mm[run].get(system.block[train]) != system.block_end_mm[train]
+        or system.block[train] not in site.site.layout.way[run.route]
+        or site.site.layout.way[run.route][system.block[train]] in site.site.layout.overlap[run.route]
+        or (
+            site.site.layout.way[run.route][system.block[train]] == block
+            and system.block_ends_mm[run].get(block) == block_end_mm
+        )
+        for run in system.asked
+    )
+
+
+def no_car_is_ahead_of_the_head(
+    site: Survey,
+    head_mm: int,
+    run: Run,
+    block_ends_mm: Map[Block, int],
+    at: Map[Car, frozenset[Block]],
+    under: Map[Car, Map[Block, Run]],
+) -> bool:
+    """Where a car is that came there under a run, beyond its start block, the head is beyond that block too (T2)."""
+    return run.route in site.site.layout.start and all(
+        other != run
+        or block not in at.get(car, frozenset())
+        or block_ends_mm[site.site.layout.start[run.route]] < head_mm
+        for car in under
+        for block, other in under[car].items()
+    )
+
+
 # ---- assumptions: what each side's proof gives the other
 
 
-def the_head_stays_inside_authority(system: Joint, run: Run, to_mm: int) -> bool:
-    """The brake control's theorem, `head_stays_inside_authority`: no head beyond the end it was given (T12)."""
-    return run in system.end_mm and to_mm <= system.end_mm[run]
+def the_head_stays_inside_authority(system: Joint, train: Train, to_mm: int) -> bool:
+    """The brake control's theorem, `head_stays_inside_authority`; and a brake that no end has freed holds (T12)."""
+    return train in system.brake and train not in system.standing and to_mm <= system.brake[train].end_mm
 
 
-def the_head_runs_forward(system: Joint, run: Run, to_mm: int) -> bool:
-    """A train under a run goes forward: the unit brakes on reverse movement (T5)."""
-    return run in system.head_mm and system.head_mm[run] <= to_mm
+def the_brake_takes_the_end_or_stays_applied(
+    before: Brake, brake: Brake, head_mm: int, wanted_mm: frozenset[int]
+) -> bool:
+    """The brake control's theorems: the end it holds is never behind the head, and changes only to the one wanted.
 
-
-def the_brake_takes_the_end(system: Joint, run: Run, end_mm: int) -> bool:
-    """The brake control takes no end that the head is beyond, or could not stop before (T12)."""
-    return system.head_mm[run] <= end_mm
-
-
-def the_range_contains_the_head(system: Joint, run: Run, front_least_mm: int) -> bool:
-    """The odometry's theorem, `range_contains_train` (P7)."""
-    return run in system.head_mm and front_least_mm <= system.head_mm[run]
-
-
-def what_the_tail_left_is_behind_the_head(site: Survey, system: Joint, run: Run, block: Block) -> bool:
-    """The interlocking's `a_reported_block_is_left_by_all_cars`: the tail, so the head, is past a block left (T2)."""
+    While it holds another one, or none is wanted, the brake stays applied (T12).
+    """
     return (
-        run in system.head_mm
-        and run.route in site.block_ends_mm
-        and block in site.block_ends_mm[run.route]
-        and site.block_ends_mm[run.route][block] < system.head_mm[run]
+        head_mm <= brake.end_mm
+        and (brake.end_mm == before.end_mm or brake.end_mm in wanted_mm)
+        and (brake.withheld or brake.end_mm in wanted_mm)
+    )
+
+
+def the_head_runs_forward(system: Joint, train: Train, to_mm: int) -> bool:
+    """A train goes forward: the unit brakes on reverse movement (T5)."""
+    return train in system.head_mm and system.head_mm[train] <= to_mm
+
+
+def the_range_contains_the_head(head_mm: int, front_least_mm: int, front_most_mm: int) -> bool:
+    """The odometry's theorem, `range_contains_train` (P7)."""
+    return front_least_mm <= head_mm <= front_most_mm
+
+
+def what_the_tail_left_is_behind_the_head(head_mm: int, block_ends_mm: Map[Block, int], block: Block) -> bool:
+    """The interlocking's `a_reported_block_is_left_by_all_cars`: the tail, so the head, is past a block left (T2)."""
+    return block not in block_ends_mm or block_ends_mm[block] < head_mm
+
+
+def lists_tell_the_track(system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int) -> bool:
+    """Every list of the train is true of the place that its head comes to (T1)."""
+    return all(
+        run.train != train
+        or run not in system.begins_mm
+        or a_list_tells_the_track(system.begins_mm[run], system.block_ends_mm[run], head_mm, block, block_end_mm)
+        for run in system.block_ends_mm
+    )
+
+
+def a_head_is_located_in_its_block(head_mm: int, block_end_mm: int, front_most_mm: int) -> bool:
+    """A train is located where it is: its head is no farther than told, and before the end of its block (P7)."""
+    return head_mm <= front_most_mm and head_mm <= block_end_mm
+
+
+def a_head_is_in_its_block(system: Joint, train: Train, to_mm: int) -> bool:
+    """A head that has passed no boundary is no farther than where its block ends (T1)."""
+    return to_mm <= system.block_end_mm[train]
+
+
+def a_head_passes_one_boundary_at_a_time(system: Joint, train: Train, to_mm: int, block_end_mm: int) -> bool:
+    """A head that has passed the end of its block is in the next one (T1)."""
+    return system.block_end_mm[train] < to_mm <= block_end_mm
+
+
+def no_car_gets_ahead_of_its_head(
+    site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under: Map[Car, Map[Block, Run]]
+) -> bool:
+    """The same of all cars and every listed run (T2)."""
+    return all(
+        run.train not in system.head_mm
+        or no_car_is_ahead_of_the_head(site, system.head_mm[run.train], run, system.block_ends_mm[run], at, under)
+        for run in system.block_ends_mm
+    )
+
+
+def a_list_fits_the_train(
+    site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_mm: Map[Block, int]
+) -> bool:
+    """A list that comes is true of where the train is, of its cars, and of what its tail has left (T1, T2)."""
+    return (
+        a_list_follows_the_way(site, run, block_ends_mm)
+        and a_list_tells_the_track(
+            begins_mm,
+            block_ends_mm,
+            system.head_mm[run.train],
+            system.block[run.train],
+            system.block_end_mm[run.train],
+        )
+        and no_car_is_ahead_of_the_head(
+            site,
+            system.head_mm[run.train],
+            run,
+            block_ends_mm,
+            system.system.track.at,
+            system.system.track.under,
+        )
+        and all(
+            other != run or what_the_tail_left_is_behind_the_head(system.head_mm[run.train], block_ends_mm, block)
+            for other, block in system.system.track.behind
+        )
     )
 
 
 # ---- transitions
 
 
-def begin(site: Survey, system: Joint, run: Run, head_mm: int) -> Joint:
-    """A train begins to count along a new run, wherever its head is; no end has been taken for it yet (T4)."""
-    if run in system.head_mm:
+def locate(
+    site: Survey, system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int, front_most_mm: int
+) -> Joint:
+    """A train at rest is located, in a new kilometrage: after a restart, a loss of position, a change of ends (P7)."""
+    if not a_head_is_located_in_its_block(head_mm, block_end_mm, front_most_mm):
         return system
-    return replace(system, head_mm=system.head_mm | {run: head_mm}, end_mm=system.end_mm | {run: head_mm})
-
-
-def take_end(site: Survey, system: Joint, run: Run, front_least_mm: int, end_mm: int) -> Joint:
-    """The unit works out the end of authority from its orders, and the brake control takes it (T4, T12)."""
-    if run.train not in system.system.units or run.route not in site.block_ends_mm:
-        return system
-    if not the_range_contains_the_head(system, run, front_least_mm):
-        return system
-    unit, block_ends_mm = system.system.units[run.train], site.block_ends_mm[run.route]
-    if end_mm not in authority_end.ends_mm(site.site.layout, unit, run, block_ends_mm, front_least_mm):
-        return system
-    if not the_brake_takes_the_end(system, run, end_mm):
-        return system
-    leavable = frozenset(
-        (run, block) for block in block_ends_mm if authority_end.may_be_left(site.site.layout, unit, run, block)
+    track = system.system.track
+    return replace(
+        system,
+        system=replace(
+            system.system,
+            track=replace(track, rolling=frozenset(run for run in track.rolling if run.train != train)),
+        ),
+        head_mm=system.head_mm | {train: head_mm},
+        block=system.block | {train: block},
+        block_end_mm=system.block_end_mm | {train: block_end_mm},
+        brake=system.brake | {train: braking.stand_still(front_most_mm)},
+        standing=system.standing | {train},
+        begins_mm={run: begins_mm for run, begins_mm in system.begins_mm.items() if run.train != train},
+        block_ends_mm={run: ends for run, ends in system.block_ends_mm.items() if run.train != train},
+        asked=frozenset(run for run in system.asked if run.train != train),
+        leavable=frozenset((run, block) for run, block in system.leavable if run.train != train),
     )
-    return replace(system, end_mm=system.end_mm | {run: end_mm}, leavable=system.leavable | leavable)
 
 
-def head_runs(site: Survey, system: Joint, run: Run, to_mm: int) -> Joint:
-    """The head runs on, as far as the brake control lets it (T12)."""
-    if not the_head_stays_inside_authority(system, run, to_mm) or not the_head_runs_forward(system, run, to_mm):
+def take_list(site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_mm: Map[Block, int]) -> Joint:
+    """The list of a run comes, surveyed in the train's kilometrage (T1, T4)."""
+    if run.train not in system.head_mm or run in system.block_ends_mm:
         return system
-    return replace(system, head_mm=system.head_mm | {run: to_mm})
+    if not a_list_fits_the_train(site, system, run, begins_mm, block_ends_mm):
+        return system
+    return replace(
+        system,
+        begins_mm=system.begins_mm | {run: begins_mm},
+        block_ends_mm=system.block_ends_mm | {run: block_ends_mm},
+    )
+
+
+def ask_for_the_end(
+    site: Survey,
+    system: Joint,
+    train: Train,
+    front_least_mm: int,
+    front_most_mm: int,
+    brake: Brake,
+) -> Joint:
+    """A cycle on board: the unit works out the end from its orders, and the brake takes it or not (T4, T12)."""
+    if train not in system.brake or train not in system.system.units:
+        return system
+    if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
+        return system
+    layout, unit, before = site.site.layout, system.system.units[train], system.brake[train]
+    begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
+    ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
+    wanted_mm = authority_end.ends_mm(layout, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
+    if not the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm):
+        return system
+    asked = replace(
+        system,
+        brake=system.brake | {train: brake},
+        standing=system.standing if brake.withheld else system.standing - {train},
+    )
+    return with_end(site, asked, train) if brake.end_mm in wanted_mm else asked
+
+
+def with_end(site: Survey, system: Joint, train: Train) -> Joint:
+    """The brake holds the end that was asked for: note what it rests on, and by which runs the train may roll."""
+    layout, unit, track = site.site.layout, system.system.units[train], system.system.track
+    end_mm = system.brake[train].end_mm
+    within = frozenset(
+        run
+        for run in system.block_ends_mm
+        if run.train == train and system.block_ends_mm[run][layout.start[run.route]] < end_mm
+    )
+    rolling = frozenset(run for run in track.rolling if run.train != train or run in within) | frozenset(
+        run for run in within if may_proceed(unit, run)
+    )
+    return replace(
+        system,
+        system=replace(system.system, track=replace(track, rolling=rolling)),
+        asked=frozenset(run for run in system.asked if run.train != train)
+        | frozenset(run for run in system.block_ends_mm if run.train == train),
+        leavable=frozenset((run, block) for run, block in system.leavable if run.train != train)
+        | frozenset(
+            (run, block)
+            for run in system.block_ends_mm
+            if run.train == train
+            for block in system.block_ends_mm[run]
+            if authority_end.may_be_left(layout, unit, run, block)
+        ),
+    )
+
+
+def head_runs(site: Survey, system: Joint, train: Train, to_mm: int) -> Joint:
+    """The head runs on within its block, as far as the brake control lets it (T12)."""
+    if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
+        return system
+    block, block_end_mm = system.block[train], system.block_end_mm[train]
+    if not a_head_is_in_its_block(system, train, to_mm):
+        return system
+    if not lists_tell_the_track(system, train, to_mm, block, block_end_mm):
+        return system
+    return replace(system, head_mm=system.head_mm | {train: to_mm})
+
+
+def head_passes(site: Survey, system: Joint, train: Train, to_mm: int, block: Block, block_end_mm: int) -> Joint:
+    """The head runs over the end of its block into the next, where track and points lead it (T12)."""
+    if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
+        return system
+    if not a_head_passes_one_boundary_at_a_time(system, train, to_mm, block_end_mm):
+        return system
+    if not the_track_goes_on_as_listed(site, system, train, block, block_end_mm):
+        return system
+    if not lists_tell_the_track(system, train, to_mm, block, block_end_mm):
+        return system
+    return replace(
+        system,
+        head_mm=system.head_mm | {train: to_mm},
+        block=system.block | {train: block},
+        block_end_mm=system.block_end_mm | {train: block_end_mm},
+    )
+
+
+def cars_move(site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under: Map[Car, Map[Block, Run]]) -> Joint:
+    """Cars come into blocks and leave them, none ahead of its train's head (T2)."""
+    if not no_car_gets_ahead_of_its_head(site, system, at, under):
+        return system
+    track = replace(system.system.track, at=at, under=under)
+    return replace(system, system=replace(system.system, track=track))
 
 
 def unit_changes(site: Survey, system: Joint, train: Train, unit: Unit) -> Joint:
@@ -134,14 +373,13 @@ def unit_changes(site: Survey, system: Joint, train: Train, unit: Unit) -> Joint
     return replace(system, system=replace(system.system, units=system.system.units | {train: unit}))
 
 
-def train_rolls(site: Survey, system: Joint, rolling: frozenset[Run]) -> Joint:
-    """Trains gather speed and come to rest (T4)."""
-    return replace(system, system=replace(system.system, track=replace(system.system.track, rolling=rolling)))
-
-
 def tail_leaves(site: Survey, system: Joint, run: Run, block: Block) -> Joint:
     """A genuine pair of reads shows that the tail has left a block (T2)."""
-    if not what_the_tail_left_is_behind_the_head(site, system, run, block):
+    if (
+        run in system.block_ends_mm
+        and run.train in system.head_mm
+        and not what_the_tail_left_is_behind_the_head(system.head_mm[run.train], system.block_ends_mm[run], block)
+    ):
         return system
     behind = system.system.track.behind | {(run, block)}
     return replace(system, system=replace(system.system, track=replace(system.system.track, behind=behind)))

@@ -1,11 +1,11 @@
-"""What a route's list says of the track ahead of a train: where blocks end, and where its tags lie (T1, T4).
+"""What a route's list says of the track around a train: where blocks end, and where its tags lie (T1, T4).
 
 All of it on the train's own kilometrage, which is its path on the rails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass
 
 from kernel.layout import Layout
@@ -20,23 +20,24 @@ from models.layouts.track import Heading, Stop
 class Ahead:
     """The list of one run: where each block ends for a head that runs through it, and where each tag lies.
 
+    ``begins_mm``: where the first of these blocks begins, or the train's path as far as it is remembered.
     ``arrives``: the last segment, and the end of it that the train then faces.
     """
 
-    ends_mm: Mapping[Block, int]
+    begins_mm: int
+    ends_mm: Map[Block, int]
     tags_mm: Mapping[Tag, int]
     arrives: Heading
 
 
 def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Point, Position]) -> Ahead:
-    """Survey a run whose points lie right, from the block that the train's front is in."""
+    """Survey a run whose points lie right, from where the train came into it, or from its front's block on."""
     wanted, destination = layout.claims[run.route], layout.destination[run.route]
     ends_mm: dict[Block, int] = {}
     tags_mm: dict[Tag, int] = {}
-    piece: Piece | None = next(each for each in train.path if each.to_mm > train.front_mm)
-    arrives = train.path[-1].heading
-    while piece is not None:
-        arrives = piece.heading
+    begins_mm, arrives = train.front_mm, train.path[-1].heading
+    for piece in _pieces(rails, train, wanted, lies):
+        begins_mm, arrives = min(begins_mm, piece.from_mm), piece.heading
         block = rails.block[piece.heading[0]]
         out = rails.boundary(piece.heading) or isinstance(rails.segments.at[piece.heading], Stop)
         if block in wanted:
@@ -45,6 +46,27 @@ def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Poin
                 ends_mm[block] = piece.to_mm
         if out and block == destination:
             break
+    return Ahead(begins_mm, ends_mm, tags_mm, arrives)
+
+
+def _pieces(rails: Rails, train: OnRails, wanted: Set[Block], lies: Map[Point, Position]) -> Iterator[Piece]:
+    """Track from where the train came into these blocks, or from its front, as far as it goes on."""
+    front = next(place for place, each in enumerate(train.path) if each.to_mm > train.front_mm)
+    first = front
+    while first > 0 and rails.block[train.path[first - 1].heading[0]] in wanted:
+        first -= 1
+    yield from train.path[first:front]
+    piece: Piece | None = train.path[front]
+    while piece is not None:
+        yield piece
         onward = rails.onward(piece.heading, lies)
         piece = None if onward is None else Piece(onward, piece.to_mm, piece.to_mm + rails.length_mm(onward))
-    return Ahead(ends_mm, tags_mm, arrives)
+
+
+def follows_the_way(layout: Layout, run: Run, ends_mm: Map[Block, int]) -> bool:
+    """Whether a survey has the run's blocks in their order, from its start: not so of a train that faces back."""
+    way, overlap = layout.way[run.route], layout.overlap[run.route]
+    return layout.start[run.route] in ends_mm and all(
+        block not in way or way[block] in overlap or (way[block] in ends_mm and end_mm < ends_mm[way[block]])
+        for block, end_mm in ends_mm.items()
+    )

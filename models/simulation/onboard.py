@@ -5,11 +5,12 @@ Each decision is a function of ``kernel.onboard``; here they are only fed, and t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from kernel.layout import Layout
-from kernel.names import Run, Tag
+from kernel.maps import Map
+from kernel.names import Block, Run, Tag
 from kernel.onboard import (
     antenna_spacing,
     authority_end,
@@ -124,17 +125,9 @@ class OnBoard:
     # ---- what the unit was told
 
     def follow(self, layout: Layout, unit: Unit) -> None:
-        """Take the end of authority and the next tag from the orders of the unit (T4, T5)."""
+        """Let the brake do what the orders of the unit ask, and await the next tag by them (T4, T5)."""
         runs = [run for run in self.lists if run in unit.orders]
-        ends = [
-            end_mm
-            for run in runs
-            for end_mm in authority_end.ends_mm(layout, unit, run, self.lists[run].ends_mm, self.motion.front_least_mm)
-        ]
-        if ends:
-            self.brake = braking.take_end(
-                PLAN.brake, self.brake, self.motion.front_most_mm, self.motion.speed_most_mm_s, max(ends)
-            )
+        self.brake = self._asked(layout, unit, runs)
         tags_mm: dict[Tag, int] = {}
         for run in runs:
             order = unit.orders[run]
@@ -142,6 +135,24 @@ class OnBoard:
                 assert order.expected is not None
                 tags_mm[order.expected] = self.lists[run].tags_mm[order.expected]
         self._await(tags_mm)
+
+    def _asked(self, layout: Layout, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
+        """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
+        begins_mm = {run: self.lists[run].begins_mm for run in runs}
+        ends_mm: dict[Run, Map[Block, int]] = {run: self.lists[run].ends_mm for run in runs}
+        motion = self.motion
+        (brake,) = authority_end.obey(
+            layout,
+            unit,
+            begins_mm,
+            ends_mm,
+            PLAN.brake,
+            self.brake,
+            motion.front_least_mm,
+            motion.front_most_mm,
+            motion.speed_most_mm_s,
+        )
+        return brake
 
     def _await(self, tags_mm: Mapping[Tag, int]) -> None:
         """Await the nearest of these tags; the way to it is from the last one, or from where the train stood."""
@@ -161,7 +172,7 @@ class OnBoard:
         self.motion = odometry.located(least_mm, most_mm, self.motion.way_mm)
         self.watch = brake_watch.watching(0)
         self.movement = reverse_movement.LOCATED
-        self.brake = braking.Brake(applied=True, end_mm=least_mm)
+        self.brake = braking.stand_still(most_mm)
         self.spacing = antenna_spacing.preset(self.length_mm - 2 * ANTENNA_MM)
         self.awaited, self.window, self.lists = None, tag_window.NONE_AWAITED, {}
         self.begin_way()
@@ -182,7 +193,7 @@ def on_board(length_mm: int, front_mm: int) -> OnBoard:
     made = OnBoard(
         length_mm=length_mm,
         motion=odometry.located(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM, 0),
-        brake=braking.Brake(applied=True, end_mm=front_mm - LOCATED_WITHIN_MM),
+        brake=braking.stand_still(front_mm + LOCATED_WITHIN_MM),
         watch=brake_watch.watching(0),
         spacing=antenna_spacing.preset(length_mm - 2 * ANTENNA_MM),
         split=split.made_up(PLAN.split),

@@ -13,7 +13,7 @@ from random import Random
 from kernel.authority import may_proceed
 from kernel.names import Block, Route, Run, Stage, Train, UnitLife
 from kernel.route_setting import request_refusal
-from models.simulation.ahead import ahead
+from models.simulation.ahead import ahead, follows_the_way
 from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
 from models.simulation.driver import margin_mm
 from models.simulation.facing import Orders, exits, leads_back, leads_forward
@@ -141,7 +141,7 @@ class Service:
         front_mm = round(self.vehicle.front_mm)
         self.vehicle.board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
         self.vehicle.at_rest_cycles = 0
-        self._survey(*(run for run in (self.run, self.onward) if run is not None))
+        self._survey(*(run for run in (self.base, self.run, self.onward) if run is not None))
         self.diary.note(STAFF, self.train, told)
 
     def _rests(self) -> None:
@@ -302,6 +302,8 @@ class Service:
         elif grant is None or grant.stage == Stage.OVER:
             self.run = None
             self.become(Phase.STANDS, AGAIN_S)
+        elif order is not None and order.recalled:
+            self._faces(self.run)
         elif order is not None and order.permitted and not order.given_back:
             if not grant.cancelling:
                 self._departs(self.run)
@@ -324,7 +326,7 @@ class Service:
             self._turns()
         if not self.office.lets_depart(self.train):
             return
-        board.lists = {}
+        self._forgets()
         self._survey(run)
         board.begin_way()
         vehicle.run = run
@@ -335,6 +337,27 @@ class Service:
         vehicle.advance(self.line)
         self.become(Phase.RUNS)
         self._aims()
+
+    def _faces(self, run: Run) -> None:
+        """A run is wanted back before the train departs: only a train that faces it can say that it is short of it."""
+        vehicle, order = self.vehicle, self.play.system.units[self.train].orders[run]
+        if not vehicle.settled or order.given_back or run in vehicle.board.lists:
+            return
+        if not self._leads(run.route):
+            self._turns()
+        self._survey(run)
+        vehicle.demanded(self.play)
+
+    def held_before(self, run: Run) -> tuple[int, int] | None:
+        """Which end the train's brake holds, and where the block ends that a run starts in, if it is listed."""
+        board, layout = self.vehicle.board, self.play.site.layout
+        listed = board.lists.get(run)
+        return None if listed is None else (board.brake.end_mm, listed.ends_mm[layout.start[run.route]])
+
+    def _forgets(self) -> None:
+        """Of the lists only that of the run before the new one is of use."""
+        board = self.vehicle.board
+        board.lists = {each: listed for each, listed in board.lists.items() if each == self.base}
 
     def _turns(self) -> None:
         """Change ends: the range of the rear becomes that of the front."""
@@ -347,12 +370,15 @@ class Service:
         board.locate(least_mm, top_mm - motion.front_least_mm + board.length_mm)
 
     def _survey(self, *runs: Run) -> None:
-        """Take the lists of runs that the unit is permitted."""
-        unit, board = self.play.system.units[self.train], self.vehicle.board
+        """Take the lists of runs that the unit has orders for, and that lead on as the train faces."""
+        layout, unit, board = self.play.site.layout, self.play.system.units[self.train], self.vehicle.board
         for run in runs:
-            if run.route in self.play.site.layout.routes and may_proceed(unit, run) and run not in board.lists:
-                lies = self.play.system.track.lies
-                board.lists[run] = ahead(self.play.site.layout, self.line.rails, self.vehicle.on_rails, run, lies)
+            order = unit.orders.get(run)
+            if run.route not in layout.routes or order is None or order.given_back or run in board.lists:
+                continue
+            surveyed = ahead(layout, self.line.rails, self.vehicle.on_rails, run, self.play.system.track.lies)
+            if follows_the_way(layout, run, surveyed.ends_mm):
+                board.lists[run] = surveyed
         self.vehicle.look_again()
 
     # ---- running
@@ -414,6 +440,9 @@ class Service:
         if self.onward is None:
             return
         unit, grant = self.play.system.units[self.train], self.play.system.centre.runs.get(self.onward)
+        order = unit.orders.get(self.onward)
+        if order is not None and order.recalled:
+            self._survey(self.onward)
         if may_proceed(unit, self.onward) and grant is not None and not grant.cancelling:
             self._survey(self.onward)
             self.vehicle.run = self.onward

@@ -73,7 +73,7 @@ class Simulation:
         ]
         self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
-        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._stands_short)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._held_before)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
         roads = [WaysToRoad(self.rails, road) for road in plan.roads]
@@ -122,12 +122,8 @@ class Simulation:
     def _may_answer(self, train: Train) -> bool:
         return self.services[train].may_answer()
 
-    def _stands_short(self, run: Run) -> bool:
-        """Whether a train stands, and has not begun a run."""
-        order = self.play.system.units[run.train].orders.get(run)
-        track = self.play.system.track
-        begun = run in track.run_into or run in track.rolling
-        return self.vehicles[run.train].stands and not begun and order is not None
+    def _held_before(self, run: Run) -> tuple[int, int] | None:
+        return self.services[run.train].held_before(run)
 
     # ---- a second
 

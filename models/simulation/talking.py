@@ -20,8 +20,8 @@ from models.simulator.play import Play
 
 MayAnswer = Callable[[Train], bool]
 """Whether a train stands still, whole by its line, and is to tell where."""
-StandsShort = Callable[[Run], bool]
-"""Whether a train stands short of a run."""
+HeldBefore = Callable[[Run], tuple[int, int] | None]
+"""Which end the brake of a run's train holds, and where the block ends that the run starts in."""
 
 STEPS: Mapping[str, str] = {
     "relayed life": "note_terminal_life",
@@ -40,13 +40,13 @@ class Talk:
     """The conversations of every train."""
 
     def __init__(
-        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, stands_short: StandsShort
+        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, held_before: HeldBefore
     ) -> None:
         self.play = play
         self.links = links
         self.motors = motors
         self.may_answer = may_answer
-        self.stands_short = stands_short
+        self.held_before = held_before
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
         self._acts: Mapping[str, Callable[[Train, Fields], object]] = {
             "order": lambda train, fields: self._relays("relay_order", "relayed order", train, fields),
@@ -56,7 +56,7 @@ class Talk:
             "confirmation": self._relays_confirmation,
             "relayed confirmation": self._is_confirmed,
             "terminal's life": lambda train, fields: self._say(self._unit[train], CENTRE, "relayed life", fields),
-            "recall": self._gives_back,
+            "recall": self._is_recalled,
             "challenge": self._answers,
             "standing": self._is_noted,
         }
@@ -167,18 +167,29 @@ class Talk:
             self.with_train(train)
 
     def _recall(self, run: Run) -> None:
-        """The centre wants the run back; the train gives it back if it stands short of it (T9)."""
-        play = self.play
+        """The centre wants the run back; the train gives it back once its brake holds the end before it (T9)."""
+        play, order = self.play, self.play.system.units[run.train].orders.get(run)
         play.take("send_recall", run=run)
-        if self.stands_short(run):
+        if order is None:
+            return
+        if not order.recalled and not order.begun:
             self._to_unit(run.train, "recall", run=run)
-        if play.system.units[run.train].orders.get(run) is not None:
-            play.take("send_return", run=run)
+        elif not order.given_back:
+            self._gives_back(run)
+        if play.take("send_return", run=run) or run in play.system.radio.returns:
             self._to_centre(run.train, "return", run=run)
 
-    def _gives_back(self, train: Train, fields: Fields) -> None:
-        run = fields["run"]
-        if self.stands_short(run) and self.play.take("give_back", run=run, stands_short=True):
+    def _gives_back(self, run: Run) -> None:
+        """The unit asks its brake control; what the brake lets the train into no more it does not roll into."""
+        held = self.held_before(run)
+        if held is None:
+            return
+        if held[0] <= held[1]:
+            self.play.take("come_to_rest", run=run)
+        self.play.take("give_back", run=run, held_end_mm=held[0], start_end_mm=held[1])
+
+    def _is_recalled(self, train: Train, fields: Fields) -> None:
+        if self.play.take("recall", **fields):
             self.with_train(train)
 
     def _report(self, run: Run) -> None:

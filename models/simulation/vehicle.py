@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from random import Random
 
-from kernel.authority import may_proceed
 from kernel.names import Run, Tag, Train
 from kernel.unit import Unit
 from models.concrete.drive import Drive
@@ -49,7 +48,7 @@ class Vehicle:
         self.at_rest_cycles = 0
         self.way_mm = 0.0
         self._unit: Unit | None = None
-        self._demanded = True
+        self._asked_at = (0, 0, 0)
 
     @property
     def front_mm(self) -> float:
@@ -111,13 +110,13 @@ class Vehicle:
             self.gained_mm_s2 = 0.0
 
     def demanded(self, play: Play) -> bool:
-        """Whether the unit wants the emergency brake: no run, or an open loop (T5)."""
-        unit = play.system.units[self.on_rails.name]
-        if unit is not self._unit:
-            self._unit = unit
-            self._demanded = self.run is None or not may_proceed(unit, self.run)
-            self.board.follow(play.site.layout, unit)
-        return self._demanded
+        """Whether the unit wants the emergency brake: no run, or no end of authority that can be held (T5, T9)."""
+        unit, board = play.system.units[self.on_rails.name], self.board
+        place = (board.motion.front_least_mm, board.motion.front_most_mm, board.motion.speed_most_mm_s)
+        if unit is not self._unit or (board.brake.withheld and board.lists and place != self._asked_at):
+            self._unit, self._asked_at = unit, place
+            board.follow(play.site.layout, unit)
+        return self.run is None or board.brake.withheld
 
     def look_again(self) -> None:
         """The orders are to be read anew in the next cycle."""

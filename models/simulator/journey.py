@@ -139,10 +139,11 @@ class Journey:
         self.phase, self.seconds = Phase.RUNS, random.randint(10, 30)
 
     def _give_back(self, play: Play, run: Run) -> bool:
-        """The signaller wants a run back before the train moves."""
+        """The signaller wants a run back before the train moves; its brake holds the end before the run."""
         play.take("cancel", run=run)
         play.take("send_recall", run=run)
-        play.take("give_back", run=run, stands_short=True)
+        play.take("recall", run=run)
+        play.take("give_back", run=run, held_end_mm=0, start_end_mm=0)
         play.take("send_return", run=run)
         given = play.take("note_given_back", run=run)
         messages.retire_what_is_over(play, self.train.train)

@@ -111,9 +111,21 @@ def a_healthy_line_reaches_the_tail(site: Site, system: System, run: Run, car: C
     return not healthy or system.track.facing.get(run.train) == cab or is_last(site, system, run, car)
 
 
-def a_train_short_of_its_run_has_not_entered(system: System, run: Run, stands_short: bool) -> bool:
-    """Odometer and tags contain the front: a train said to stand short of a run has no car in it and is at rest."""
-    return not stands_short or (run not in system.track.run_into and run not in system.track.rolling)
+def a_head_runs_no_farther_than_its_brake_lets_it(
+    system: System, run: Run, held_end_mm: int, start_end_mm: int
+) -> bool:
+    """While the brake holds an end no farther than the run's start block ends, the train keeps out of what follows.
+
+    It does not roll into it, and no car is in a block that it came into under this run.  The joint proves it.
+    """
+    return held_end_mm > start_end_mm or (
+        run not in system.track.rolling
+        and all(
+            other != run or block not in system.track.at.get(car, frozenset())
+            for car in system.track.under
+            for block, other in system.track.under[car].items()
+        )
+    )
 
 
 def a_train_within_its_destination_is_not_beyond(

@@ -60,7 +60,7 @@ def withdraw(site: Site, system: System, run: Run) -> System:
 
 def cancel(site: Site, system: System, run: Run) -> System:
     """The signaller wants a run back (T9)."""
-    return replace(system, centre=cancellation.cancel(system.centre, run))
+    return replace(system, centre=cancellation.cancel(site.layout, system.centre, run))
 
 
 def note_given_back(site: Site, system: System, run: Run) -> System:

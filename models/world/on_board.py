@@ -9,13 +9,13 @@ from kernel.names import Block, Cab, Car, Epoch, Read, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from kernel.unit import Unit
 from models.world.assumptions import (
+    a_head_runs_no_farther_than_its_brake_lets_it,
     a_healthy_line_reaches_the_tail,
     a_located_train_stands_where_it_says,
     a_missed_tag_is_overdue_before_the_tail_comes,
     a_pair_passed_in_order_proves_the_exit,
     a_run_is_led_by_its_front,
     a_tag_is_read_where_it_lies,
-    a_train_short_of_its_run_has_not_entered,
     a_train_within_its_destination_is_not_beyond,
     is_genuine,
     is_last,
@@ -43,13 +43,21 @@ def take_permit(site: Site, system: System, run: Run) -> System:
     return with_unit(system, run.train, first_loop.take_permit(system.units[run.train], run))
 
 
-def give_back(site: Site, system: System, run: Run, stands_short: bool) -> System:
+def recall(site: Site, system: System, run: Run) -> System:
     """The centre's recall arrives (T9)."""
     if run not in system.radio.recalls or run.train not in system.units:
         return system
-    if not a_train_short_of_its_run_has_not_entered(system, run, stands_short):
+    return with_unit(system, run.train, first_loop.recall(system.units[run.train], run))
+
+
+def give_back(site: Site, system: System, run: Run, held_end_mm: int, start_end_mm: int) -> System:
+    """The brake control tells which end of authority it holds, and the list where the run's start block ends (T9)."""
+    if run.train not in system.units:
         return system
-    return with_unit(system, run.train, first_loop.give_back(system.units[run.train], run, stands_short))
+    if not a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm):
+        return system
+    unit = first_loop.give_back(site.layout, system.units[run.train], run, held_end_mm, start_end_mm)
+    return with_unit(system, run.train, unit)
 
 
 def take_standing(site: Site, system: System, run: Run) -> System:

@@ -50,12 +50,13 @@ def a_set_run_was_offered(site: Site, system: System) -> bool:
 
 
 def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
-    """A unit's orders are of its own train and life, were offered to it, and are permitted only by permit (T4)."""
+    """A unit's orders are of its train and life, offered to it, permitted by permit, recalled by recall (T4, T9)."""
     return all(
         run.train == train
         and run.life == system.units[train].life
         and (run in system.radio.offers or (run in system.radio.standing_runs and order.given_back and order.begun))
         and (not order.permitted or run in system.radio.permits)
+        and (not order.recalled or run in system.radio.recalls)
         and (not order.stopped or order.given_back or run in system.radio.permits)
         for train in system.units
         for run, order in system.units[train].orders.items()
@@ -129,16 +130,27 @@ def no_epoch_is_named_before_it_begins(site: Site, system: System) -> bool:
 
 
 def what_is_given_back_is_not_entered(site: Site, system: System) -> bool:
-    """Once a unit has given a run back no car has moved under it, it does not roll under it, and never will (T9)."""
+    """Once a unit has given a run back no car is where it came under it, and the train never rolls under it (T9)."""
     return all(
         not order.given_back
         or run not in system.radio.offers
-        or (run not in system.track.rolling and run not in system.track.run_into)
+        or (
+            run not in system.track.rolling
+            and all(
+                other != run or block not in system.track.at.get(car, frozenset())
+                for car in system.track.under
+                for block, other in system.track.under[car].items()
+            )
+        )
         for train in system.units
         for run, order in system.units[train].orders.items()
     ) and all(
         run not in system.track.rolling
-        and run not in system.track.run_into
+        and all(
+            other != run or block not in system.track.at.get(car, frozenset())
+            for car in system.track.under
+            for block, other in system.track.under[car].items()
+        )
         and run.train in system.units
         and (
             run.life != system.units[run.train].life

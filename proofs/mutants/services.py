@@ -66,7 +66,8 @@ def a_run_is_given_back_only_when_asked_for(steps: Steps) -> Scenario:
     """No unit gives a run back of itself: the train would stand with nobody knowing why (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.refuses("recall", run=run)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
     return scenario
 
 
@@ -99,8 +100,20 @@ def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Sce
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     setting.recall(scenario, run)
+    scenario.does("recall", run=run)
     running.head_passes(scenario, run, WEST, THROAT)
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.does("start_rolling", run=run)
+    return scenario
+
+
+def a_recall_of_a_run_that_has_begun_changes_nothing(steps: Steps) -> Scenario:
+    """The train is in it and goes on (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.recall(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    scenario.refuses("recall", run=run)
     return scenario
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows
+from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows, withhold_end
 from models.onboard.units import MS_A_CYCLE, NM_A_MM, larger
 from proofs.theory import Theory, by_name
 
@@ -21,6 +21,8 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and system.left_nm == 0
         and not system.demanded
         and not system.released_amiss
+        and system.brake.withheld
+        and not system.wanted
     )
 
 
@@ -37,12 +39,24 @@ def a_demanded_brake_is_applied(site: Vehicle, system: Approach) -> bool:
     return not system.demanded or system.brake.applied
 
 
+def no_end_is_held_beyond_the_one_wanted(site: Vehicle, system: Approach) -> bool:
+    """The brake is applied, or the end it holds is no farther than the one that the unit wants (T4, T9, T12)."""
+    return system.brake.applied or (system.wanted and system.brake.end_mm <= system.wanted_mm)
+
+
 def no_brake_is_released_before_the_train_stands(site: Vehicle, system: Approach) -> bool:
     """Once applied it goes off only of a train that stands, acknowledged, while nobody demands it (T12)."""
     return not system.released_amiss
 
 
 # ---- what they rest on
+
+
+def a_withheld_end_keeps_the_brake_applied(site: Vehicle, system: Approach) -> bool:
+    """While no end is wanted, or a nearer one than is held, no acknowledgement releases the brake (T9, T12)."""
+    return (not system.brake.withheld or system.brake.applied) and (
+        system.brake.withheld or (system.wanted and system.brake.end_mm <= system.wanted_mm)
+    )
 
 
 def the_worst_speed_is_not_negative(site: Vehicle, system: Approach) -> bool:
@@ -88,9 +102,11 @@ SAFETY = (
     head_stays_inside_authority,
     a_demanded_brake_is_applied,
     no_brake_is_released_before_the_train_stands,
+    no_end_is_held_beyond_the_one_wanted,
 )
 INVARIANTS = (
     *SAFETY,
+    a_withheld_end_keeps_the_brake_applied,
     the_worst_speed_is_not_negative,
     the_response_ends,
     it_gets_no_faster_before_the_response,
@@ -99,7 +115,7 @@ INVARIANTS = (
     the_way_left_is_enough,
 )
 PREMISES = (the_brake_slows,)
-STEPS = (run_a_cycle, take_end)
+STEPS = (run_a_cycle, take_end, withhold_end)
 
 THEORY = Theory(
     "braking",

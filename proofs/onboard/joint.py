@@ -1,32 +1,42 @@
-"""What is claimed at the joint: that a train obeys its authority is a theorem, not an assumption (T4, T12)."""
+"""What is claimed at the joint: that a train obeys its authority is a theorem, not an assumption (T4, T9, T12)."""
 
 from __future__ import annotations
 
 from models.onboard.joint import (
     Joint,
     Survey,
-    begin,
-    blocks_end_one_after_another,
+    a_list_follows_the_way,
+    a_list_tells_the_track,
+    ask_for_the_end,
+    cars_move,
     every_route_has_an_overlap,
+    head_passes,
     head_runs,
+    locate,
+    no_car_is_ahead_of_the_head,
     tail_leaves,
-    take_end,
-    train_rolls,
+    take_list,
     unit_changes,
+    what_the_tail_left_is_behind_the_head,
 )
-from models.world.assumptions import a_train_obeys_its_authority
+from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it, a_train_obeys_its_authority
 from proofs.theory import Theory, by_name
 
 # ---- the start
 
 
-def no_train_has_begun(site: Survey, system: Joint) -> bool:
-    """At the start no head is counted along any run, and no tail has left anything (T4)."""
+def no_train_is_located(site: Survey, system: Joint) -> bool:
+    """At the start no train knows where it is: it has no end, no list, and no run rolls (T4)."""
     return (
-        not any(True for run in system.head_mm)
-        and not any(True for run in system.end_mm)
+        not any(True for train in system.head_mm)
+        and not any(True for train in system.block)
+        and not any(True for train in system.block_end_mm)
+        and not any(True for train in system.brake)
+        and not any(True for run in system.begins_mm)
+        and not any(True for run in system.block_ends_mm)
+        and not any(True for run in system.asked)
         and not any(True for run, block in system.leavable)
-        and not any(True for run, block in system.system.track.behind)
+        and not any(True for run in system.system.track.rolling)
     )
 
 
@@ -34,41 +44,114 @@ def no_train_has_begun(site: Survey, system: Joint) -> bool:
 
 
 def a_head_that_can_leave_obeys_its_authority(site: Survey, system: Joint) -> bool:
-    """A rolling head that can still leave a block does so as the interlocking's proof assumes of it (T4, T12).
-
-    It can leave a block that it has not left yet and that ends short of the end its brake keeps to.
-    """
+    """A head that the brake lets out of its block leaves it as the interlocking's proof assumes of it (T4, T12)."""
     return all(
-        system.head_mm[run] > site.block_ends_mm[run.route][block]
-        or site.block_ends_mm[run.route][block] >= system.end_mm[run]
-        or run not in system.system.track.rolling
-        or run.train not in system.system.units
-        or a_train_obeys_its_authority(site.site, system.system, run, block)
-        for run in system.head_mm
-        if run in system.end_mm
-        if run.route in site.block_ends_mm
-        for block in site.block_ends_mm[run.route]
+        train in system.standing
+        or system.block_end_mm[train] >= system.brake[train].end_mm
+        or any(
+            run.train == train
+            and run in system.block_ends_mm
+            and a_train_obeys_its_authority(site.site, system.system, run, system.block[train])
+            for run in system.asked
+        )
+        for train in system.brake
+    )
+
+
+def a_train_keeps_out_of_what_its_brake_holds_it_from(site: Survey, system: Joint) -> bool:
+    """While a brake holds an end before a run's blocks its train neither is in them nor rolls there (T9, T12)."""
+    return all(
+        run.train in system.brake
+        and a_head_runs_no_farther_than_its_brake_lets_it(
+            system.system,
+            run,
+            system.brake[run.train].end_mm,
+            system.block_ends_mm[run][site.site.layout.start[run.route]],
+        )
+        for run in system.block_ends_mm
     )
 
 
 def no_head_is_beyond_its_end(site: Survey, system: Joint) -> bool:
     """No head is beyond the end of its authority (T12)."""
-    return all(run in system.end_mm and system.head_mm[run] <= system.end_mm[run] for run in system.head_mm)
+    return all(
+        train in system.brake and system.head_mm[train] <= system.brake[train].end_mm for train in system.head_mm
+    )
 
 
 # ---- what they rest on
 
 
-def what_lies_before_the_end_could_be_left(site: Survey, system: Joint) -> bool:
-    """Every block that ends between head and end might be left when the end was taken (T12)."""
+def a_located_train_has_a_place(site: Survey, system: Joint) -> bool:
+    """Head, block and brake are known together, and the head is not past the end of its block (P7)."""
     return all(
-        system.head_mm[run] > site.block_ends_mm[run.route][block]
-        or site.block_ends_mm[run.route][block] >= system.end_mm[run]
-        or (run, block) in system.leavable
-        for run in system.head_mm
-        if run in system.end_mm
-        if run.route in site.block_ends_mm
-        for block in site.block_ends_mm[run.route]
+        train in system.head_mm
+        and train in system.block
+        and train in system.block_end_mm
+        and system.head_mm[train] <= system.block_end_mm[train]
+        and (train in system.standing or train in system.system.units)
+        for train in system.brake
+    )
+
+
+def every_list_follows_its_way(site: Survey, system: Joint) -> bool:
+    """Lists are of located trains, and as surveyed (T1)."""
+    return all(
+        run.train in system.brake
+        and run in system.begins_mm
+        and a_list_follows_the_way(site, run, system.block_ends_mm[run])
+        for run in system.block_ends_mm
+    ) and all(run in system.block_ends_mm for run in system.asked)
+
+
+def every_list_tells_the_track(site: Survey, system: Joint) -> bool:
+    """A head within a list is in the block that the list has there (T1)."""
+    return all(
+        run in system.begins_mm
+        and run.train in system.block
+        and a_list_tells_the_track(
+            system.begins_mm[run],
+            system.block_ends_mm[run],
+            system.head_mm[run.train],
+            system.block[run.train],
+            system.block_end_mm[run.train],
+        )
+        for run in system.block_ends_mm
+    )
+
+
+def what_lies_before_the_end_could_be_left(site: Survey, system: Joint) -> bool:
+    """Of what is listed each block that ends between head and end might be left, by a run that rolls (T12)."""
+    return all(
+        run not in system.block_ends_mm
+        or run.train not in system.brake
+        or system.head_mm[run.train] > system.block_ends_mm[run][block]
+        or system.block_ends_mm[run][block] >= system.brake[run.train].end_mm
+        or any(
+            other.train == run.train
+            and other in system.block_ends_mm
+            and other in system.system.track.rolling
+            and (other, block) in system.leavable
+            and system.block_ends_mm[other].get(block) == system.block_ends_mm[run][block]
+            for other in system.asked
+        )
+        for run in system.asked
+        for block in system.block_ends_mm[run]
+    )
+
+
+def the_heads_block_is_listed(site: Survey, system: Joint) -> bool:
+    """A head that the brake lets out of its block is in a block of a list that the brake was asked by (T12)."""
+    return all(
+        train in system.standing
+        or system.block_end_mm[train] >= system.brake[train].end_mm
+        or any(
+            run.train == train
+            and run in system.block_ends_mm
+            and system.block_ends_mm[run].get(system.block[train]) == system.block_end_mm[train]
+            for run in system.asked
+        )
+        for train in system.brake
     )
 
 
@@ -82,27 +165,62 @@ def a_block_that_could_be_left_has_a_way_on(site: Survey, system: Joint) -> bool
     )
 
 
-def what_is_behind_was_passed(site: Survey, system: Joint) -> bool:
-    """The head is past the end of every block that the tail has left (T2)."""
+def a_rolling_run_starts_before_the_end(site: Survey, system: Joint) -> bool:
+    """A run that is listed rolls only while the brake holds an end beyond its start block; none else rolls (T12)."""
     return all(
-        run in system.head_mm
-        and run.route in site.block_ends_mm
-        and block in site.block_ends_mm[run.route]
-        and site.block_ends_mm[run.route][block] < system.head_mm[run]
+        run in system.block_ends_mm
+        and run.train in system.brake
+        and system.block_ends_mm[run][site.site.layout.start[run.route]] < system.brake[run.train].end_mm
+        for run in system.system.track.rolling
+    )
+
+
+def no_car_came_under_a_run_ahead(site: Survey, system: Joint) -> bool:
+    """No car is beyond the start block of a run, come there under it, but with the head beyond it (T2)."""
+    return all(
+        run.train in system.head_mm
+        and no_car_is_ahead_of_the_head(
+            site,
+            system.head_mm[run.train],
+            run,
+            system.block_ends_mm[run],
+            system.system.track.at,
+            system.system.track.under,
+        )
+        for run in system.block_ends_mm
+    )
+
+
+def what_is_behind_was_passed(site: Survey, system: Joint) -> bool:
+    """The head is past the end of every listed block that the tail has left (T2)."""
+    return all(
+        run not in system.block_ends_mm
+        or run.train not in system.head_mm
+        or what_the_tail_left_is_behind_the_head(system.head_mm[run.train], system.block_ends_mm[run], block)
         for run, block in system.system.track.behind
     )
 
 
-INITIAL = (no_train_has_begun,)
-SAFETY = (a_head_that_can_leave_obeys_its_authority, no_head_is_beyond_its_end)
+INITIAL = (no_train_is_located,)
+SAFETY = (
+    a_head_that_can_leave_obeys_its_authority,
+    a_train_keeps_out_of_what_its_brake_holds_it_from,
+    no_head_is_beyond_its_end,
+)
 INVARIANTS = (
     *SAFETY,
+    a_located_train_has_a_place,
+    every_list_follows_its_way,
+    every_list_tells_the_track,
     what_lies_before_the_end_could_be_left,
+    the_heads_block_is_listed,
     a_block_that_could_be_left_has_a_way_on,
+    a_rolling_run_starts_before_the_end,
+    no_car_came_under_a_run_ahead,
     what_is_behind_was_passed,
 )
-PREMISES = (blocks_end_one_after_another, every_route_has_an_overlap)
-STEPS = (begin, take_end, head_runs, unit_changes, train_rolls, tail_leaves)
+PREMISES = (every_route_has_an_overlap,)
+STEPS = (locate, take_list, ask_for_the_end, head_runs, head_passes, cars_move, unit_changes, tail_leaves)
 
 THEORY = Theory(
     "joint",

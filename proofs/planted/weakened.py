@@ -63,6 +63,7 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
         | {
             run: Order(
                 permitted=False,
+                recalled=False,
                 given_back=False,
                 loop_closed=True,
                 begun=False,
@@ -74,12 +75,10 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
     )
 
 
-def give_back_at_once(unit: Unit, run: Run, stands_short: bool) -> Unit:
-    """Give a run back wherever the train is."""
+def acknowledges_at_once(unit: Unit, run: Run) -> bool:
+    """Acknowledge a recall whatever end the brake holds."""
     order = unit.orders.get(run)
-    if order is None or order.begun:
-        return unit
-    return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
+    return order is not None and order.recalled and not order.begun
 
 
 def any_antenna(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:

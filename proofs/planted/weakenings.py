@@ -33,9 +33,9 @@ WEAKENINGS: tuple[Fault, ...] = (
     ),
     Fault(
         "no approach locking",
-        "The train gives a run back while it rolls towards it, and comes into blocks that are another's by then.",
-        "give_back",
-        {first_loop.give_back: weakened.give_back_at_once},
+        "The train says that a run is given back while its brake lets it in, and comes into what is another's by then.",
+        "send_return",
+        {first_loop.acknowledges_back: weakened.acknowledges_at_once},
     ),
     Fault(
         "an antenna on any car counts",

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from kernel.cancellation import asks_back
+from kernel.first_loop import is_followed
 from kernel.names import Run
 from models.world import at_the_centre, on_board, radio
-from models.world.assumptions import a_train_short_of_its_run_has_not_entered
+from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it
 from models.world.state import Site, System
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import can_be_told, lives, order_of
@@ -43,9 +44,20 @@ def its_recall_is_in_the_air(site: Site, system: System, run: Run) -> bool:
     return order_of(system, run) is not None and run in system.radio.recalls
 
 
-def it_stands_short(site: Site, system: System, run: Run, stands_short: bool) -> bool:
-    """By odometer and tags the train stands outside the run's blocks, and so it does."""
-    return stands_short and a_train_short_of_its_run_has_not_entered(system, run, stands_short)
+def it_is_recalled(site: Site, system: System, run: Run) -> bool:
+    """The unit knows that the run is wanted back."""
+    order = order_of(system, run)
+    return order is not None and order.recalled
+
+
+def its_brake_keeps_it_out(site: Site, system: System, run: Run, held_end_mm: int, start_end_mm: int) -> bool:
+    """The brake holds an end before the run's blocks, the train is out of them, and no later run leads on."""
+    return (
+        held_end_mm <= start_end_mm
+        and a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm)
+        and run.train in system.units
+        and not is_followed(site.layout, system.units[run.train], run)
+    )
 
 
 def it_is_given_back(site: Site, system: System, run: Run) -> bool:
@@ -65,7 +77,8 @@ PROMISES = (
             Link(it_is_wanted_back, radio.send_offer),
             Link(its_tags_are_on_the_way, on_board.take_offer),
             Link(it_is_known_on_board, radio.send_recall),
-            Link(its_recall_is_in_the_air, on_board.give_back, it_stands_short),
+            Link(its_recall_is_in_the_air, on_board.recall),
+            Link(it_is_recalled, on_board.give_back, its_brake_keeps_it_out),
             Link(it_is_given_back, radio.send_return),
             Link(its_return_is_in_the_air, at_the_centre.note_given_back),
         ),

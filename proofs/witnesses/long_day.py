@@ -109,7 +109,7 @@ def _a_run_is_cancelled(scenario: Scenario, second: Run) -> None:
     run = set_route(scenario, T2, TWO_TO_WEST, second)
     roll(scenario, run)
     recall(scenario, run)
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
     scenario.refuses("send_permit", run=next_run(scenario, T2, TWO_TO_WEST))
     rest(scenario, run)
     holds(scenario, THROAT, run)

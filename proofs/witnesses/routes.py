@@ -24,6 +24,7 @@ from proofs.witnesses.setting import (
     close_first_loop,
     echo,
     freed,
+    give_back,
     holds,
     lay,
     locks,
@@ -61,6 +62,7 @@ from proofs.witnesses.stations import (
     THROAT,
     TWO,
     WEST,
+    WEST_TO_EAST,
     WEST_TO_ONE,
     WEST_TO_TWO,
     WEST_TO_TWO_SHIELDED,
@@ -232,10 +234,41 @@ def a_run_is_wanted_back_before_its_tags_came(steps: Steps) -> Scenario:
     open_first_loop(scenario, run)
     want_back(scenario, run)
     ask_back(scenario, run)
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.refuses("recall", run=run)
     send_list(scenario, run)
     return_it(scenario, run)
     retire(scenario, run)
+    return scenario
+
+
+def a_run_that_another_leads_on_from_is_kept(steps: Steps) -> Scenario:
+    """With a run set ahead the nearer one is not asked back before it, nor a run set ahead from one asked back (T9)."""
+    scenario, runs = recovered(steps, FACING_EAST)
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    onward = set_route(scenario, T1, ONE_TO_EAST, run)
+    scenario.refuses("cancel", Refusal.A_RUN_LEADS_ON, run=run)
+    recall(scenario, onward)
+    return_it(scenario, onward)
+    recall(scenario, run)
+    wanted = next_run(scenario, T1, ONE_TO_EAST)
+    scenario.refuses("request", Refusal.START_WANTED_BACK, run=wanted, base=run)
+    return_it(scenario, run)
+    at_stage(scenario, run, Stage.OVER)
+    return scenario
+
+
+def the_nearer_of_two_runs_is_not_given_back_first(steps: Steps) -> Scenario:
+    """A unit that is asked for a run gives back first what leads on from it, whoever asked in what order (T9)."""
+    scenario, runs = recovered(steps, FACING_EAST)
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    recall(scenario, run)
+    scenario.does("recall", run=run)
+    other = set_route(scenario, T1, WEST_TO_EAST, runs[T1])
+    onward = set_route(scenario, T1, ONE_TO_EAST, other)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    recall(scenario, onward)
+    return_it(scenario, onward)
+    give_back(scenario, run)
     return scenario
 
 
@@ -246,11 +279,14 @@ def a_train_on_its_way_keeps_its_run(steps: Steps) -> Scenario:
     roll(scenario, run)
     recall(scenario, run)
     scenario.refuses("send_permit", run=next_run(scenario, T1, WEST_TO_ONE))
-    scenario.refuses("give_back", run=run, stands_short=False)
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.does("recall", {"units": {T1: {"orders": {run: {"recalled": True}}}}}, run=run)
+    scenario.refuses("give_back", run=run, held_end_mm=1, start_end_mm=0)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("start_rolling", run=run)
     head_passes(scenario, run, WEST, THROAT)
     rest(scenario, run)
-    scenario.refuses("give_back", run=run, stands_short=True)
+    scenario.refuses("recall", run=run)
+    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
     scenario.refuses("send_return", run=run)
     scenario.refuses("note_given_back", run=run)
     at_stage(scenario, run, Stage.SET)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from kernel import recovery, release, route_setting, supervision
+from kernel import cancellation, recovery, release, route_setting, supervision
 from kernel.refusal import Refusal
 from models.world.state import Site, System
 from proofs import catalogue
@@ -23,6 +23,7 @@ Steps = Mapping[str, Callable[..., Any]]
 WHY_REFUSED: Mapping[str, str] = {
     "request": "request_refusal",
     "open_first_loop": "open_first_loop_refusal",
+    "cancel": "cancel_refusal",
     "release_block": "release_refusal",
     "retire": "retire_refusal",
     "note_standing": "standing_refusal",
@@ -34,6 +35,7 @@ WHY_REFUSED: Mapping[str, str] = {
 REASONS: Steps = {
     "request_refusal": route_setting.request_refusal,
     "open_first_loop_refusal": route_setting.open_first_loop_refusal,
+    "cancel_refusal": cancellation.cancel_refusal,
     "release_refusal": release.release_refusal,
     "retire_refusal": release.retire_refusal,
     "standing_refusal": recovery.standing_refusal,

@@ -107,6 +107,7 @@ def send_list(scenario: Scenario, run: Run) -> None:
     scenario.does("send_offer", {"radio": {"offers": came(run)}}, run=run)
     taken = Order(
         permitted=False,
+        recalled=False,
         given_back=False,
         begun=False,
         stopped=False,
@@ -147,11 +148,19 @@ def ask_back(scenario: Scenario, run: Run) -> None:
 
 
 def return_it(scenario: Scenario, run: Run) -> None:
-    """The train, standing short, gives a run back, and the centre frees it."""
-    given = {"units": {run.train: {"orders": {run: {"given_back": True}}}}}
-    scenario.does("give_back", given, run=run, stands_short=True)
+    """The recall comes, the brake holds the end before the run, the train gives it back, and the centre frees it."""
+    scenario.does("recall", {"units": {run.train: {"orders": {run: {"recalled": True}}}}}, run=run)
+    scenario.refuses("send_return", run=run)
+    give_back(scenario, run)
     scenario.does("send_return", {"radio": {"returns": came(run)}}, run=run)
     scenario.does("note_given_back", freed(scenario, run, Cause.CANCELLED), run=run)
+
+
+def give_back(scenario: Scenario, run: Run) -> None:
+    """The brake holds the end of the block that the run starts in, and the train gives the run back."""
+    scenario.refuses("give_back", run=run, held_end_mm=100_001, start_end_mm=100_000)
+    given = {"units": {run.train: {"orders": {run: {"given_back": True}}}}}
+    scenario.does("give_back", given, run=run, held_end_mm=100_000, start_end_mm=100_000)
 
 
 def freed(scenario: Scenario, run: Run, cause: Cause) -> Changes:

@@ -117,6 +117,7 @@ def tell_back(scenario: Scenario, run: Run) -> None:
     scenario.does("send_standing_run", {"radio": {"standing_runs": came(run)}}, run=run)
     stands = Order(
         permitted=False,
+        recalled=False,
         given_back=True,
         begun=True,
         stopped=True,

@@ -383,24 +383,29 @@ PLANTED: dict[str, tuple[str, Code, str, str]] = {
         "if end_mm >= front_least_mm",
         "if end_mm > front_least_mm",
     ),
-    "the farthest end": ("joint.ends_mm", kernel.onboard.authority_end.ends_mm, "end_mm <= other", "end_mm >= other"),
+    "the farthest end": (
+        "joint.ends_mm",
+        kernel.onboard.authority_end.ends_mm,
+        "end_mm <= other_mm",
+        "end_mm >= other_mm",
+    ),
     "into the overlap": (
         "joint.may_be_left",
         kernel.onboard.authority_end.may_be_left,
         "target not in layout.overlap[run.route] and ",
         "",
     ),
-    "the old end is kept": (
-        "joint.take_end",
-        models.onboard.joint.take_end,
-        "system.end_mm | {run: end_mm}",
-        "{run: end_mm} | system.end_mm",
+    "the old brake is kept": (
+        "joint.ask_for_the_end",
+        models.onboard.joint.ask_for_the_end,
+        "system.brake | {train: brake}",
+        "{train: brake} | system.brake",
     ),
     "the head stays": (
         "joint.head_runs",
         models.onboard.joint.head_runs,
-        "{run: to_mm}",
-        "{run: system.head_mm[run]}",
+        "{train: to_mm}",
+        "{train: system.head_mm[train]}",
     ),
 }
 """By what is wrong: what is compared, the function that is changed, and the change."""

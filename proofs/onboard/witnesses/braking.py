@@ -26,7 +26,9 @@ def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
         left_nm=0,
         demanded=False,
         released_amiss=False,
-        brake=Brake(applied=True, end_mm=end_mm),
+        brake=Brake(applied=True, end_mm=end_mm, withheld=True),
+        wanted=False,
+        wanted_mm=0,
     )
 
 
@@ -36,6 +38,9 @@ class Train(Play[Vehicle, Approach]):
     def __init__(self, system: Approach | None = None) -> None:
         """Begin."""
         super().__init__(THEORY, SITE, standing() if system is None else system)
+        head_mm, end_mm = self.system.head_nm // NM_A_MM, self.system.brake.end_mm
+        self.step("take_end", front_most_mm=head_mm, speed_most_mm_s=0, end_mm=end_mm)
+        assert self.system.brake == Brake(applied=True, end_mm=end_mm)
 
     def cycle(
         self,
@@ -300,7 +305,30 @@ def a_nearer_end_that_could_be_overrun_is_not_taken() -> None:
     for nearer_mm in (end_mm, here_mm, -(10**12)):
         train = running(20_000)
         train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=nearer_mm)
-        assert train.system.brake == Brake(applied=True, end_mm=END_MM)
+        assert train.system.brake == Brake(applied=True, end_mm=END_MM, withheld=True)
+        while train.system.speed_um_s > 0:
+            train.worst_cycle(acknowledged=True)
+        train.cycle(0, acknowledged=True)
+        assert train.brakes()
+
+
+def at_a_standstill_the_nearer_end_is_taken_and_the_brake_released() -> None:
+    """If the train has stopped short of it by as much as the rule keeps for a train that gathers speed (T9, T12)."""
+    train = running(20_000)
+    here_mm = train.system.head_nm // NM_A_MM
+    nearer_mm = here_mm + needed_mm(20_000) - 1
+    train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=20_000, end_mm=nearer_mm)
+    train.cycle(19_900_000)
+    while train.system.speed_um_s > 0:
+        train.cycle(max(0, train.system.speed_um_s - 100_000))
+    here_mm = -(-train.system.head_nm // NM_A_MM)
+    assert needed_mm(0) <= nearer_mm - here_mm
+    far_mm = nearer_mm - needed_mm(0) + 1
+    train.step("take_end", front_most_mm=far_mm, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=nearer_mm)
+    train.cycle(0, acknowledged=True)
+    assert train.brakes()
+    train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=nearer_mm)
+    assert train.system.brake == Brake(applied=True, end_mm=nearer_mm)
 
 
 # ---- ranges
@@ -397,6 +425,8 @@ WITNESSES = (
     a_farther_end_is_taken_at_any_time,
     a_nearer_end_is_taken_if_the_train_can_stop,
     a_nearer_end_that_could_be_overrun_is_not_taken,
+    at_a_standstill_the_nearer_end_is_taken_and_the_brake_released,
+    a_train_without_an_end_stays_braked,
     a_speed_out_of_range_brakes,
     an_end_beyond_the_farthest_counts_as_so_far,
     a_front_out_of_range_brakes,

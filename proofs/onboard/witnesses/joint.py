@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 
+from kernel import first_loop
 from kernel.layout import Layout
+from kernel.maps import Map
 from kernel.names import Block, Read, Record, Route, Run, Serial, Tag, Train, UnitLife
 from kernel.onboard import authority_end as machine
+from kernel.onboard.braking import Brake, BrakeBounds, supervise
 from kernel.unit import Evidence, Order, Unit
 from models.onboard.joint import Joint, Survey
-from models.world.state import Site
 from proofs.onboard.joint import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.witnesses.stations import (
@@ -19,8 +21,8 @@ from proofs.witnesses.stations import (
     A2,
     B1,
     EAST,
-    EAST_TO_ONE,
     ONE,
+    ONE_TO_EAST,
     OUTLET,
     PASSING_PLACE,
     T1,
@@ -32,13 +34,28 @@ from proofs.witnesses.stations import (
     standing_at,
 )
 
-ENDS_MM = {WEST: 440_000, THROAT: 550_000, ONE: 750_000, OUTLET: 860_000}
-"""Where the blocks of the route from the west to track one end, and those of its overlap."""
-RUN = Run(Serial(1), T1, UnitLife(0), WEST_TO_ONE)
-OTHER = Run(Serial(2), T2, UnitLife(0), EAST_TO_ONE)
+BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BEGINS_MM = 340_000
+"""Where the block in the west begins, in the train's kilometrage."""
+ENDS_MM = {WEST: 440_000, THROAT: 550_000, ONE: 750_000}
+"""Where the blocks of the route from the west to track one end, but for its overlap."""
+ONWARD_MM = {ONE: 750_000, OUTLET: 860_000, EAST: 1_000_000}
+"""Where the blocks of the route from track one to the east end, in the same kilometrage."""
+RUN = Run(Serial(2), T1, UnitLife(0), WEST_TO_ONE)
+ONWARD = Run(Serial(3), T1, UnitLife(0), ONE_TO_EAST)
+OTHER = Run(Serial(4), T2, UnitLife(0), Route("east to one"))
 PERMITTED = Order(
-    permitted=True, given_back=False, loop_closed=True, begun=False, stopped=False, expected=None, left={}
+    permitted=True,
+    recalled=False,
+    given_back=False,
+    loop_closed=True,
+    begun=False,
+    stopped=False,
+    expected=None,
+    left={},
 )
+RECALLED = replace(PERMITTED, recalled=True)
+GIVEN_BACK = replace(RECALLED, given_back=True)
 A_PAIR = Evidence(Read(Tag("B1@throat"), Record("1")), Read(Tag("B1@one"), Record("2")))
 
 
@@ -53,14 +70,8 @@ def along(layout: Layout, route: Route) -> list[Block]:
 
 @cache
 def surveyed() -> Survey:
-    """The passing place, each block of each route 100 m long, but on the route from the west to track one."""
-    site: Site = site_of(PASSING_PLACE)
-    routes: Iterable[Route] = site.layout.way
-    ends = {
-        route: {block: 100_000 * (place + 1) for place, block in enumerate(along(site.layout, route))}
-        for route in routes
-    }
-    return Survey(site=site, block_ends_mm={**ends, WEST_TO_ONE: ENDS_MM})
+    """The passing place."""
+    return Survey(site=site_of(PASSING_PLACE))
 
 
 class Station(Play[Survey, Joint]):
@@ -70,28 +81,69 @@ class Station(Play[Survey, Joint]):
         """Begin."""
         site = surveyed()
         at = {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})}
-        start = Joint(system=standing_at(site.site, at, {}), head_mm={}, end_mm={}, leavable=frozenset())
+        start = Joint(
+            system=standing_at(site.site, at, {}),
+            head_mm={},
+            block={},
+            block_end_mm={},
+            brake={},
+            standing=frozenset(),
+            begins_mm={},
+            block_ends_mm={},
+            asked=frozenset(),
+            leavable=frozenset(),
+        )
         super().__init__(THEORY, site, start)
 
     def unit(self) -> Unit:
         """The unit of the train in the west."""
         return self.system.system.units[T1]
 
-    def told(self, order: Order | None) -> None:
-        """The unit has this order for its run, or none."""
-        unit = replace(self.unit(), orders={} if order is None else {RUN: order})
+    def changes(self, unit: Unit) -> None:
+        """The unit becomes this."""
         self.step("unit_changes", train=T1, unit=unit)
         assert self.unit() == unit
 
-    def ends(self, front_least_mm: int) -> frozenset[int]:
-        """Where the authority ends, by the orders that the unit has now."""
-        return machine.ends_mm(self.site.site.layout, self.unit(), RUN, ENDS_MM, front_least_mm)
+    def told(self, orders: Mapping[Run, Order]) -> None:
+        """The unit has these orders."""
+        self.changes(replace(self.unit(), orders=dict(orders)))
 
-    def takes(self, front_least_mm: int, end_mm: int) -> None:
-        """The brake control takes the end that the orders give."""
-        assert self.ends(front_least_mm) == {end_mm}
-        self.step("take_end", run=RUN, front_least_mm=front_least_mm, end_mm=end_mm)
-        assert self.system.end_mm[RUN] == end_mm
+    def listed(self, run: Run, begins_mm: int, ends_mm: Map[Block, int]) -> None:
+        """A run's list comes."""
+        self.step("take_list", run=run, begins_mm=begins_mm, block_ends_mm=ends_mm)
+        assert self.system.begins_mm[run] == begins_mm
+        assert self.system.block_ends_mm[run] == ends_mm
+
+    def ends(self, front_least_mm: int, front_most_mm: int) -> frozenset[int]:
+        """Where the authority ends, by the orders that the unit has now."""
+        lists = (self.system.begins_mm, self.system.block_ends_mm)
+        return machine.ends_mm(self.site.site.layout, self.unit(), *lists, front_least_mm, front_most_mm)
+
+    def asks(self, speed_mm_s: int = 0, error_mm: int = 1_000) -> Brake:
+        """A cycle on board: the brake does what the kernel says."""
+        head_mm = self.system.head_mm[T1]
+        least_mm, most_mm = head_mm - error_mm, head_mm + error_mm
+        asked = machine.obey(
+            self.site.site.layout,
+            self.unit(),
+            self.system.begins_mm,
+            self.system.block_ends_mm,
+            BOUNDS,
+            self.system.brake[T1],
+            least_mm,
+            most_mm,
+            speed_mm_s,
+        )
+        assert len(asked) == 1
+        (brake,) = asked
+        self.step("ask_for_the_end", train=T1, front_least_mm=least_mm, front_most_mm=most_mm, brake=brake)
+        assert self.system.brake[T1] == brake
+        return brake
+
+    def holds(self, end_mm: int, withheld: bool = False) -> None:
+        """A cycle on board, after which the brake holds this end."""
+        brake = self.asks()
+        assert (brake.end_mm, brake.withheld) == (end_mm, withheld)
 
     def refuses(self, step: str, **event: object) -> None:
         """Nothing comes of it."""
@@ -99,199 +151,384 @@ class Station(Play[Survey, Joint]):
         assert self.step(step, **event) == before
 
     def runs(self, to_mm: int) -> None:
-        """The head runs on to a place."""
-        self.step("head_runs", run=RUN, to_mm=to_mm)
-        assert self.system.head_mm[RUN] == to_mm
+        """The head runs on to a place in its block."""
+        self.step("head_runs", train=T1, to_mm=to_mm)
+        assert self.system.head_mm[T1] == to_mm
 
-    def rolls(self) -> None:
-        """It can no longer stop in the block it is in."""
-        self.step("train_rolls", rolling=frozenset({RUN}))
-        assert self.system.system.track.rolling == {RUN}
+    def passes(self, to_mm: int, block: Block, end_mm: int) -> None:
+        """The head runs on into another block."""
+        self.step("head_passes", train=T1, to_mm=to_mm, block=block, block_end_mm=end_mm)
+        assert (self.system.head_mm[T1], self.system.block[T1], self.system.block_end_mm[T1]) == (to_mm, block, end_mm)
+
+    def rolling(self) -> frozenset[Run]:
+        """The runs that the train rolls under."""
+        return self.system.system.track.rolling
+
+    def gives_back(self, run: Run = RUN) -> bool:
+        """The unit gives the run back if it may, by what the brake holds; say whether it then says so."""
+        ends_mm, start = self.system.block_ends_mm[run], self.site.site.layout.start[run.route]
+        held_mm = self.system.brake[T1].end_mm
+        self.changes(first_loop.give_back(self.site.site.layout, self.unit(), run, held_mm, ends_mm[start]))
+        return first_loop.acknowledges_back(self.unit(), run)
 
 
-def begun(head_mm: int = 400_000) -> Station:
-    """The station, and the head of the train in the west 40 m before the end of its block."""
+def located(head_mm: int = 400_000) -> Station:
+    """The station, and the head of the train in the west so far, by its machines a metre farther at most."""
     station = Station()
-    station.step("begin", run=RUN, head_mm=head_mm)
-    assert station.system.head_mm[RUN] == station.system.end_mm[RUN] == head_mm
+    station.step(
+        "locate", train=T1, head_mm=head_mm, block=WEST, block_end_mm=ENDS_MM[WEST], front_most_mm=head_mm + 1_000
+    )
+    assert station.system.brake[T1] == Brake(applied=True, end_mm=head_mm + 1_000, withheld=True)
+    assert station.system.standing == {T1}
+    return station
+
+
+def permitted(head_mm: int = 400_000) -> Station:
+    """That train, with the list of its run, permitted."""
+    station = located(head_mm)
+    station.listed(RUN, BEGINS_MM, ENDS_MM)
+    station.told({RUN: PERMITTED})
     return station
 
 
 def under_way(head_mm: int = 400_000) -> Station:
-    """That train, permitted, with the end of its authority taken, rolling."""
-    station = begun()
-    station.told(PERMITTED)
-    station.takes(399_000, 750_000)
-    station.rolls()
-    station.runs(head_mm)
+    """That train, with the end of its authority taken, rolling."""
+    station = permitted(min(head_mm, 439_000))
+    station.holds(750_000)
+    assert station.system.standing == frozenset()
+    assert station.rolling() == {RUN}
+    if head_mm > 440_000:
+        station.passes(head_mm, THROAT, 550_000)
     return station
 
 
-def a_run_begins_once() -> None:
-    """Each train's head is counted along its own run; a run that has begun does not begin anew (T4)."""
-    station = begun()
-    station.refuses("begin", run=RUN, head_mm=0)
-    station.step("begin", run=OTHER, head_mm=1_000)
-    assert station.system.head_mm == station.system.end_mm == {RUN: 400_000, OTHER: 1_000}
+def two_runs() -> Station:
+    """A train in the west with two runs, through track one and on to the east; its brake holds the end of both."""
+    station = permitted()
+    station.listed(ONWARD, 550_000, ONWARD_MM)
+    station.told({RUN: PERMITTED, ONWARD: PERMITTED})
+    station.holds(1_000_000)
+    assert station.rolling() == {RUN, ONWARD}
+    return station
 
 
-def without_orders_the_authority_ends_with_the_block() -> None:
-    """A train that has been told nothing stays in the block that it stands in (T4)."""
-    station = begun()
-    assert not station.ends(860_001)
-    for end_mm in (399_000, 439_999, 550_000, 750_000, 860_000):
-        station.refuses("take_end", run=RUN, front_least_mm=399_000, end_mm=end_mm)
-    station.takes(399_000, 440_000)
-    assert station.system.leavable == frozenset()
-    station.rolls()
-    station.runs(440_000)
-    station.refuses("head_runs", run=RUN, to_mm=440_001)
+def released(brake: Brake, front_mm: int) -> Brake:
+    """What a driver gets who acknowledges at a standstill."""
+    return supervise(BOUNDS, brake, front_mm, 0, demanded=False, acknowledged=True)
+
+
+# ---- the ordinary way
+
+
+def a_train_that_was_told_nothing_stands() -> None:
+    """Without a list no end, without an order none beyond the block, and the brake stays on (T4)."""
+    station = located()
+    assert not station.ends(399_000, 401_000)
+    station.holds(401_000, withheld=True)
+    station.refuses("head_runs", train=T1, to_mm=400_001)
+    station.listed(RUN, BEGINS_MM, ENDS_MM)
+    station.holds(440_000, withheld=True)
+    assert station.system.standing == {T1}
+    assert not station.rolling()
+    assert released(station.system.brake[T1], 401_000).applied
 
 
 def every_part_of_the_permission_is_needed() -> None:
-    """Not permitted, given back, second loop open: the authority ends with the block (T4, T5, T9)."""
-    for order in (
-        replace(PERMITTED, permitted=False),
-        replace(PERMITTED, given_back=True),
-        replace(PERMITTED, loop_closed=False),
-    ):
-        station = begun()
-        station.told(order)
-        station.takes(399_000, 440_000)
+    """Not permitted, recalled, second loop open: the end is that of the block, and the brake stays on (T4, T5, T9)."""
+    for order in (replace(PERMITTED, permitted=False), RECALLED, replace(PERMITTED, loop_closed=False)):
+        station = permitted()
+        station.told({RUN: order})
+        assert station.ends(399_000, 401_000) == {440_000}
+        station.holds(440_000, withheld=True)
+        assert not station.rolling()
+        station.refuses("head_runs", train=T1, to_mm=400_001)
 
 
 def under_orders_the_authority_ends_with_the_destination() -> None:
     """Through the throat into track one, and never into the overlap behind it (T4, T9, T12)."""
-    station = begun()
-    station.told(PERMITTED)
-    for end_mm in (440_000, 550_000, 860_000):
-        station.refuses("take_end", run=RUN, front_least_mm=399_000, end_mm=end_mm)
-    station.takes(399_000, 750_000)
+    station = under_way()
     assert station.system.leavable == {(RUN, WEST), (RUN, THROAT)}
-    station.rolls()
     station.runs(440_000)
-    station.runs(700_000)
-    station.takes(699_000, 750_000)
+    station.passes(441_000, THROAT, 550_000)
+    station.passes(700_000, ONE, 750_000)
+    station.holds(750_000)
     station.runs(750_000)
-    station.refuses("head_runs", run=RUN, to_mm=750_001)
-    assert station.ends(750_000) == {750_000}
-    assert station.ends(750_001) == {860_000}
+    station.refuses("head_passes", train=T1, to_mm=750_001, block=OUTLET, block_end_mm=860_000)
 
 
 def a_train_that_told_it_stopped_may_draw_up_to_the_end() -> None:
     """Only the overlap is gone: by its range the front may still be in the throat, and ends where it did (T9)."""
-    station = begun()
-    station.told(replace(PERMITTED, stopped=True))
-    station.takes(399_000, 750_000)
+    station = permitted()
+    station.told({RUN: replace(PERMITTED, stopped=True)})
+    station.holds(750_000)
 
 
-def authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels() -> None:
-    """The run is cancelled, or the unit restarts: the train that cannot stop any more runs on to the old end (T9)."""
-    station = under_way()
-    station.told(None)
-    assert station.ends(399_000) == {440_000}
-    station.runs(450_000)
-    station.refuses("take_end", run=RUN, front_least_mm=430_000, end_mm=440_000)
-    station.runs(500_000)
-    station.takes(499_000, 550_000)
-    assert station.system.leavable == {(RUN, WEST), (RUN, THROAT)}
-    station.runs(550_000)
-    station.refuses("head_runs", run=RUN, to_mm=550_001)
-    station.told(PERMITTED)
-    station.takes(549_000, 750_000)
-    station.runs(600_000)
+def two_runs_make_one_end() -> None:
+    """The destination of the first is the start of the second: the train runs through (T4, T12)."""
+    station = two_runs()
+    station.passes(500_000, THROAT, 550_000)
+    station.passes(600_000, ONE, 750_000)
+    station.holds(1_000_000)
+    station.passes(800_000, OUTLET, 860_000)
+    station.told({ONWARD: PERMITTED})
+    station.holds(1_000_000)
 
 
 def another_trains_end_is_its_own() -> None:
-    """An end is taken, and a head runs, for one run; the other keeps its own (T4)."""
+    """Lists, end and brake are of one train each (T4)."""
     station = under_way()
-    station.step("begin", run=OTHER, head_mm=10_000)
-    station.step("take_end", run=OTHER, front_least_mm=9_000, end_mm=100_000)
-    assert station.system.end_mm == {RUN: 750_000, OTHER: 100_000}
-    assert station.system.leavable == {(RUN, WEST), (RUN, THROAT)}
-    station.step("head_runs", run=OTHER, to_mm=90_000)
-    assert station.system.head_mm == {RUN: 400_000, OTHER: 90_000}
-    gone = replace(station.unit(), life=UnitLife(9))
-    station.step("unit_changes", train=T2, unit=gone)
-    assert station.system.system.units == {T1: station.unit(), T2: gone}
+    station.step("locate", train=T2, head_mm=10_000, block=EAST, block_end_mm=100_000, front_most_mm=10_500)
+    station.listed(OTHER, 0, {EAST: 100_000, OUTLET: 200_000, ONE: 300_000})
+    station.holds(750_000)
+    assert station.system.brake[T2] == Brake(applied=True, end_mm=10_500, withheld=True)
+    assert station.system.brake[T1].end_mm == 750_000
+    assert station.rolling() == {RUN}
+    unit = replace(station.system.system.units[T2], orders={OTHER: PERMITTED})
+    station.step("unit_changes", train=T2, unit=unit)
+    event = {"train": T2, "front_least_mm": 9_500, "front_most_mm": 10_500}
+    station.step("ask_for_the_end", **event, brake=Brake(applied=True, end_mm=300_000))
+    assert station.rolling() == {RUN, OTHER}
+    assert station.system.standing == frozenset()
 
 
 def what_ends_behind_the_train_does_not_count() -> None:
     """Of the blocks that the head may not leave, those whose end is no less than the least front (P7, T12)."""
     station = under_way(500_000)
-    station.told(None)
-    assert station.ends(440_000) == {440_000}
-    assert station.ends(440_001) == {550_000}
-    assert station.ends(550_001) == {750_000}
-    assert station.ends(860_000) == {860_000}
-    assert not station.ends(860_001)
+    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    assert station.ends(440_000, 440_000) == {440_000}
+    assert station.ends(440_001, 440_001) == {550_000}
+    assert station.ends(550_001, 551_000) == {750_000}
+    assert not station.ends(750_001, 750_001)
+    assert not station.ends(BEGINS_MM - 1, 400_000)
+    assert station.ends(BEGINS_MM, 400_000) == {440_000}
+
+
+def a_change_of_ends_begins_a_new_kilometrage() -> None:
+    """Located anew the train has no list and no end beyond its front; what it rolled under is over (P7, T8)."""
+    station = under_way(500_000)
+    event = {"train": T1, "block": THROAT, "block_end_mm": 90_000, "front_most_mm": 51_000}
+    station.refuses("locate", **event, head_mm=51_001)
+    station.step("locate", **event, head_mm=50_000)
+    assert station.system.brake[T1] == Brake(applied=True, end_mm=51_000, withheld=True)
+    assert not station.rolling()
+    assert not station.system.block_ends_mm
+    assert not station.system.leavable
+    station.holds(51_000, withheld=True)
+
+
+# ---- authority lost on the way
+
+
+def authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels() -> None:
+    """The loop opens, the unit restarts: the train that cannot stop any more runs on, braked, to the old end (T5)."""
+    station = under_way(439_000)
+    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    brake = station.asks(speed_mm_s=20_000)
+    assert brake == Brake(applied=True, end_mm=750_000, withheld=True)
+    station.passes(500_000, THROAT, 550_000)
+    station.told({})
+    assert station.asks(speed_mm_s=10_000).end_mm == 750_000
+    assert released(station.system.brake[T1], 501_000).applied
+    assert station.rolling() == {RUN}
+    station.passes(600_000, ONE, 750_000)
+    station.refuses("head_passes", train=T1, to_mm=750_001, block=OUTLET, block_end_mm=860_000)
+
+
+def a_false_pair_does_not_stop_the_train_on_the_spot() -> None:
+    """The unit takes a block ahead for left: the authority ends before it, if the train can stop there (T2)."""
+    station = under_way(450_000)
+    station.told({RUN: replace(PERMITTED, left={THROAT: A_PAIR})})
+    assert station.ends(449_000, 451_000) == {550_000}
+    station.holds(550_000)
+    station.refuses("head_passes", train=T1, to_mm=560_000, block=ONE, block_end_mm=750_000)
 
 
 def the_tail_leaves_what_the_head_has_passed() -> None:
     """A genuine pair: the block is behind, and the authority still ends in track one (T2)."""
-    station = under_way(600_000)
-    for block in (THROAT, WEST):
-        station.step("tail_leaves", run=RUN, block=block)
-    assert station.system.system.track.behind == {(RUN, WEST), (RUN, THROAT)}
-    station.told(replace(PERMITTED, left={WEST: A_PAIR, THROAT: A_PAIR}))
-    station.takes(590_000, 750_000)
-    station.runs(750_000)
-    for run, block in ((RUN, ONE), (RUN, OUTLET), (OTHER, WEST), (RUN, EAST)):
-        station.refuses("tail_leaves", run=run, block=block)
-    station = under_way(440_000)
-    station.refuses("tail_leaves", run=RUN, block=WEST)
-    station.runs(440_001)
+    station = under_way(500_000)
+    station.refuses("tail_leaves", run=RUN, block=THROAT)
     station.step("tail_leaves", run=RUN, block=WEST)
     assert station.system.system.track.behind == {(RUN, WEST)}
+    station.told({RUN: replace(PERMITTED, left={WEST: A_PAIR})})
+    station.holds(750_000)
+    station.passes(600_000, ONE, 750_000)
+    station.step("tail_leaves", run=OTHER, block=WEST)
+    station.refuses("take_list", run=RUN, begins_mm=0, block_ends_mm=ENDS_MM)
 
 
-def a_false_pair_does_not_stop_the_train_on_the_spot() -> None:
-    """The unit takes a block ahead for left: the authority ends before it, the train runs on to the end it had (T2)."""
-    station = under_way(450_000)
-    station.told(replace(PERMITTED, left={THROAT: A_PAIR}))
-    assert station.ends(449_000) == {550_000}
-    station.runs(560_000)
-    assert not station.system.system.track.behind
-    station.takes(551_000, 750_000)
-    station = under_way(450_000)
-    station.told(replace(PERMITTED, left={THROAT: A_PAIR}))
-    station.takes(449_000, 550_000)
-    station.refuses("head_runs", run=RUN, to_mm=560_000)
+# ---- runs given back
+
+
+def a_run_is_given_back_when_the_brake_holds_the_end_before_it() -> None:
+    """Recalled 40 m before the end of its block a train at rest can be held there, and says so (T9, T12)."""
+    station = under_way()
+    station.changes(first_loop.recall(station.unit(), RUN))
+    assert not station.gives_back()
+    station.holds(440_000, withheld=True)
+    assert not station.rolling()
+    assert station.gives_back()
+    station.refuses("head_passes", train=T1, to_mm=440_001, block=THROAT, block_end_mm=550_000)
+    station.holds(440_000, withheld=True)
+    assert released(station.system.brake[T1], 401_000).applied
+
+
+def a_train_too_near_to_be_held_gives_nothing_back() -> None:
+    """A metre before the end of its block: the brake keeps the old end, stays on, and nothing is freed (T9, T12).
+
+    The driver acknowledges at a standstill; before, that let the train into what the centre had freed.
+    """
+    station = under_way(439_000)
+    station.changes(first_loop.recall(station.unit(), RUN))
+    for _ in range(3):
+        brake = station.asks(error_mm=500)
+        assert brake == Brake(applied=True, end_mm=750_000, withheld=True)
+        assert released(brake, 439_500).applied
+        assert not station.gives_back()
+    assert station.unit().orders[RUN] == RECALLED
+
+
+def a_train_that_rolls_in_keeps_its_run() -> None:
+    """Recalled at the pattern's limit: it brakes into the throat, has begun by then, and keeps its authority (T9)."""
+    station = under_way(439_000)
+    station.changes(first_loop.recall(station.unit(), RUN))
+    assert station.asks(speed_mm_s=15_000).withheld
+    station.passes(480_000, THROAT, 550_000)
+    assert not station.gives_back()
+    station.told({RUN: replace(RECALLED, begun=True)})
+    station.changes(first_loop.recall(station.unit(), RUN))
+    station.holds(750_000)
+    assert not released(station.system.brake[T1], 481_000).applied
+
+
+def a_run_that_another_leads_on_from_is_not_given_back() -> None:
+    """The farther run first: without the nearer one the end of authority would lie beyond track that is nobody's (T9).
+
+    And were it gone, the end would be that of the block; or none, where no list covers that.
+    """
+    station = two_runs()
+    station.told({RUN: RECALLED, ONWARD: PERMITTED})
+    station.holds(440_000)
+    assert not station.gives_back(RUN)
+    station.told({RUN: RECALLED, ONWARD: RECALLED})
+    station.holds(440_000, withheld=True)
+    assert station.gives_back(ONWARD)
+    assert station.gives_back(RUN)
+    station = two_runs()
+    for order in (GIVEN_BACK, RECALLED):
+        station.told({RUN: order, ONWARD: PERMITTED})
+        assert station.ends(399_000, 401_000) == {440_000}
+    station.told({ONWARD: PERMITTED})
+    station.holds(440_000)
+    station.refuses("head_passes", train=T1, to_mm=440_001, block=THROAT, block_end_mm=550_000)
+    station = located()
+    station.listed(ONWARD, 550_000, ONWARD_MM)
+    station.told({ONWARD: PERMITTED})
+    assert not station.ends(399_000, 401_000)
+    assert not station.ends(549_999, 551_000)
+    assert station.ends(550_000, 551_000) == {1_000_000}
+    station.holds(401_000, withheld=True)
+    assert released(station.system.brake[T1], 401_000).applied
+
+
+def a_permit_after_the_recall_permits_nothing() -> None:
+    """The radio repeats and reorders: what was recalled stays so, and what was given back (T4, T9, T11)."""
+    station = permitted()
+    station.told({RUN: replace(PERMITTED, permitted=False)})
+    station.changes(first_loop.recall(station.unit(), RUN))
+    station.changes(first_loop.take_permit(station.unit(), RUN))
+    assert station.unit().orders[RUN] == RECALLED
+    station.holds(440_000, withheld=True)
+    assert station.gives_back()
+    station.changes(first_loop.take_permit(station.unit(), RUN))
+    assert station.unit().orders[RUN] == GIVEN_BACK
+
+
+def a_unit_that_restarts_while_recalled_gives_nothing_back() -> None:
+    """Without its orders it wants no end, and acknowledges nothing; the brake stays on (T8, T9)."""
+    station = under_way(439_000)
+    station.changes(first_loop.recall(station.unit(), RUN))
+    station.changes(replace(station.unit(), life=UnitLife(1), orders={}))
+    assert not station.gives_back()
+    station.holds(750_000, withheld=True)
+    assert released(station.system.brake[T1], 440_000).applied
+
+
+# ---- what does not happen
 
 
 def the_end_of_a_train_or_route_unknown_is_not_worked_out() -> None:
-    """No unit, no surveyed route, no run that has begun: nothing is taken (T1)."""
-    station = begun()
-    stranger = Run(Serial(3), Train("T9"), UnitLife(0), WEST_TO_ONE)
+    """No unit, no place, no list: nothing is taken (T1)."""
+    station = permitted()
+    stranger = Train("T9")
+    station.step("locate", train=stranger, head_mm=0, block=EAST, block_end_mm=1, front_most_mm=0)
+    brake = Brake(applied=True, end_mm=0, withheld=True)
+    station.refuses("ask_for_the_end", train=stranger, front_least_mm=0, front_most_mm=0, brake=brake)
+    station.refuses("ask_for_the_end", train=T2, front_least_mm=0, front_most_mm=0, brake=brake)
+    station.refuses("take_list", run=OTHER, begins_mm=0, block_ends_mm=ENDS_MM)
     nowhere = Run(Serial(4), T1, UnitLife(0), Route("nowhere"))
-    for run in (stranger, nowhere):
-        station.step("begin", run=run, head_mm=0)
-        station.refuses("take_end", run=run, front_least_mm=0, end_mm=440_000)
-        station.refuses("tail_leaves", run=run, block=EAST)
-    station.refuses("take_end", run=OTHER, front_least_mm=0, end_mm=100_000)
-    station.refuses("head_runs", run=OTHER, to_mm=0)
+    station.refuses("take_list", run=nowhere, begins_mm=BEGINS_MM, block_ends_mm=ENDS_MM)
+    station.refuses("head_runs", train=T2, to_mm=0)
 
 
 def what_the_other_proofs_exclude_does_not_happen() -> None:
-    """A head that runs back, a front beyond the head, an end behind it (T5, P7, T12)."""
+    """A head that runs back, a front that is elsewhere, a brake that takes what it was not asked (T5, P7, T12)."""
     station = under_way(450_000)
-    station.refuses("head_runs", run=RUN, to_mm=449_999)
-    station.refuses("take_end", run=RUN, front_least_mm=450_001, end_mm=750_000)
-    station.told(None)
-    station.refuses("take_end", run=RUN, front_least_mm=440_000, end_mm=440_000)
+    station.refuses("head_runs", train=T1, to_mm=449_999)
+    station.refuses("head_runs", train=T1, to_mm=550_001)
+    for place in ({"to_mm": 560_000, "block": ONE, "block_end_mm": 751_000}, {"to_mm": 500_000, "block": ONE}):
+        station.refuses("head_passes", train=T1, **{"block_end_mm": 750_000, **place})
+    station.refuses("head_passes", train=T1, to_mm=560_000, block=OUTLET, block_end_mm=750_000)
+    taken = Brake(applied=False, end_mm=750_000)
+    for least_mm, most_mm in ((450_001, 451_000), (448_000, 449_999)):
+        station.refuses("ask_for_the_end", train=T1, front_least_mm=least_mm, front_most_mm=most_mm, brake=taken)
+    around = {"train": T1, "front_least_mm": 449_000, "front_most_mm": 451_000}
+    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    for end_mm in (449_999, 750_000, 800_000):
+        station.refuses("ask_for_the_end", **around, brake=Brake(applied=False, end_mm=end_mm))
+
+
+def a_list_that_is_not_true_is_none() -> None:
+    """Blocks not in their order, ends elsewhere than they are, cars ahead of the head (T1, T2)."""
+    station = located()
+    for ends_mm in (
+        {},
+        {WEST: 440_000},
+        {**ENDS_MM, THROAT: 430_000},
+        {**ENDS_MM, THROAT: 800_000},
+        {**ENDS_MM, WEST: 441_000},
+    ):
+        station.refuses("take_list", run=RUN, begins_mm=BEGINS_MM, block_ends_mm=ends_mm)
+    station.listed(RUN, BEGINS_MM, ENDS_MM)
+    station.refuses("take_list", run=RUN, begins_mm=BEGINS_MM, block_ends_mm=ENDS_MM)
+    track = station.system.system.track
+    there = {"at": {**dict(track.at.items()), A1: frozenset({WEST, THROAT})}, "under": {A1: {THROAT: RUN}}}
+    station.refuses("cars_move", **there)
+    station = under_way(450_000)
+    station.step("cars_move", **there)
+    assert station.system.system.track.at[A1] == {WEST, THROAT}
+    station.step("locate", train=T1, head_mm=400_000, block=WEST, block_end_mm=440_000, front_most_mm=400_000)
+    station.refuses("take_list", run=RUN, begins_mm=BEGINS_MM, block_ends_mm=ENDS_MM)
 
 
 WITNESSES = (
-    a_run_begins_once,
-    without_orders_the_authority_ends_with_the_block,
+    a_train_that_was_told_nothing_stands,
     every_part_of_the_permission_is_needed,
     under_orders_the_authority_ends_with_the_destination,
     a_train_that_told_it_stopped_may_draw_up_to_the_end,
-    authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels,
+    two_runs_make_one_end,
     another_trains_end_is_its_own,
     what_ends_behind_the_train_does_not_count,
-    the_tail_leaves_what_the_head_has_passed,
+    a_change_of_ends_begins_a_new_kilometrage,
+    authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels,
     a_false_pair_does_not_stop_the_train_on_the_spot,
+    the_tail_leaves_what_the_head_has_passed,
+    a_run_is_given_back_when_the_brake_holds_the_end_before_it,
+    a_train_too_near_to_be_held_gives_nothing_back,
+    a_train_that_rolls_in_keeps_its_run,
+    a_run_that_another_leads_on_from_is_not_given_back,
+    a_permit_after_the_recall_permits_nothing,
+    a_unit_that_restarts_while_recalled_gives_nothing_back,
     the_end_of_a_train_or_route_unknown_is_not_worked_out,
     what_the_other_proofs_exclude_does_not_happen,
+    a_list_that_is_not_true_is_none,
 )
