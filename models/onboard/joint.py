@@ -6,8 +6,9 @@ control holds.  What comes out are the interlocking's own assumptions: that a tr
 it keeps out of a run while its brake holds an end before it.
 
 Each train has one kilometrage, in which its head runs forward, until it is located anew at a standstill.  Of
-the interlocking's ``rolling`` this world makes the least that it may: a run is among them from the moment when
-the brake takes an end beyond the block that the run starts in until it takes one before it.
+the interlocking's ``rolling`` and ``leavable`` this world makes the least that it may: a run rolls from the moment
+when the brake takes an end beyond the block that the run starts in until it takes one before it, and a block is
+leavable if it might be left when the brake was last asked for an end.
 """
 
 from __future__ import annotations
@@ -39,7 +40,6 @@ class Joint:
     ``standing``: trains at rest whose brake has not been free since they were located.
     ``begins_mm``, ``block_ends_mm``: for each listed run where its start block begins, and where its blocks end.
     ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
-    ``leavable``: history: the blocks of runs that might be left then.
     """
 
     system: System
@@ -51,7 +51,6 @@ class Joint:
     begins_mm: Map[Run, int]
     block_ends_mm: Map[Run, Map[Block, int]]
     asked: frozenset[Run]
-    leavable: frozenset[tuple[Run, Block]]
 
 
 # ---- premises
@@ -165,11 +164,6 @@ def the_range_contains_the_head(head_mm: int, front_least_mm: int, front_most_mm
     return front_least_mm <= head_mm <= front_most_mm
 
 
-def what_the_tail_left_is_behind_the_head(head_mm: int, block_ends_mm: Map[Block, int], block: Block) -> bool:
-    """The interlocking's `a_reported_block_is_left_by_all_cars`: the tail, so the head, is past a block left (T2)."""
-    return block not in block_ends_mm or block_ends_mm[block] < head_mm
-
-
 def lists_tell_the_track(system: Joint, train: Train, head_mm: int, block: Block, block_end_mm: int) -> bool:
     """Every list of the train is true of the place that its head comes to (T1)."""
     return all(
@@ -209,7 +203,7 @@ def no_car_gets_ahead_of_its_head(
 def a_list_fits_the_train(
     site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_mm: Map[Block, int]
 ) -> bool:
-    """A list that comes is true of where the train is, of its cars, and of what its tail has left (T1, T2)."""
+    """A list that comes is true of where the train is and of its cars (T1, T2)."""
     return (
         a_list_follows_the_way(site, run, block_ends_mm)
         and a_list_tells_the_track(
@@ -226,10 +220,6 @@ def a_list_fits_the_train(
             block_ends_mm,
             system.system.track.at,
             system.system.track.under,
-        )
-        and all(
-            other != run or what_the_tail_left_is_behind_the_head(system.head_mm[run.train], block_ends_mm, block)
-            for other, block in system.system.track.behind
         )
     )
 
@@ -248,7 +238,11 @@ def locate(
         system,
         system=replace(
             system.system,
-            track=replace(track, rolling=frozenset(run for run in track.rolling if run.train != train)),
+            track=replace(
+                track,
+                rolling=frozenset(run for run in track.rolling if run.train != train),
+                leavable=frozenset((run, block) for run, block in track.leavable if run.train != train),
+            ),
         ),
         head_mm=system.head_mm | {train: head_mm},
         block=system.block | {train: block},
@@ -258,7 +252,6 @@ def locate(
         begins_mm={run: begins_mm for run, begins_mm in system.begins_mm.items() if run.train != train},
         block_ends_mm={run: ends for run, ends in system.block_ends_mm.items() if run.train != train},
         asked=frozenset(run for run in system.asked if run.train != train),
-        leavable=frozenset((run, block) for run, block in system.leavable if run.train != train),
     )
 
 
@@ -314,19 +307,18 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
     rolling = frozenset(run for run in track.rolling if run.train != train or run in within) | frozenset(
         run for run in within if may_proceed(unit, run)
     )
+    leavable = frozenset((run, block) for run, block in track.leavable if run.train != train) | frozenset(
+        (run, block)
+        for run in system.block_ends_mm
+        if run.train == train
+        for block in system.block_ends_mm[run]
+        if authority_end.may_be_left(layout, unit, run, block)
+    )
     return replace(
         system,
-        system=replace(system.system, track=replace(track, rolling=rolling)),
+        system=replace(system.system, track=replace(track, rolling=rolling, leavable=leavable)),
         asked=frozenset(run for run in system.asked if run.train != train)
         | frozenset(run for run in system.block_ends_mm if run.train == train),
-        leavable=frozenset((run, block) for run, block in system.leavable if run.train != train)
-        | frozenset(
-            (run, block)
-            for run in system.block_ends_mm
-            if run.train == train
-            for block in system.block_ends_mm[run]
-            if authority_end.may_be_left(layout, unit, run, block)
-        ),
     )
 
 
@@ -371,15 +363,3 @@ def cars_move(site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under
 def unit_changes(site: Survey, system: Joint, train: Train, unit: Unit) -> Joint:
     """Messages, reads, restarts: the unit becomes whatever the interlocking's world may make of it (T8)."""
     return replace(system, system=replace(system.system, units=system.system.units | {train: unit}))
-
-
-def tail_leaves(site: Survey, system: Joint, run: Run, block: Block) -> Joint:
-    """A genuine pair of reads shows that the tail has left a block (T2)."""
-    if (
-        run in system.block_ends_mm
-        and run.train in system.head_mm
-        and not what_the_tail_left_is_behind_the_head(system.head_mm[run.train], system.block_ends_mm[run], block)
-    ):
-        return system
-    behind = system.system.track.behind | {(run, block)}
-    return replace(system, system=replace(system.system, track=replace(system.system.track, behind=behind)))

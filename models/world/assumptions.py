@@ -12,20 +12,23 @@ from models.world.state import Site, System
 
 
 def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Block) -> bool:
-    """A head gets out of a block only as far as its brake lets it, and runs forward.
+    """A head gets out of a block only where its brake lets it, along the way of a run.
 
     The brake holds the end of authority that it was last given; a train that rolls may run up to
-    that end even if the unit has meanwhile lost its authority.  Along one run a train comes into a
-    block and goes out of it once.
+    that end even if the unit has meanwhile lost its authority.
     """
-    target = site.layout.way[run.route].get(block) if run.route in site.layout.way else None
     return (
-        target is not None
-        and (run, block) in system.track.leavable
+        run.route in site.layout.way and block in site.layout.way[run.route] and (run, block) in system.track.leavable
+    )
+
+
+def a_train_runs_forward_along_its_run(site: Site, system: System, run: Run, block: Block, target: Block) -> bool:
+    """A train runs with the cab ahead that its driver has chosen, and along a run out of each block and into it once."""
+    return (
+        run in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[run]
         and (run, block) not in system.track.gone
         and (run, target) not in system.track.entered
-        and run in site.formation.front
-        and system.track.facing.get(run.train) == site.formation.front[run]
     )
 
 

@@ -10,6 +10,7 @@ from kernel.names import Block, Cab, Car, Epoch, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
+    a_train_runs_forward_along_its_run,
     rails_lead,
     two_persons_do_not_err_alike,
 )
@@ -114,6 +115,8 @@ def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, targ
     if not rails_lead(site, system, run.route, block, target):
         return system
     if not a_train_obeys_its_authority(site, system, run, block):
+        return system
+    if not a_train_runs_forward_along_its_run(site, system, run, block, target):
         return system
     return replace(
         system,

@@ -14,10 +14,8 @@ from models.onboard.joint import (
     head_runs,
     locate,
     no_car_is_ahead_of_the_head,
-    tail_leaves,
     take_list,
     unit_changes,
-    what_the_tail_left_is_behind_the_head,
 )
 from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it, a_train_obeys_its_authority
 from proofs.theory import Theory, by_name
@@ -35,7 +33,7 @@ def no_train_is_located(site: Survey, system: Joint) -> bool:
         and not any(True for run in system.begins_mm)
         and not any(True for run in system.block_ends_mm)
         and not any(True for run in system.asked)
-        and not any(True for run, block in system.leavable)
+        and not any(True for run, block in system.system.track.leavable)
         and not any(True for run in system.system.track.rolling)
     )
 
@@ -131,7 +129,7 @@ def what_lies_before_the_end_could_be_left(site: Survey, system: Joint) -> bool:
             other.train == run.train
             and other in system.block_ends_mm
             and other in system.system.track.rolling
-            and (other, block) in system.leavable
+            and (other, block) in system.system.track.leavable
             and system.block_ends_mm[other].get(block) == system.block_ends_mm[run][block]
             for other in system.asked
         )
@@ -161,7 +159,7 @@ def a_block_that_could_be_left_has_a_way_on(site: Survey, system: Joint) -> bool
         run.route in site.site.layout.way
         and block in site.site.layout.way[run.route]
         and site.site.layout.way[run.route][block] not in site.site.layout.overlap[run.route]
-        for run, block in system.leavable
+        for run, block in system.system.track.leavable
     )
 
 
@@ -191,16 +189,6 @@ def no_car_came_under_a_run_ahead(site: Survey, system: Joint) -> bool:
     )
 
 
-def what_is_behind_was_passed(site: Survey, system: Joint) -> bool:
-    """The head is past the end of every listed block that the tail has left (T2)."""
-    return all(
-        run not in system.block_ends_mm
-        or run.train not in system.head_mm
-        or what_the_tail_left_is_behind_the_head(system.head_mm[run.train], system.block_ends_mm[run], block)
-        for run, block in system.system.track.behind
-    )
-
-
 INITIAL = (no_train_is_located,)
 SAFETY = (
     a_head_that_can_leave_obeys_its_authority,
@@ -217,10 +205,9 @@ INVARIANTS = (
     a_block_that_could_be_left_has_a_way_on,
     a_rolling_run_starts_before_the_end,
     no_car_came_under_a_run_ahead,
-    what_is_behind_was_passed,
 )
 PREMISES = (every_route_has_an_overlap,)
-STEPS = (locate, take_list, ask_for_the_end, head_runs, head_passes, cars_move, unit_changes, tail_leaves)
+STEPS = (locate, take_list, ask_for_the_end, head_runs, head_passes, cars_move, unit_changes)
 
 THEORY = Theory(
     "joint",
