@@ -12,7 +12,7 @@ from kernel.unit import Unit
 def may_proceed(unit: Unit, run: Run) -> bool:
     """Tell whether the train may move under ``run``: permitted, not given back, second loop closed (T4, T5, T9)."""
     order = unit.orders.get(run)
-    return order is not None and order.permitted and not order.given_back and order.loop_closed
+    return order is not None and order.permitted and not order.given_back and not unit.loop_open
 
 
 def may_overrun(unit: Unit, run: Run) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.layout import Layout
 from kernel.names import Run
-from kernel.unit import NO_EVIDENCE, Order, Unit
+from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Order, Unit
 
 
 def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
@@ -27,10 +27,11 @@ def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
             run: Order(
                 permitted=False,
                 given_back=False,
-                loop_closed=True,
                 begun=False,
                 stopped=False,
                 expected=layout.first_tag.get(run.route),
+                entered=NO_BLOCKS,
+                led_by=None,
                 left=NO_EVIDENCE,
             )
         },
@@ -48,10 +49,11 @@ def take_standing(unit: Unit, run: Run) -> Unit:
             run: Order(
                 permitted=False,
                 given_back=True,
-                loop_closed=True,
                 begun=True,
                 stopped=True,
                 expected=None,
+                entered=unit.standing_in,
+                led_by=None,
                 left=NO_EVIDENCE,
             )
         },

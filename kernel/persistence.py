@@ -37,10 +37,10 @@ UNIT: Mapping[str, tuple[Memory, str]] = {
     "answered": (Memory.LOST, "None"),
     "standing_in": (Memory.LOST, "frozenset()"),
     "orders": (Memory.LOST, "{}"),
+    "loop_open": (Memory.LOST, "False"),
+    "leading": (Memory.LOST, "None"),
     "head_tag": (Memory.LOST, "None"),
-    "head_cab": (Memory.LOST, "None"),
     "tail_read": (Memory.LOST, "None"),
-    "tail_cab": (Memory.LOST, "None"),
     "occupied": (Memory.LOST, "frozenset()"),
 }
 """The on-board unit: without orders it has no authority, so it stands."""

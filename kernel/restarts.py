@@ -33,10 +33,10 @@ def restart_unit(unit: Unit, life: UnitLife) -> Unit:
         answered=None,
         standing_in=frozenset(),
         orders={},
+        loop_open=False,
+        leading=None,
         head_tag=None,
-        head_cab=None,
         tail_read=None,
-        tail_cab=None,
         occupied=frozenset(),
     )
 

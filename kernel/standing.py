@@ -21,10 +21,10 @@ def answer(unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], a
         answered=epoch,
         standing_in=blocks,
         orders=NO_ORDERS,
+        loop_open=False,
+        leading=unit.leading,
         head_tag=None,
-        head_cab=None,
         tail_read=None,
-        tail_cab=None,
         occupied=blocks,
     )
 

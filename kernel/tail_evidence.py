@@ -5,35 +5,46 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.layout import Layout
-from kernel.names import Antenna, Block, Cab, Read, Run
-from kernel.unit import Evidence, Unit
+from kernel.names import Block, Cab, Read, Run
+from kernel.second_loop import open_loop
+from kernel.unit import Evidence, Order, Unit
 
 
-def note_tail_read(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
+def has_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bool:
+    """Tell whether the train has been in ``block`` under a run: it began there, or its head has entered it (T2).
+
+    On a ring the block that the tail leaves may be one that the run has yet to come to.
+    """
+    return order.begun and (block in order.entered or layout.start.get(run.route) == block)
+
+
+def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
     ``healthy``: the through line reaches the tail, so that the antenna is the train's last (T2, T3).
-    A partial or reversed pair, another antenna or a broken line prove nothing; nor do two reads
-    of which a change of ends lies between, so that two cabs made them.
+    A partial or reversed pair, the cab that leads or a broken line prove nothing.  A tag in a
+    block that the train is not in opens the second loop (T5).
     """
-    if antenna != Antenna.TAIL:
+    if unit.leading is None or unit.leading == cab:
         return unit
     if not healthy:
         return replace(unit, tail_read=None)
+    entered = layout.tag_in.get(read.tag)
+    if entered is None or entered not in unit.occupied:
+        return open_loop(replace(unit, tail_read=None))
     before = unit.tail_read
-    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
-        return replace(unit, tail_read=read, tail_cab=cab)
+    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read)
     block = layout.tag_in.get(before.tag)
     if block is None:
-        return replace(unit, tail_read=read, tail_cab=cab)
+        return replace(unit, tail_read=read)
     return replace(
         unit,
         tail_read=read,
-        tail_cab=cab,
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if order.begun and order.loop_closed
+            if has_been_in(layout, run, order, block)
             else order
             for run, order in unit.orders.items()
         },

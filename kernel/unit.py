@@ -22,22 +22,25 @@ class Order:
 
     ``permitted``: the route-complete message has come.
     ``given_back``: acknowledged as cancelled; never to be entered again (T9).
-    ``loop_closed``: second loop; every tag so far was the expected one, in its window (T5).
     ``begun``: the head has read both tags at the end of the start block.
     ``stopped``: the train has told that it stands in the destination (T9).
     ``expected``: the tag that the head must read next; none after the last (T5).
+    ``entered``: the blocks beyond the start that the head has entered, by its own tags (T2).
+    ``led_by``: the cab that led when the head read its first tag under this run (T2).
     ``left``: blocks the tail has left during this run, with what it read (T2, T6).
     """
 
     permitted: bool
     given_back: bool
-    loop_closed: bool
     begun: bool
     stopped: bool
     expected: Tag | None
+    entered: frozenset[Block]
+    led_by: Cab | None
     left: Map[Block, Evidence]
 
 
+NO_BLOCKS: frozenset[Block] = frozenset()
 NO_ORDERS: Map[Run, Order] = {}
 NO_EVIDENCE: Map[Block, Evidence] = {}
 
@@ -50,9 +53,10 @@ class Unit:
     ``answered``: the epoch of the centre whose challenge this life has answered.
     ``standing_in``: what it answered, the blocks it stood in.
     ``orders``: the runs told to this life.
-    ``head_tag``, ``head_cab``: the tag the head read last, and which cab was the head (T5).
-    ``tail_read``, ``tail_cab``: what the tail read last over a healthy through line, and which
-    cab was the tail (T2).
+    ``loop_open``: second loop; a tag came that was not the expected one, or not in its place (T5).
+    ``leading``: the cab at the head, by the driver's choice of direction; none until he has chosen (T2).
+    ``head_tag``: the tag the head read last since the ends were changed (T5).
+    ``tail_read``: what the tail read last over a healthy through line, since the ends were changed (T2).
     ``occupied``: the blocks the train is in, by its own tags (T2).
     """
 
@@ -60,8 +64,8 @@ class Unit:
     answered: Epoch | None
     standing_in: frozenset[Block]
     orders: Map[Run, Order]
+    loop_open: bool
+    leading: Cab | None
     head_tag: Tag | None
-    head_cab: Cab | None
     tail_read: Read | None
-    tail_cab: Cab | None
     occupied: frozenset[Block]

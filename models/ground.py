@@ -30,6 +30,7 @@ class Ground:
     that the route holds so that no vehicle comes from there.
     ``held_by_authority``: block pairs (from, into) with no such point: what stands in the first
     is kept out of the second by its own train's protection alone.
+    ``laid_in``: the block that a tag really lies in.
     ``laid_leaves``: for a tag and the tag read after it, as they lie, the blocks that a tail has
     left when its antenna has read both in this order (T2).
     """
@@ -40,6 +41,7 @@ class Ground:
     turnout: Mapping[Route, Mapping[Block, Mapping[Block, Point]]]
     flank_point: Mapping[Route, Mapping[Block, Mapping[Block, Point]]]
     held_by_authority: Mapping[Block, frozenset[Block]]
+    laid_in: Mapping[Tag, Block]
     laid_leaves: Mapping[Tag, Mapping[Tag, frozenset[Block]]]
 
 

@@ -66,6 +66,8 @@ TRANSITIONS: tuple[Transition, ...] = (
     nature.start_rolling,
     nature.overrun,
     nature.come_to_rest,
+    nature.change_ends,
+    nature.head_misses,
     nature.car_moves,
     nature.car_follows,
     nature.car_leaves,

@@ -160,6 +160,7 @@ def _ground(
         turnout=turnout,
         flank_point={Route(route.name): route.flank for route in granted},
         held_by_authority={block: frozenset(targets) for block, targets in held.items()},
+        laid_in=dict(tags.block),
         laid_leaves={tag: {other: frozenset({tags.block[tag]})} for tag, other in tags.partner.items()},
     )
 

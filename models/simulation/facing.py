@@ -76,6 +76,7 @@ class Orders:
         known = frozenset(self.cars)
         return Formation(
             train_of={car: train for train, cars in self.cars.items() for car in cars},
+            front=ByRun(known, lambda run: Cab(f"cab of {order(run)[0]}")),
             last=ByRun(known, lambda run: order(run)[-1]),
             ahead=ByRun(known, ahead),
             cab={car: Cab(f"cab of {car}") for cars in self.cars.values() for car in cars},

@@ -6,29 +6,24 @@ permits an event; what the kernel is then told is only the event.
 
 from __future__ import annotations
 
-from kernel.authority import may_leave
-from kernel.names import Antenna, Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Train, UnitLife
-from models.world.state import NO_CARS, Site, System
+from kernel.names import Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Tag, Train, UnitLife
+from models.world.state import Site, System
 
 
 def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Block) -> bool:
-    """A head leaves a block only under authority, or rolling on from authority it had.
+    """A head gets out of a block only as far as its brake lets it, and runs forward.
 
-    The brake stops the train inside the authority that the unit last had, so a train that lost
-    it while rolling goes on forward: not out of or into a block its tail has left in this run,
-    and into the overlap only if it was slipping.
+    The brake holds the end of authority that it was last given; a train that rolls may run up to
+    that end even if the unit has meanwhile lost its authority.  Along one run a train comes into a
+    block and goes out of it once.
     """
-    if run not in system.track.rolling or run.train not in system.units or run.route not in site.layout.way:
-        return False
-    target = site.layout.way[run.route].get(block)
-    if target is None:
-        return False
-    if may_leave(site.layout, system.units[run.train], run, block):
-        return True
+    target = site.layout.way[run.route].get(block) if run.route in site.layout.way else None
     return (
-        (run, block) not in system.track.behind
-        and (run, target) not in system.track.behind
-        and (target not in site.layout.overlap[run.route] or run in system.track.slipping)
+        (run, block) in system.track.leavable
+        and (run, block) not in system.track.gone
+        and (target is None or (run, target) not in system.track.entered)
+        and run in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[run]
     )
 
 
@@ -45,42 +40,61 @@ def rails_lead(site: Site, system: System, route: Route, block: Block, target: B
     )
 
 
-def a_pair_read_in_order_proves_the_exit(
-    site: Site, system: System, run: Run, car: Car, before: Read, read: Read
-) -> bool:
-    """Both tags of a boundary read in order by one antenna: its car, and all ahead of it, have left the block.
+def is_genuine(site: Site, read: Read) -> bool:
+    """The read carries what is written in the tag that it names: not foreign, copied or corrupted."""
+    return site.records.record.get(read.tag) == read.record
 
-    A tag lies at least rear overhang, read window and error beyond the boundary, and cars keep
-    their order.  Reads of two antennas prove nothing together.  Only genuine records are bound by
-    this: a foreign, copied or corrupted tag may be read anywhere.
-    """
-    if site.records.record.get(before.tag) != before.record or site.records.record.get(read.tag) != read.record:
-        return True
-    if before.tag not in site.ground.laid_leaves or read.tag not in site.ground.laid_leaves[before.tag]:
-        return True
-    return all(
-        block not in system.track.at.get(car, frozenset())
-        and all(
-            block not in system.track.at.get(other, frozenset())
-            for other in site.formation.ahead[run].get(car, NO_CARS)
-        )
-        for block in site.ground.laid_leaves[before.tag][read.tag]
+
+def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
+    """The car is the last of a whole train that runs as in ``run``."""
+    return (
+        run in site.formation.last
+        and site.formation.last[run] == car
+        and run in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[run]
+        and run.train not in system.track.parted
     )
 
 
-def a_healthy_line_reaches_the_tail(
-    site: Site, system: System, run: Run, antenna: Antenna, cab: Cab, healthy: bool
-) -> bool:
-    """The tail antenna is that of the cab on the last car; a parted train may have another, but no healthy line.
+def a_tag_is_read_where_it_lies(site: Site, system: System, train: Train, cab: Cab, tag: Tag) -> bool:
+    """The antenna of a cab reads a tag of the line only with its car in the block that the tag lies in."""
+    return tag not in site.ground.laid_in or any(
+        site.ground.laid_in[tag] in system.track.at[car]
+        for car in system.track.at
+        if site.formation.train_of.get(car) == train and site.formation.cab.get(car) == cab
+    )
+
+
+def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run, car: Car, read: Read) -> bool:
+    """Where the last car's antenna has passed one tag of a boundary and then the other, no car is in the block before.
+
+    A tag lies at least rear overhang, read window and error beyond the boundary, and cars keep
+    their order.  It holds while the train runs in one direction, and while its head does not pass
+    the same boundary in between, as on a loop.  Only genuine records are bound by it.
+    """
+    if not is_last(site, system, run, car) or not is_genuine(site, read):
+        return True
+    return all(
+        block not in system.track.at[other] or site.formation.train_of.get(other) != run.train
+        for train, tag in system.track.passed
+        if train == run.train and tag in site.ground.laid_leaves and read.tag in site.ground.laid_leaves[tag]
+        for block in site.ground.laid_leaves[tag][read.tag]
+        for other in system.track.at
+    )
+
+
+def a_missed_tag_is_overdue_before_the_tail_comes(system: System, train: Train) -> bool:
+    """A tag that the head has missed is overdue by running distance before the tail comes to its boundary."""
+    return train not in system.track.unread
+
+
+def a_healthy_line_reaches_the_tail(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy: bool) -> bool:
+    """Of the cabs that do not lead, only the one on the last car reads over a healthy line; a parted train has none.
 
     The line runs through every coupling, so losing a car breaks it; antenna spacing is checked
     against the measured length as well (T3, T13).
     """
-    if antenna != Antenna.TAIL:
-        return True
-    if run.train in system.track.parted:
-        return not healthy
-    return run in site.formation.last and site.formation.cab.get(site.formation.last[run]) == cab
+    return not healthy or system.track.facing.get(run.train) == cab or is_last(site, system, run, car)
 
 
 def a_train_short_of_its_run_has_not_entered(system: System, run: Run, stands_short: bool) -> bool:

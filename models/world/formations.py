@@ -67,6 +67,7 @@ def formation(trains: Mapping[Train, Sequence[Car]], along: Callable[[Route], bo
     known = frozenset(train for train, cars in trains.items() if cars)
     return Formation(
         train_of={car: train for train, cars in trains.items() for car in cars},
+        front=ByRun(known, lambda run: Cab(f"cab of {order(run)[0]}")),
         last=ByRun(known, lambda run: order(run)[-1]),
         ahead=ByRun(known, ahead),
         cab={car: Cab(f"cab of {car}") for cars in trains.values() for car in cars},

@@ -4,25 +4,40 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.authority import may_overrun, may_proceed
-from kernel.names import Block, Car, Epoch, Run, Train, UnitLife
+from kernel import change_of_ends
+from kernel.authority import may_leave, may_overrun, may_proceed
+from kernel.names import Block, Cab, Car, Epoch, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
     rails_lead,
     two_persons_do_not_err_alike,
 )
+from models.world.evidence import unpassed
 from models.world.state import Site, System
 
 
 def start_rolling(site: Site, system: System, run: Run) -> System:
-    """A train with authority gathers speed: from now on it cannot stop at once.
+    """A train with authority gathers speed: from now on it may run up to the end that its brake was given.
 
     Without authority the unit holds the brake, so no train begins to roll.
     """
     if run.train not in system.units or not may_proceed(system.units[run.train], run):
         return system
-    return replace(system, track=replace(system.track, rolling=system.track.rolling | {run}))
+    return replace(
+        system,
+        track=replace(
+            system.track,
+            rolling=system.track.rolling | {run},
+            leavable=system.track.leavable
+            | frozenset(
+                (run, block)
+                for block in site.layout.way[run.route]
+                if site.layout.way[run.route][block] not in site.layout.overlap[run.route]
+                and may_leave(site.layout, system.units[run.train], run, block)
+            ),
+        ),
+    )
 
 
 def overrun(site: Site, system: System, run: Run) -> System:
@@ -31,7 +46,17 @@ def overrun(site: Site, system: System, run: Run) -> System:
         return system
     return replace(
         system,
-        track=replace(system.track, rolling=system.track.rolling | {run}, slipping=system.track.slipping | {run}),
+        track=replace(
+            system.track,
+            rolling=system.track.rolling | {run},
+            slipping=system.track.slipping | {run},
+            leavable=system.track.leavable
+            | frozenset(
+                (run, block)
+                for block in site.layout.way[run.route]
+                if may_leave(site.layout, system.units[run.train], run, block)
+            ),
+        ),
     )
 
 
@@ -39,7 +64,41 @@ def come_to_rest(site: Site, system: System, run: Run) -> System:
     """A train comes to rest at any moment: brakes, obstacles and drivers are free to."""
     return replace(
         system,
-        track=replace(system.track, rolling=system.track.rolling - {run}, slipping=system.track.slipping - {run}),
+        track=replace(
+            system.track,
+            rolling=system.track.rolling - {run},
+            slipping=system.track.slipping - {run},
+            leavable=frozenset((other, block) for other, block in system.track.leavable if other != run),
+        ),
+    )
+
+
+def change_ends(site: Site, system: System, train: Train, cab: Cab) -> System:
+    """The driver of a train at rest chooses the direction, or chooses it again after his unit has restarted (T2)."""
+    if train not in system.units or any(run.train == train for run in system.track.rolling):
+        return system
+    told = replace(system, units=system.units | {train: change_of_ends.change_ends(system.units[train], cab)})
+    if system.track.facing.get(train) == cab:
+        return told
+    return replace(
+        told,
+        track=replace(
+            system.track,
+            facing=system.track.facing | {train: cab},
+            passed=frozenset((other, tag) for other, tag in system.track.passed if other != train),
+        ),
+    )
+
+
+def head_misses(site: Site, system: System, train: Train, tag: Tag) -> System:
+    """A head passes a tag and its antenna reads nothing (T5, T16)."""
+    return replace(
+        system,
+        track=replace(
+            system.track,
+            passed=unpassed(site, system, train, tag),
+            unread=system.track.unread | {train},
+        ),
     )
 
 

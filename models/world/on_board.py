@@ -5,17 +5,21 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel import authority, first_loop, second_loop, standing, tail_evidence
-from kernel.names import Antenna, Block, Cab, Car, Epoch, Read, Run, Tag, Train, UnitLife
+from kernel.names import Block, Cab, Car, Epoch, Read, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from kernel.unit import Unit
 from models.world.assumptions import (
     a_healthy_line_reaches_the_tail,
     a_located_train_stands_where_it_says,
-    a_pair_read_in_order_proves_the_exit,
+    a_missed_tag_is_overdue_before_the_tail_comes,
+    a_pair_passed_in_order_proves_the_exit,
+    a_tag_is_read_where_it_lies,
     a_train_short_of_its_run_has_not_entered,
     a_train_within_its_destination_is_not_beyond,
+    is_genuine,
+    is_last,
 )
-from models.world.evidence import as_written
+from models.world.evidence import as_written, unpassed
 from models.world.state import Site, System
 
 
@@ -55,44 +59,97 @@ def take_standing(site: Site, system: System, run: Run) -> System:
 
 
 def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_window: bool) -> System:
-    """The head antenna reads something, anywhere: right, foreign, repeated, early or late (T5)."""
-    if train not in system.units:
+    """The antenna of a cab reads a tag while that cab leads: right, foreign, repeated, early or late (T5).
+
+    History: where the head is, and whether the tag was to come.
+    """
+    if train not in system.units or system.track.facing.get(train) != cab:
         return system
-    return with_unit(system, train, second_loop.note_head_read(site.layout, system.units[train], cab, tag, in_window))
+    if not a_tag_is_read_where_it_lies(site, system, train, cab, tag):
+        return system
+    unit = system.units[train]
+    to_come = in_window and any(
+        order.permitted and not order.given_back and order.expected == tag for _, order in unit.orders.items()
+    )
+    return replace(
+        with_unit(system, train, second_loop.note_head_read(site.layout, unit, cab, tag, in_window)),
+        track=replace(
+            system.track,
+            entered=system.track.entered
+            | frozenset(
+                (run, site.ground.laid_in[tag])
+                for run in system.radio.permits
+                if run.train == train
+                and run.route in site.layout.routes
+                and tag in site.ground.laid_in
+                and site.ground.laid_in[tag] in site.layout.claims[run.route]
+                and site.ground.laid_in[tag] != site.layout.start[run.route]
+            ),
+            passed=unpassed(site, system, train, tag),
+            astray=system.track.astray
+            if to_come or unit.leading != cab or unit.head_tag == tag
+            else system.track.astray | {(train, unit.life)},
+        ),
+    )
 
 
 def window_passes(site: Site, system: System, train: Train) -> System:
     """The next tag is overdue (T5)."""
     if train not in system.units:
         return system
-    return with_unit(system, train, second_loop.note_window_passed(system.units[train]))
+    return replace(
+        with_unit(system, train, second_loop.note_window_passed(system.units[train])),
+        track=replace(
+            system.track,
+            unread=system.track.unread - {train},
+            astray=system.track.astray | {(train, system.units[train].life)},
+        ),
+    )
 
 
-def tail_reads(
-    site: Site, system: System, run: Run, car: Car, antenna: Antenna, cab: Cab, healthy: bool, read: Read
-) -> System:
-    """The antenna of a cab on ``car`` reads something while the train runs as in ``run`` (T2, T6)."""
-    if run.train not in system.units or run not in site.formation.ahead:
+def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy: bool, read: Read) -> System:
+    """The antenna of a cab on ``car`` reads something while the train runs as in ``run`` (T2, T6).
+
+    History: what the last antenna has passed, and what the train has gone out of.
+    """
+    if run.train not in system.units or site.formation.cab.get(car) != cab:
         return system
-    if site.formation.cab.get(car) != cab or site.formation.train_of.get(car) != run.train:
+    if site.formation.train_of.get(car) != run.train or system.track.facing.get(run.train) == cab:
         return system
-    if not a_healthy_line_reaches_the_tail(site, system, run, antenna, cab, healthy):
+    if not a_healthy_line_reaches_the_tail(site, system, run, car, cab, healthy):
         return system
-    before = system.units[run.train].tail_read
-    if (
-        before is not None
-        and system.units[run.train].tail_cab == cab
-        and not a_pair_read_in_order_proves_the_exit(site, system, run, car, before, read)
-    ):
+    if not a_missed_tag_is_overdue_before_the_tail_comes(system, run.train):
         return system
-    unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], antenna, cab, healthy, read)
+    if not a_pair_passed_in_order_proves_the_exit(site, system, run, car, read):
+        return system
+    unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], cab, healthy, read)
+    counts = is_last(site, system, run, car) and is_genuine(site, read)
     behind = system.track.behind | frozenset(
         (other, block)
         for other, order in unit.orders.items()
         for block, evidence in order.left.items()
         if as_written(site, evidence.left, evidence.entered)
     )
-    return replace(with_unit(system, run.train, unit), track=replace(system.track, behind=behind))
+    gone = system.track.gone | frozenset(
+        (other, block)
+        for other in system.radio.permits
+        if counts
+        and other.train == run.train
+        and other in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[other]
+        for train, tag in system.track.passed
+        if train == run.train and tag in site.ground.laid_leaves and read.tag in site.ground.laid_leaves[tag]
+        for block in site.ground.laid_leaves[tag][read.tag]
+    )
+    return replace(
+        with_unit(system, run.train, unit),
+        track=replace(
+            system.track,
+            behind=behind,
+            gone=gone,
+            passed=system.track.passed | {(run.train, read.tag)} if counts else system.track.passed,
+        ),
+    )
 
 
 def note_stopped(site: Site, system: System, run: Run, within_destination: bool) -> System:

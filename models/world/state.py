@@ -16,6 +16,7 @@ from kernel.names import (
     Position,
     Read,
     Run,
+    Tag,
     TerminalLife,
     Train,
     UnitLife,
@@ -32,12 +33,14 @@ class Formation:
     """Which cars make a train, and their order in each run.
 
     ``train_of``: the train a car belongs to, whether or not it still hangs on it.
+    ``front``: the cab that leads a train that runs as in a run.
     ``last``: the last car in the direction of a run.
     ``ahead``: for a run and a car, the cars ahead of it.
     ``cab``: the cab that a car carries; no two cars of a train carry the same.
     """
 
     train_of: Map[Car, Train]
+    front: Map[Run, Cab]
     last: Map[Run, Car]
     ahead: Map[Run, Map[Car, frozenset[Car]]]
     cab: Map[Car, Cab]
@@ -95,9 +98,17 @@ class Track:
     ``at``: the blocks each car is in.
     ``under``: history: the run under which a car came into a block it has been in.
     ``run_into``: history: runs under which some car has moved.
+    ``entered``: history: for each run the blocks that the head has been in while it was permitted.
+    ``gone``: history: for each run the blocks that the train has gone out of while it was permitted.
     ``behind``: history: for each run the blocks that its tail has been seen to leave, by what is written in their tags.
     ``rolling``: runs in which the train can no longer stop before the blocks they cover.
     ``slipping``: runs in which the train can no longer stop inside the destination.
+    ``leavable``: the blocks of a run that the train may get out of before its brake stops it.
+    ``facing``: the cab that leads each train, as its driver has chosen.
+    ``passed``: the tags that a train's last antenna has passed since the ends were changed and
+    since its head passed that boundary.
+    ``unread``: trains whose head has passed a tag without reading it, which is not yet overdue.
+    ``astray``: history: the lives in which a train read a tag that was not to come, or missed one (T5).
     ``lies``: how each point lies.
     ``parted``: trains that have lost some of their cars.
     """
@@ -105,9 +116,16 @@ class Track:
     at: Map[Car, frozenset[Block]]
     under: Map[Car, Map[Block, Run]]
     run_into: frozenset[Run]
+    entered: frozenset[tuple[Run, Block]]
+    gone: frozenset[tuple[Run, Block]]
     behind: frozenset[tuple[Run, Block]]
     rolling: frozenset[Run]
     slipping: frozenset[Run]
+    leavable: frozenset[tuple[Run, Block]]
+    facing: Map[Train, Cab]
+    passed: frozenset[tuple[Train, Tag]]
+    unread: frozenset[Train]
+    astray: frozenset[tuple[Train, UnitLife]]
     lies: Map[Point, Position]
     parted: frozenset[Train]
 

@@ -19,7 +19,10 @@ def everything_has_just_restarted(site: Site, system: System) -> bool:
         and all(block in system.centre.lost_blocks for block in site.layout.blocks)
         and all(point in system.centre.lost_points for point in site.layout.points)
         and all(
-            unit.answered is None and unit.tail_read is None and not any(True for _ in unit.orders)
+            unit.answered is None
+            and unit.leading is None
+            and unit.tail_read is None
+            and not any(True for _ in unit.orders)
             for _, unit in system.units.items()
         )
         and all(terminal.holds is None and terminal.wanted is None for _, terminal in system.terminals.items())
@@ -66,7 +69,13 @@ def trains_stand_apart_on_locked_points(site: Site, system: System) -> bool:
         and not any(True for _ in system.track.rolling)
         and not any(True for _ in system.track.slipping)
         and not any(True for _ in system.track.run_into)
+        and not any(True for _ in system.track.entered)
+        and not any(True for _ in system.track.gone)
         and not any(True for _ in system.track.behind)
+        and not any(True for _ in system.track.leavable)
+        and not any(True for _ in system.track.passed)
+        and not any(True for _ in system.track.unread)
+        and not any(True for _ in system.track.astray)
         and not any(True for car in system.track.under for _ in system.track.under[car])
         and all(
             car in site.formation.train_of and site.formation.train_of[car] in site.layout.fleet

@@ -10,10 +10,17 @@ from proofs.invariants.vocabulary import genuine, reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
-    """Runs that a train rolls, slips or has moved under were permitted (T4)."""
+    """Runs that a train rolls, slips or has moved under were permitted; only a rolling train leaves a block (T4)."""
     return (
         all(run in system.radio.permits for run in system.track.rolling)
         and all(run in system.track.rolling for run in system.track.slipping)
+        and all(run in system.track.rolling for run, _block in system.track.leavable)
+        and all(
+            run in system.track.slipping
+            or run.route not in site.layout.way
+            or site.layout.way[run.route].get(block) not in site.layout.overlap[run.route]
+            for run, block in system.track.leavable
+        )
         and all(run in system.radio.permits for run in system.track.run_into)
     )
 
@@ -162,6 +169,66 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
             not genuine(site, block, left, entered) or (run, block) in system.track.behind
             for run, block, left, entered in system.radio.tail_reports
         )
+    )
+
+
+def a_head_that_read_a_tag_was_there(site: Site, system: System) -> bool:
+    """Where a unit has noted that its head entered a block under a run, it has (T2)."""
+    return all(
+        run.route not in site.layout.routes or (run, block) in system.track.entered
+        for train in system.units
+        for run, order in system.units[train].orders.items()
+        for block in order.entered
+    )
+
+
+def what_is_behind_was_entered(site: Site, system: System) -> bool:
+    """A tail leaves for a run only a block that the train began in, or that its head has entered under it (T2, T6)."""
+    return all(
+        run.route not in site.layout.routes
+        or block == site.layout.start[run.route]
+        or (run, block) in system.track.entered
+        for run, block in system.track.behind
+    )
+
+
+def what_is_behind_is_left_once(site: Site, system: System) -> bool:
+    """Out of a block that its tail has left for a run no train is let again under that run (T2, T6)."""
+    return all(
+        (run, block) not in system.track.leavable
+        or (run, block) in system.track.gone
+        or run not in site.formation.front
+        or system.track.facing.get(run.train) != site.formation.front[run]
+        for run, block in system.track.behind
+    )
+
+
+def a_unit_knows_which_cab_leads(site: Site, system: System) -> bool:
+    """A unit takes no other cab for the head than the one that leads, and has a tail only if one does (T2)."""
+    return all(
+        (unit.leading is None or system.track.facing.get(train) == unit.leading)
+        and (unit.leading is not None or unit.tail_read is None)
+        for train, unit in system.units.items()
+    )
+
+
+def the_tails_last_read_was_passed_last(site: Site, system: System) -> bool:
+    """What a unit with a closed loop holds of the tail is of a tag passed since the ends were changed (T2, T6)."""
+    return all(
+        unit.tail_read is None
+        or unit.loop_open
+        or train in system.track.unread
+        or site.records.record.get(unit.tail_read.tag) != unit.tail_read.record
+        or (train, unit.tail_read.tag) in system.track.passed
+        for train, unit in system.units.items()
+    )
+
+
+def a_train_astray_has_an_open_loop(site: Site, system: System) -> bool:
+    """In the life in which a tag was wrong, missing or late, the unit's second loop is open (T5)."""
+    return all(
+        train not in system.units or life != system.units[train].life or system.units[train].loop_open
+        for train, life in system.track.astray
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kernel.authority import may_proceed
 from kernel.names import Cause, Stage
 from models.world.state import Site, System
 from proofs.invariants.vocabulary import genuine, reaches, track_is_open
@@ -100,6 +101,17 @@ def no_open_flank(site: Site, system: System) -> bool:
 def entry_only_after_first_loop(site: Site, system: System) -> bool:
     """No car has moved under a run whose list was not echoed and whose permit was not sent after that (T4)."""
     return all(run in system.radio.permits and run in system.radio.echoes for run in system.track.run_into)
+
+
+def a_train_astray_has_no_authority(site: Site, system: System) -> bool:
+    """A train whose second loop has opened has no authority in this life: a tag was wrong, missing or late (T5)."""
+    return all(
+        train not in system.units or life != system.units[train].life or not may_proceed(system.units[train], run)
+        for train, life in system.track.astray
+        for other in system.units
+        for run in system.units[other].orders
+        if other == train
+    )
 
 
 def released_only_on_third_loop_evidence(site: Site, system: System) -> bool:

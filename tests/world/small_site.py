@@ -77,6 +77,7 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
         turnout=turnout,
         flank_point={},
         held_by_authority={W: frozenset({P, Q}), E: frozenset({P, Q}), P: frozenset({W, E}), Q: frozenset({W, E})},
+        laid_in=tag_in,
         laid_leaves={t: {partner[t]: frozenset({tag_in[t]})} for t in tags},
     )
     return layout, TagRecords(record={t: Record(f"r:{t}") for t in tags}), ground
@@ -92,18 +93,22 @@ def small_site(serials: int = 8, lives: int = 4) -> Site:
         for k in range(1, lives)
         for r in [*sorted(layout.routes), Route("standing")]
     ]
+    front: dict[Run, Cab] = {}
     last: dict[Run, Car] = {}
     ahead: dict[Run, Map[Car, frozenset[Car]]] = {}
     for run in runs:
         cars = [c for c, t in train_of.items() if t == run.train]
         order = cars if run.route.endswith("W") or run.route[0] == "E" else list(reversed(cars))
+        front[run] = Cab(f"cab of {order[0]}")
         last[run] = order[-1]
         ahead[run] = {c: frozenset(order[:i]) for i, c in enumerate(order)}
     return Site(
         layout=layout,
         records=records,
         ground=ground,
-        formation=Formation(train_of=train_of, last=last, ahead=ahead, cab={c: Cab(f"cab of {c}") for c in train_of}),
+        formation=Formation(
+            train_of=train_of, front=front, last=last, ahead=ahead, cab={c: Cab(f"cab of {c}") for c in train_of}
+        ),
     )
 
 
