@@ -134,6 +134,7 @@ class Journey:
             return
         if not self.train.faces(play, self.run):
             self.train.turn(play)
+        self.train.choose_ends(play)
         play.take("start_rolling", run=self.run)
         self.phase, self.seconds = Phase.RUNS, random.randint(10, 30)
 

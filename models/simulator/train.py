@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from kernel.names import Antenna, Block, Cab, Car, Read, Route, Run, Tag, Train
+from kernel.names import Block, Cab, Car, Read, Route, Run, Tag, Train
 from models.simulator.play import Play
 
 
@@ -27,6 +27,11 @@ class OnTrack:
         self.front, self.rear = self.rear, self.front
         self.trail.reverse()
         self.joints = [play.site.layout.partner[tag] for tag in reversed(self.joints)]
+        self.choose_ends(play)
+
+    def choose_ends(self, play: Play) -> None:
+        """The driver takes the cab in front; a unit that has restarted does not know which cab that is."""
+        play.take("change_ends", train=self.train, cab=self.cab(play, self.front))
 
     def faces(self, play: Play, run: Run) -> bool:
         """Whether the front car leads in the direction of a run."""
@@ -101,7 +106,6 @@ def tail_reads(play: Play, train: OnTrack, run: Run, tag: Tag, healthy: bool) ->
         "tail_reads",
         run=run,
         car=train.rear,
-        antenna=Antenna.TAIL,
         cab=train.cab(play, train.rear),
         healthy=healthy,
         read=Read(tag, play.site.records.record[tag]),
