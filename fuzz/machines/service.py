@@ -55,8 +55,8 @@ RUNNING = (
     "head_reads",
     "car_moves",
     "come_to_rest",
-    "start_rolling",
     "change_ends",
+    "start_rolling",
     "lock",
     "drift",
     "send_order",
@@ -186,7 +186,7 @@ def _is_overdue(site: Site, system: System, event: Event) -> bool:
 
 
 def _tail_is_past(site: Site, system: System, event: Event) -> bool:
-    """The two tags between a block that the train has left and the next on its way, in their order."""
+    """The two tags between a block that the train has left and the next on its way, in order and after the head."""
     run, tag, layout = event["run"], event["read"].tag, site.layout
     unit, order = system.units[run.train], system.units[run.train].orders[run]
     if run not in system.track.rolling or unit.loop_open:
@@ -197,6 +197,7 @@ def _tail_is_past(site: Site, system: System, event: Event) -> bool:
     block, beyond = layout.tag_in[left], layout.tag_in[entered]
     return (
         order.begun
+        and beyond in unit.occupied
         and block not in order.left
         and layout.way.get(run.route, {}).get(block) == beyond
         and not _up_to(site, run, block) & stands_in(site, system, run.train)
