@@ -145,12 +145,6 @@ def begun_is_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bo
     return order.begun
 
 
-def proceeds_with_an_open_loop(unit: Unit, run: Run) -> bool:
-    """Let the train go on whatever it has read."""
-    order = unit.orders.get(run)
-    return order is not None and order.permitted and not order.given_back
-
-
 def all_free_again(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
     """Begin a new epoch with every block unoccupied."""
     return Centre(
