@@ -28,7 +28,7 @@ from fuzz.compiled.places import (
     spread,
 )
 from kernel.centre import Centre, Grant
-from kernel.names import Car, Route, Run, Serial, Train
+from kernel.names import Cab, Car, Route, Run, Serial, Train
 from kernel.terminal import Terminal
 from kernel.unit import Order, Unit
 from models.world.state import Formation, Radio, Site, System, Track
@@ -41,26 +41,38 @@ have lost something, since they were last judged (what is no set does both); the
 the log has; how many steps changed something."""
 ALL_PARTS = -1
 HEADER_WORDS = 16
+WORD_BITS = 64
 EVENT_WORDS = 64
+SELDOM_SENT = frozenset(
+    (
+        *("relayed_orders", "enquiries", "relayed_enquiries", "confirmed", "challenges", "terminal_lives"),
+        *("statements", "confirmed_statements", "recalls", "returns"),
+    )
+)
+"""Messages that are one part together."""
 PARTS: tuple[str, ...] = (
     *(f"centre_{field.name}" for field in fields(Centre)),
     *(f"centre_runs_{field.name}" for field in fields(Grant)),
     *("units", *(f"units_{field.name}" for field in fields(Unit))),
     *(f"units_orders_{field.name}" for field in fields(Order)),
     *("terminals", *(f"terminals_{field.name}" for field in fields(Terminal))),
-    *(f"radio_{field.name}" for field in fields(Radio)),
+    *("radio", *(f"radio_{field.name}" for field in fields(Radio) if field.name not in SELDOM_SENT)),
     *(f"track_{field.name}" for field in fields(Track)),
 )
 """The parts of a state; a set of them is one word."""
+assert len(PARTS) <= WORD_BITS
 RUN_FIELDS = tuple((name, kind) for name, kind in fields_of(Run).items() if isinstance(kind, Scalar))
 BY_ROUTE = TupleKind((kind_of_type(Route), kind_of_type(Train)))
 FORMATION: Mapping[str, Kind] = {
     "train_of": fields_of(Formation)["train_of"],
     "cab": fields_of(Formation)["cab"],
+    "front": MapKind(BY_ROUTE, kind_of_type(Cab)),
     "last": MapKind(BY_ROUTE, kind_of_type(Car)),
     "ahead": MapKind(BY_ROUTE, MapKind(kind_of_type(Car), kind_of_type(frozenset[Car]))),
 }
 """What a formation says of a run follows from its route and its train."""
+OF_A_RUN = ("front", "last", "ahead")
+"""The same as names: looked up by a run."""
 KEYS = np.array([-7046029254386353131, -4417276706812531889, -8796714831421723037], dtype=np.int64)
 """Odd numbers that spread a word and its address over the hash (splitmix64)."""
 
@@ -187,11 +199,11 @@ def _fixed(site: Site, formation: Mapping[str, Any]) -> Iterator[tuple[str, Kind
 def _formation(site: Site, known: Domains) -> dict[str, Any]:
     """The formation, what it says of runs by their routes and trains."""
     formation = site.formation
-    made: dict[str, Any] = {"train_of": formation.train_of, "cab": formation.cab, "last": {}, "ahead": {}}
+    made: dict[str, Any] = {"train_of": formation.train_of, "cab": formation.cab} | {name: {} for name in OF_A_RUN}
     for route in known.names["Route"]:
         for train in known.names["Train"]:
             run = Run(Serial(0), Train(train), 0, Route(route))  # type: ignore[arg-type]
-            for name in ("last", "ahead"):
+            for name in OF_A_RUN:
                 table = getattr(formation, name)
                 if run in table:
                     made[name][route, train] = table[run]

@@ -42,7 +42,9 @@ REFUSED: tuple[Refusal, ...] = tuple(Refusal)
 ASSUMED: tuple[str, ...] = (
     "a_train_obeys_its_authority",
     "rails_lead",
-    "a_pair_read_in_order_proves_the_exit",
+    "a_tag_is_read_where_it_lies",
+    "a_pair_passed_in_order_proves_the_exit",
+    "a_missed_tag_is_overdue_before_the_tail_comes",
     "a_healthy_line_reaches_the_tail",
     "a_head_runs_no_farther_than_its_brake_lets_it",
     "a_train_within_its_destination_is_not_beyond",

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from fuzz.compiled.contents import TableMap, content
 from fuzz.compiled.domains import Domains
 from fuzz.compiled.emitter import Emitter
-from fuzz.compiled.memory import Memory
+from fuzz.compiled.memory import OF_A_RUN, Memory
 from fuzz.compiled.sets import (
     ByRun,
     Comprehension,
@@ -100,7 +100,7 @@ class Reader:
         def formation(name: str) -> Value:
             table = content(fixed[f"formation_{name}"], ())
             assert isinstance(table, Map)
-            return ByRun(table, self._route_and_train) if name in ("last", "ahead") else table
+            return ByRun(table, self._route_and_train) if name in OF_A_RUN else table
 
         def get(name: str) -> Value:
             return Record(Formation, formation) if name == "formation" else content(fixed[name], ())

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from kernel.names import Antenna, Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
+from kernel.names import Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
 from models.simulator.messages import NO_ROUTE
 from models.world.state import Site, System
 
@@ -226,6 +226,25 @@ def _head_reads(site: Site, system: System) -> Events:
                 yield {"train": train, "cab": cab, "tag": tag, "in_window": True}
 
 
+def _changes_of_ends(site: Site, system: System) -> Events:
+    """The cab at the front of each run that a unit knows, the newest first; then every cab of the train."""
+    cab_of, train_of = site.formation.cab, site.formation.train_of
+    for train, unit in sorted(system.units.items()):
+        fronts = [site.formation.front[run] for run in sorted(unit.orders, reverse=True)]
+        cabs = [cab_of[car] for car in sorted(train_of) if train_of[car] == train]
+        for cab in dict.fromkeys((*fronts, *cabs)):
+            yield {"train": train, "cab": cab}
+
+
+def _head_misses(site: Site, system: System) -> Events:
+    """The tag that each run expects next, then any other at the ends of blocks that the unit thinks it is in."""
+    for train, unit in sorted(system.units.items()):
+        expected = sorted({order.expected for _, order in unit.orders.items() if order.expected is not None})
+        there = [tag for tag in sorted(site.layout.tag_in) if site.layout.tag_in[tag] in unit.occupied]
+        for tag in dict.fromkeys((*expected, *there)):
+            yield {"train": train, "tag": tag}
+
+
 def _tail_reads(site: Site, system: System) -> Events:
     """Both tags at the end of every block that a unit thinks it is in, as the last car of each of its runs."""
     for train, unit in sorted(system.units.items()):
@@ -234,7 +253,7 @@ def _tail_reads(site: Site, system: System) -> Events:
         tags += [tag for tag in sorted(site.layout.tag_in) if site.layout.tag_in[tag] in unit.occupied]
         for run in sorted(unit.orders, reverse=True):
             car = site.formation.last[run]
-            told = {"run": run, "car": car, "antenna": Antenna.TAIL, "cab": site.formation.cab[car]}
+            told = {"run": run, "car": car, "cab": site.formation.cab[car]}
             for tag in tags:
                 yield {**told, "healthy": train not in system.track.parted, "read": _read(site, tag)}
 
@@ -328,6 +347,8 @@ SOURCES: Mapping[str, Source] = {
     "start_rolling": _ordered,
     "overrun": _ordered,
     "come_to_rest": _rolling,
+    "change_ends": _changes_of_ends,
+    "head_misses": _head_misses,
     "car_moves": _moves,
     "car_follows": _follows,
     "car_leaves": _leaves,

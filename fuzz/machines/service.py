@@ -50,10 +50,13 @@ RUNNING = (
     "release_overlap",
     "retire",
     "tail_reads",
+    "window_passes",
+    "car_follows",
     "car_leaves",
     "head_reads",
     "car_moves",
     "come_to_rest",
+    "change_ends",
     "start_rolling",
     "lock",
     "drift",
@@ -137,34 +140,57 @@ def _front(site: Site, run: Run) -> Any:
 
 
 def _goes_its_way(site: Site, system: System, event: Event) -> bool:
-    """Along the way, not into the overlap, and a rear car only after the front."""
+    """The front car along the way, not into the overlap; the others follow it."""
     run, target, layout = event["run"], event["target"], site.layout
     if layout.way[run.route].get(event["block"]) != target or target in layout.overlap[run.route]:
         return False
-    front = _front(site, run)
-    if event["car"] != front:
-        return event["block"] not in system.track.at[front]
+    if event["car"] != _front(site, run):
+        return False
     unit = system.units[run.train]
     expected = unit.orders[run].expected if run in unit.orders else None
     return expected is None or layout.tag_in[expected] != event["block"]
 
 
 def _is_behind(site: Site, system: System, event: Event) -> bool:
-    """A block whose next one on a rolling run's way the car is in as well."""
+    """A block whose next one on a rolling run's way the car is in as well; no car behind is further back."""
     car, block = event["car"], event["block"]
-    train = site.formation.train_of[car]
+    train, at = site.formation.train_of[car], system.track.at
     return any(
-        site.layout.way.get(run.route, {}).get(block) in system.track.at[car]
+        site.layout.way.get(run.route, {}).get(block) in at[car]
+        and all(at[car] & at[other] for other, ahead in site.formation.ahead[run].items() if car in ahead)
         for run in system.track.rolling
         if run.train == train
     )
 
 
+def _is_next_to(site: Site, system: System, event: Event) -> bool:
+    """The block after one that the car is in, on a rolling run's way."""
+    car, target = event["car"], event["target"]
+    train = site.formation.train_of[car]
+    return any(
+        site.layout.way.get(run.route, {}).get(block) == target
+        for run in system.track.rolling
+        if run.train == train
+        for block in system.track.at[car]
+    )
+
+
+def _faces_its_way(site: Site, system: System, event: Event) -> bool:
+    """The cab in front of the newest run that the train is permitted."""
+    unit = system.units[event["train"]]
+    permitted = [run for run, order in unit.orders.items() if order.permitted and not order.given_back]
+    return bool(permitted) and site.formation.front[max(permitted)] == event["cab"]
+
+
+def _is_overdue(site: Site, system: System, event: Event) -> bool:
+    return event["train"] in system.track.unread
+
+
 def _tail_is_past(site: Site, system: System, event: Event) -> bool:
-    """The two tags between a block that the train has left and the next on its way, in their order."""
+    """The two tags between a block that the train has left and the next on its way, in order and after the head."""
     run, tag, layout = event["run"], event["read"].tag, site.layout
     unit, order = system.units[run.train], system.units[run.train].orders[run]
-    if run not in system.track.rolling or not order.loop_closed:
+    if run not in system.track.rolling or unit.loop_open:
         return False
     before = unit.tail_read
     second = before is not None and layout.partner.get(before.tag) == tag
@@ -172,6 +198,7 @@ def _tail_is_past(site: Site, system: System, event: Event) -> bool:
     block, beyond = layout.tag_in[left], layout.tag_in[entered]
     return (
         order.begun
+        and beyond in unit.occupied
         and block not in order.left
         and layout.way.get(run.route, {}).get(block) == beyond
         and not _up_to(site, run, block) & stands_in(site, system, run.train)
@@ -226,7 +253,10 @@ ORDINARY: Mapping[str, Callable[[Site, System, Event], bool]] = {
     "take_over": _is_supervised,
     "note_statement_confirmed": _is_news,
     "head_reads": _front_is_there,
+    "window_passes": _is_overdue,
+    "change_ends": _faces_its_way,
     "car_moves": _goes_its_way,
+    "car_follows": _is_next_to,
     "car_leaves": _is_behind,
     "tail_reads": _tail_is_past,
     "come_to_rest": _has_arrived,

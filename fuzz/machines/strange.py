@@ -7,7 +7,6 @@ from typing import Any, get_args, get_origin
 
 from fuzz.machines.plausible import FOREIGN, UNREAD, plausible, stands_in
 from kernel.names import (
-    Antenna,
     Block,
     Cab,
     Car,
@@ -138,6 +137,5 @@ VALUES: Mapping[Any, Value] = {
     UnitLife: _unit_life,
     TerminalLife: _terminal_life,
     bool: lambda site, system, pick: bool(pick(2)),
-    Antenna: lambda site, system, pick: _one(list(Antenna), pick),
 }
 """For every type of an event but sets: how to come by a value."""

@@ -69,7 +69,7 @@ WITHIN: tuple[Fault, ...] = (
     Fault("corrupt record", "The tail reads a tag whose record is destroyed.", "tag", log_uniform(0.002, 0.2)),
     Fault(
         "copied tag",
-        "An antenna reads the UID of another tag, with a record that is not that one's.",
+        "The tail reads the UID of another tag, with a record that is not that one's.",
         "tag",
         log_uniform(0.002, 0.1),
     ),
@@ -145,6 +145,12 @@ WITHIN: tuple[Fault, ...] = (
         uniform(0.1, 0.9),
         0.3,
     ),
+    Fault(
+        "change of ends on the line",
+        "A driver stops anywhere, astride boundaries too, and changes ends; he goes back to the first, or stays.",
+        "second",
+        log_uniform(1e-4, 1e-2),
+    ),
     Fault("stop on the line", "A train comes to rest anywhere, and goes on later.", "boundary", log_uniform(0.01, 0.3)),
     Fault(
         "plausible adversary",
@@ -174,7 +180,23 @@ BEYOND: tuple[Fault, ...] = (
         "boundary",
         log_uniform(0.02, 0.5),
         0.1,
-        ("a_pair_read_in_order_proves_the_exit",),
+        ("a_pair_passed_in_order_proves_the_exit",),
+    ),
+    Fault(
+        "tag of elsewhere at the head",
+        "The head reads the UID of a tag that lies elsewhere, in place of the one there.",
+        "tag",
+        log_uniform(0.01, 0.3),
+        0.1,
+        ("a_tag_is_read_where_it_lies",),
+    ),
+    Fault(
+        "overdue too late",
+        "The head misses a tag, and the tail reads before it is found overdue.",
+        "tag",
+        log_uniform(0.01, 0.3),
+        0.1,
+        ("a_missed_tag_is_overdue_before_the_tail_comes",),
     ),
     Fault(
         "line healed falsely",

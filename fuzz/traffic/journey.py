@@ -28,7 +28,18 @@ from fuzz.traffic.messages import (
     stage,
     tell_stopped,
 )
-from fuzz.traffic.motion import faces, follows, front_block, front_passes, must_follow, rear_block, rest, turn
+from fuzz.traffic.motion import (
+    choose_ends,
+    faces,
+    find_overdue,
+    follows,
+    front_block,
+    front_passes,
+    must_follow,
+    rear_block,
+    rest,
+    turn,
+)
 from fuzz.traffic.places import (
     BASE,
     BY,
@@ -49,7 +60,8 @@ from fuzz.traffic.places import (
     STANDSTILL,
     TELLING,
     TRACK_ROLLING,
-    UNITS_CLOSED,
+    TRACK_UNREAD,
+    UNITS_LOOP_OPEN,
     WAITING,
     WAKE,
     WANTED,
@@ -71,7 +83,7 @@ from fuzz.traffic.tables import (
     START_ROLLING,
     WITHDRAW,
 )
-from fuzz.traffic.words import between, get2, has, of, one_in
+from fuzz.traffic.words import between, get1, has, of, one_in
 
 LOST, AT_REST, WAITS, RUNS, GIVES_BACK, OFF = range(6)
 """What a train is doing; ``OFF``: it is in the register and not on the line."""
@@ -91,6 +103,7 @@ def lose_way(memory_at: Any, desk_at: Any, train: Any) -> Any:
     """The train comes to rest wherever it is and has to tell anew where it stands."""
     memory, desk = both(memory_at, desk_at)
     rest(memory, desk, train)
+    find_overdue(memory, desk, train)
     if train_word(desk, train, CAUSE) == BY_TIMETABLE:
         set_train(desk, train, CAUSE, BY_TRAFFIC)
     set_train(desk, train, PHASE, LOST)
@@ -123,6 +136,8 @@ def is_lost(memory_at: Any, desk_at: Any, train: Any) -> Any:
     """It tells where it stands until it has heard under which run."""
     memory, desk = both(memory_at, desk_at)
     rest(memory, desk, train)
+    if train_word(desk, train, LENGTH) > 0 and one_in(desk, 4):
+        choose_ends(memory, desk, train)
     run = tell(memory, desk, train)
     later(desk, train, 2, 6)
     if run == NO_RUN:
@@ -224,7 +239,7 @@ def gives_back(memory_at: Any, desk_at: Any, train: Any) -> Any:
 
 @entry
 def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
-    """The train begins to roll; it turns first if that is its way."""
+    """The driver chooses his end, turning if that is his way, and the train begins to roll."""
     memory, desk = both(memory_at, desk_at)
     if desk[PRESENT + CANCELLED] != 0 and one_in(desk, 8):
         desk[BY], desk[DRAWN + CANCELLED] = CANCELLED, desk[DRAWN + CANCELLED] + 1
@@ -233,7 +248,8 @@ def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
         begin_giving_back(desk, train)
         return 0
     if not faces(memory, desk, train, route_of(memory, desk, run)):
-        turn(desk, train)
+        turn(memory, desk, train)
+    choose_ends(memory, desk, train)
     if not take1(memory, desk, START_ROLLING, run):
         take1(memory, desk, CANCEL, run)
         begin_giving_back(desk, train)
@@ -256,7 +272,9 @@ def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
 @compiled
 def goes_on(memory: Any, desk: Any, train: Any, run: Any) -> Any:
     """Whether a train that runs still has its authority and rolls; without it, it may get over one more boundary."""
-    closed = has_order(memory, desk, train, run) and get2(memory, desk, UNITS_CLOSED, train, run) == 1
+    if has(memory, desk, TRACK_UNREAD, train) and one_in(desk, 2):
+        find_overdue(memory, desk, train)
+    closed = has_order(memory, desk, train, run) and get1(memory, desk, UNITS_LOOP_OPEN, train) == 0
     if closed and (has(memory, desk, TRACK_ROLLING, run) or take1(memory, desk, START_ROLLING, run)):
         return True
     if one_in(desk, 2):

@@ -43,20 +43,26 @@ from fuzz.traffic.places import (
     RUNS_COUNT,
     RUNS_TRAIN,
     TAGS,
+    TRACK_FACING,
+    TRACK_FACING_VALUE,
     TRACK_PARTED,
     TRACK_ROLLING,
+    TRACK_UNREAD,
     TRAIL,
+    UNITS_LEADING,
     WAY,
 )
-from fuzz.traffic.steps import put4, route_of, set_train, take, take2, take3, take4, take_beyond, train_word
+from fuzz.traffic.steps import put4, route_of, set_train, take, take1, take2, take3, take4, take_beyond, train_word
 from fuzz.traffic.tables import (
     CAR_FOLLOWS,
     CAR_LEAVES,
     CAR_MOVES,
+    CHANGE_ENDS,
     COME_TO_REST,
+    HEAD_MISSES,
     HEAD_READS,
-    TAIL_ANTENNA,
     TAIL_READS,
+    WINDOW_PASSES,
 )
 from fuzz.traffic.words import below, get, get1, has, in_table, of, of2, one_in
 
@@ -66,7 +72,10 @@ CORRUPT, COPIED = number("corrupt record"), number("copied tag")
 EARLY, LATE_TAG = number("early tag"), number("late tag")
 AHEAD_OF_LEAVING, ELSEWHERE = number("read ahead of leaving"), number("led elsewhere")
 HEALED = number("line healed falsely")
+OF_ELSEWHERE, TOO_LATE = number("tag of elsewhere at the head"), number("overdue too late")
 TRAIL_TO_SPARE = 4
+HEALTHY = 3
+"""Which word of a tail's read says whether the line is healthy; tag and record follow it."""
 
 
 # ---- where a train is
@@ -98,8 +107,24 @@ def faces(memory: Any, desk: Any, train: Any, route: Any) -> Any:
 
 
 @compiled
-def turn(desk: Any, train: Any) -> None:
+def front_cab(desk: Any, train: Any) -> Any:
+    """The cab on the car in front."""
+    return of(desk, CAB, of2(desk, CAR, train, car_at(desk, train, 0)))
+
+
+@compiled
+def choose_ends(memory: Any, desk: Any, train: Any) -> None:
+    """The driver of a train at rest takes the cab in front, unless his unit knows that it leads."""
+    cab = front_cab(desk, train)
+    faced = has(memory, desk, TRACK_FACING, train) and get1(memory, desk, TRACK_FACING_VALUE, train) == cab
+    if not faced or get1(memory, desk, UNITS_LEADING, train) != cab:
+        take2(memory, desk, CHANGE_ENDS, train, cab)
+
+
+@entry
+def turn(memory_at: Any, desk_at: Any, train: Any) -> Any:
     """Change ends: the other cab leads."""
+    memory, desk = both(memory_at, desk_at)
     length = train_word(desk, train, LENGTH)
     for at in range(length // 2):
         low, high = train_word(desk, train, TRAIL + at), train_word(desk, train, TRAIL + length - 1 - at)
@@ -117,6 +142,8 @@ def turn(desk: Any, train: Any) -> None:
         set_train(desk, train, LOWEST + car, length - 1 - high)
         set_train(desk, train, HIGHEST + car, length - 1 - low)
     set_train(desk, train, LEADS, 1 - train_word(desk, train, LEADS))
+    choose_ends(memory, desk, train)
+    return 0
 
 
 @compiled
@@ -155,19 +182,25 @@ def rest(memory_at: Any, desk_at: Any, train: Any) -> Any:
 def head_reads(memory_at: Any, desk_at: Any, train: Any, tag: Any) -> Any:
     """The head antenna passes a tag."""
     memory, desk = both(memory_at, desk_at)
-    if train_word(desk, train, DEAD_HEAD) > desk[CLOCK] or strikes(desk, MISSED_AT_HEAD, train):
+    missed = train_word(desk, train, DEAD_HEAD) > desk[CLOCK] or strikes(desk, MISSED_AT_HEAD, train)
+    if missed or strikes(desk, TOO_LATE, train):
+        take2(memory, desk, HEAD_MISSES, train, tag)
         return 0
-    cab = of(desk, CAB, of2(desk, CAR, train, car_at(desk, train, 0)))
+    cab = front_cab(desk, train)
     if strikes(desk, FOREIGN, train):
         take4(memory, desk, HEAD_READS, train, cab, desk[FOREIGN_TAG], 1)
-    read, window = tag, 1
-    if strikes(desk, COPIED, train):
-        read = below(desk, desk[TAGS])
-    elif strikes(desk, EARLY, train) or strikes(desk, LATE_TAG, train):
+    if strikes(desk, OF_ELSEWHERE, train):
+        take2(memory, desk, HEAD_MISSES, train, tag)
+        put4(memory, desk, train, cab, below(desk, desk[TAGS]), 1)
+        desk[BY] = OF_ELSEWHERE
+        take_beyond(memory, desk, HEAD_READS)
+        return 0
+    window = 1
+    if strikes(desk, EARLY, train) or strikes(desk, LATE_TAG, train):
         window = 0
-    take4(memory, desk, HEAD_READS, train, cab, read, window)
+    take4(memory, desk, HEAD_READS, train, cab, tag, window)
     if strikes(desk, REPEATED, train):
-        take4(memory, desk, HEAD_READS, train, cab, read, window)
+        take4(memory, desk, HEAD_READS, train, cab, tag, window)
     return 0
 
 
@@ -176,9 +209,18 @@ def put_tail_read(memory: Any, desk: Any, train: Any, run: Any, tag: Any, record
     """Write what the tail reads over a line that is as healthy as it really is."""
     car = of2(desk, CAR, train, car_at(desk, train, train_word(desk, train, MOVING) - 1))
     healthy = train_word(desk, train, LINE) <= desk[CLOCK] and not has(memory, desk, TRACK_PARTED, train)
-    put4(memory, desk, run, car, TAIL_ANTENNA, of(desk, CAB, car))
-    event = desk[EVENT]
-    memory[event + 4], memory[event + 5], memory[event + 6] = 1 if healthy else 0, tag, record
+    put4(memory, desk, run, car, of(desk, CAB, car), 1 if healthy else 0)
+    memory[desk[EVENT] + HEALTHY + 1], memory[desk[EVENT] + HEALTHY + 2] = tag, record
+
+
+@compiled
+def take_tail_read(memory: Any, desk: Any, train: Any) -> None:
+    """The tail reads what is in the buffer, while nothing that the head has missed is to be found overdue yet."""
+    if has(memory, desk, TRACK_UNREAD, train):
+        desk[BY] = TOO_LATE
+        take_beyond(memory, desk, TAIL_READS)
+    else:
+        take(memory, desk, TAIL_READS)
 
 
 @entry
@@ -189,7 +231,7 @@ def tail_reads(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> 
         return 0
     if strikes(desk, FOREIGN, train):
         put_tail_read(memory, desk, train, run, desk[FOREIGN_TAG], desk[FOREIGN_RECORD])
-        take(memory, desk, TAIL_READS)
+        take_tail_read(memory, desk, train)
     read, record = tag, of(desk, RECORD, tag)
     if strikes(desk, CORRUPT, train):
         record = desk[FOREIGN_RECORD]
@@ -200,15 +242,22 @@ def tail_reads(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> 
             record = below(desk, desk[RECORDS])
     put_tail_read(memory, desk, train, run, read, record)
     if has(memory, desk, TRACK_PARTED, train) and desk[PRESENT + HEALED] != 0:
-        memory[desk[EVENT] + 4] = 1
+        memory[desk[EVENT] + HEALTHY] = 1
         desk[BY] = HEALED
         take_beyond(memory, desk, TAIL_READS)
         return 0
-    take(memory, desk, TAIL_READS)
+    take_tail_read(memory, desk, train)
     if strikes(desk, REPEATED, train):
         put_tail_read(memory, desk, train, run, read, record)
-        take(memory, desk, TAIL_READS)
+        take_tail_read(memory, desk, train)
     return 0
+
+
+@compiled
+def find_overdue(memory: Any, desk: Any, train: Any) -> None:
+    """What the head has missed is overdue now."""
+    if has(memory, desk, TRACK_UNREAD, train):
+        take1(memory, desk, WINDOW_PASSES, train)
 
 
 @entry
@@ -216,6 +265,8 @@ def tail_passes(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) ->
     """The tail antenna passes both tags of a boundary."""
     memory, desk = both(memory_at, desk_at)
     other = of(desk, PARTNER, tag)
+    if desk[PRESENT + TOO_LATE] == 0:
+        find_overdue(memory, desk, train)
     if strikes(desk, SWAPPED, train):
         tag, other = other, tag
     tail_reads(memory, desk, train, run, tag)
@@ -227,10 +278,21 @@ def tail_passes(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) ->
 
 
 @compiled
+def hangs_back(desk: Any, train: Any, car: Any) -> Any:
+    """Whether the car behind has yet to come into the block that this one is last in, so that this one stays there."""
+    first, behind = train_word(desk, train, FIRST), car + (1 if train_word(desk, train, LEADS) == 1 else -1)
+    if behind < first or behind >= first + train_word(desk, train, MOVING):
+        return False
+    return train_word(desk, train, HIGHEST + behind) < train_word(desk, train, LOWEST + car)
+
+
+@compiled
 def leaves(memory: Any, desk: Any, train: Any, car: Any) -> Any:
     """The last axle of a car that is astride a boundary goes over; tell whether the car is in one block now."""
     low, high = train_word(desk, train, LOWEST + car), train_word(desk, train, HIGHEST + car)
     if low < high:
+        if hangs_back(desk, train, car):
+            return False
         if not take2(memory, desk, CAR_LEAVES, of2(desk, CAR, train, car), train_word(desk, train, TRAIL + low)):
             return False
         set_train(desk, train, LOWEST + car, high)
@@ -263,7 +325,8 @@ def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
         return False
     last = of(desk, PARTNER, tag)
     swapped = strikes(desk, SWAPPED, train)
-    head_reads(memory, desk, train, last if swapped else tag)
+    if not swapped:
+        head_reads(memory, desk, train, tag)
     name = of2(desk, CAR, train, car)
     if strikes(desk, ELSEWHERE, train):
         led = of2(desk, NEIGHBOUR, block, below(desk, of(desk, NEIGHBOURS, block)))
@@ -276,7 +339,9 @@ def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
     set_train(desk, train, JOINTS + length - 1, tag)
     set_train(desk, train, LENGTH, length + 1)
     set_train(desk, train, HIGHEST + car, length)
-    head_reads(memory, desk, train, tag if swapped else last)
+    head_reads(memory, desk, train, last)
+    if swapped:
+        head_reads(memory, desk, train, tag)
     if not one_in(desk, 4):
         leaves(memory, desk, train, car)
     if train_word(desk, train, MOVING) == 1:
@@ -291,6 +356,7 @@ def last_leaves(memory_at: Any, desk_at: Any, train: Any, run: Any, behind: Any)
     car = car_at(desk, train, train_word(desk, train, MOVING) - 1)
     joint = train_word(desk, train, JOINTS + behind)
     if strikes(desk, AHEAD_OF_LEAVING, train):
+        find_overdue(memory, desk, train)
         put_tail_read(memory, desk, train, run, joint, of(desk, RECORD, joint))
         take(memory, desk, TAIL_READS)
         other = of(desk, PARTNER, joint)
@@ -305,10 +371,13 @@ def last_leaves(memory_at: Any, desk_at: Any, train: Any, run: Any, behind: Any)
 
 @entry
 def drawn_on(memory_at: Any, desk_at: Any, train: Any, run: Any, place: Any, high: Any) -> Any:
-    """A car goes on, under a run that the train rolls in, or after the car ahead of it where that is."""
+    """A car goes on after the car ahead of it; or under a run that the train rolls in, where no head has been noted."""
     memory, desk = both(memory_at, desk_at)
     car = of2(desk, CAR, train, car_at(desk, train, place))
+    ahead = of2(desk, CAR, train, car_at(desk, train, place - 1))
     block, target = train_word(desk, train, TRAIL + high), train_word(desk, train, TRAIL + high + 1)
+    if take3(memory, desk, CAR_FOLLOWS, car, ahead, target):
+        return True
     for back in range(get(memory, desk, RUNS_COUNT) + 1):
         under = run if back == 0 else back - 1
         if back > 0 and (not has(memory, desk, TRACK_ROLLING, under) or get1(memory, desk, RUNS_TRAIN, under) != train):
@@ -317,8 +386,7 @@ def drawn_on(memory_at: Any, desk_at: Any, train: Any, run: Any, place: Any, hig
         leads = in_table(desk, CLAIMS, route, block) and of2(desk, WAY, route, block) == target
         if leads and take4(memory, desk, CAR_MOVES, under, car, block, target):
             return True
-    ahead = of2(desk, CAR, train, car_at(desk, train, place - 1))
-    return take3(memory, desk, CAR_FOLLOWS, car, ahead, target)
+    return False
 
 
 @entry
@@ -349,7 +417,8 @@ def follows(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
 @compiled
 def must_follow(memory: Any, desk: Any, train: Any, run: Any) -> Any:
     """Whether the front may not go on before the rear has: it hangs far back, or off the route."""
-    length = train_word(desk, train, LENGTH)
-    if length > 3:
+    length, car = train_word(desk, train, LENGTH), car_at(desk, train, 0)
+    astride = train_word(desk, train, LOWEST + car) < train_word(desk, train, HIGHEST + car)
+    if length > 3 or (astride and hangs_back(desk, train, car)):
         return True
     return length > 1 and not in_table(desk, CLAIMS, route_of(memory, desk, run), rear_block(desk, train))

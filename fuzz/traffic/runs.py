@@ -17,7 +17,7 @@ from fuzz.traffic.desk import MOST_EVENTS, Desk, Ints, cars_of, desk_for
 from fuzz.traffic.driver import run_trace
 from fuzz.traffic.entries import callbacks
 from fuzz.traffic.faults import FAULTS
-from kernel.names import Antenna, Block, Car, Point, Position, Read, Run, Train
+from kernel.names import Block, Car, Point, Position, Read, Run, Train
 from models.world.start import start
 from proofs.catalogue import INVARIANTS
 from proofs.transitions import TRANSITIONS, event_types
@@ -188,8 +188,6 @@ class Traffic:
             return frozenset(
                 names["Block"][number] for at, word in enumerate(words) for number in bits_of(word, 64 * at)
             )
-        if of is Antenna:
-            return tables.ANTENNAS[words[0]]
         if of is bool:
             return bool(words[0])
         return names[of.__name__][words[0]] if of.__name__ in names else words[0]

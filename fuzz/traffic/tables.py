@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any, get_origin
 
 from kernel.names import (
-    Antenna,
     Block,
     Cab,
     Car,
@@ -82,6 +81,8 @@ SEND_TERMINAL_LIFE = NUMBERS["send_terminal_life"]
 START_ROLLING = NUMBERS["start_rolling"]
 OVERRUN = NUMBERS["overrun"]
 COME_TO_REST = NUMBERS["come_to_rest"]
+CHANGE_ENDS = NUMBERS["change_ends"]
+HEAD_MISSES = NUMBERS["head_misses"]
 CAR_MOVES = NUMBERS["car_moves"]
 CAR_FOLLOWS = NUMBERS["car_follows"]
 CAR_LEAVES = NUMBERS["car_leaves"]
@@ -104,10 +105,9 @@ CONFIRM_STATEMENT = NUMBERS["confirm_statement"]
     IS_RECORD,
     IS_CAR,
     IS_CAB,
-    IS_ANTENNA,
     IS_BOOL,
     IS_BLOCKS,
-) = range(15)
+) = range(14)
 _TYPES: Mapping[Any, tuple[int, ...]] = {
     Run: (IS_RUN,),
     Train: (IS_TRAIN,),
@@ -122,11 +122,8 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Read: (IS_TAG, IS_RECORD),
     Car: (IS_CAR,),
     Cab: (IS_CAB,),
-    Antenna: (IS_ANTENNA,),
     bool: (IS_BOOL,),
 }
-ANTENNAS = tuple(Antenna)
-TAIL_ANTENNA = ANTENNAS.index(Antenna.TAIL)
 
 
 def word_types(kind: int, block_words: int) -> tuple[int, ...]:

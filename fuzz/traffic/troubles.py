@@ -10,7 +10,7 @@ from fuzz.traffic.entries import both, entry
 from fuzz.traffic.faults import number
 from fuzz.traffic.journey import AT_REST, RUNS, WAITS, begin_giving_back, lose_way
 from fuzz.traffic.messages import NO_RUN, OFFERED, SET, ask_back, stage
-from fuzz.traffic.motion import car_at, faces, front_block, rear_block, shorten
+from fuzz.traffic.motion import car_at, faces, front_block, rear_block, rest, shorten, turn
 from fuzz.traffic.places import (
     BASE,
     BLOCKS,
@@ -92,6 +92,7 @@ STALE, AGAIN, ANY = number("stale message"), number("plausible adversary"), numb
 UNIT, CENTRE, TERMINAL = number("unit restart"), number("centre restart"), number("terminal restart")
 DEAD, OVERDUE, BROKEN_LINE = number("dead antenna"), number("overdue tag"), number("broken line")
 SPLIT, COUPLING, HEALED = number("split"), number("coupling"), number("line healed falsely")
+CHANGED_ENDS = number("change of ends on the line")
 DRIFTS, CANCELLED, WITHDRAWN = number("point drifts"), number("cancellation"), number("withdrawal")
 ABSURD, PASSED = number("absurd request"), number("passed end of authority")
 WHOLE = (1 << 32) - 1
@@ -235,6 +236,22 @@ def passes_authority(memory_at: Any, desk_at: Any, train: Any) -> Any:
 
 
 @entry
+def changes_ends(memory_at: Any, desk_at: Any, train: Any) -> Any:
+    """The driver stops where he is and changes ends; he goes back to the first and on, or asks for another way."""
+    memory, desk = both(memory_at, desk_at)
+    phase = train_word(desk, train, PHASE)
+    if phase not in (AT_REST, WAITS, RUNS):
+        return 0
+    rest(memory, desk, train)
+    turn(memory, desk, train)
+    if one_in(desk, 2):
+        turn(memory, desk, train)
+    elif phase == RUNS:
+        lose_way(memory, desk, train)
+    return 0
+
+
+@entry
 def of_trains(memory_at: Any, desk_at: Any, fault: Any, train: Any) -> Any:
     """Couplings, antennas, odometers; tell whether it was one of these."""
     memory, desk = both(memory_at, desk_at)
@@ -248,6 +265,9 @@ def of_trains(memory_at: Any, desk_at: Any, fault: Any, train: Any) -> Any:
     elif fault in (SPLIT, HEALED):
         set_train(desk, train, CAUSE, fault)
         splits(memory, desk, train)
+    elif fault == CHANGED_ENDS:
+        set_train(desk, train, CAUSE, fault)
+        changes_ends(memory, desk, train)
     elif fault == COUPLING:
         couples(memory, desk, train)
     elif fault == PASSED:

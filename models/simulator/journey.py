@@ -157,7 +157,7 @@ class Journey:
         layout, front = play.site.layout, self.train.trail[-1]
         if self.onward is None and front == layout.destination[self.run.route] and random.random() < self.chances.ahead:
             self._ask_ahead(play, random)
-        if rear_must_follow(play, self.train, self.run):
+        if rear_must_follow(self.train):
             self._rear_follows(play, random)
             return
         if front != layout.destination[self.run.route]:

@@ -90,9 +90,9 @@ def drawn_on(play: Play, train: OnTrack, run: Run, block: Block, target: Block) 
     return play.take("car_follows", car=train.rear, other=train.front, target=target)
 
 
-def rear_must_follow(play: Play, train: OnTrack, run: Run) -> bool:
-    """Whether the front may not go on before the rear has: it hangs far back, or off the route."""
-    return len(train.trail) > 3 or (len(train.trail) > 1 and train.trail[0] not in play.site.layout.claims[run.route])
+def rear_must_follow(train: OnTrack) -> bool:
+    """Whether the front may not go on before the rear has: coupled cars are in one block or in neighbours."""
+    return len(train.trail) > 1
 
 
 def tail_reads(play: Play, train: OnTrack, run: Run, tag: Tag, healthy: bool) -> None:

@@ -23,7 +23,7 @@ def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Blo
 
 
 def a_train_runs_forward_along_its_run(site: Site, system: System, run: Run, block: Block, target: Block) -> bool:
-    """A train runs with the cab ahead that its driver has chosen, and along a run out of each block and into it once."""
+    """A train runs with the cab ahead that its driver has chosen, along a run into each block and out of it once."""
     return (
         run in site.formation.front
         and system.track.facing.get(run.train) == site.formation.front[run]

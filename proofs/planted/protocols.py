@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from kernel import release, restarts, tail_evidence, terminal
-from kernel.names import Antenna, Block, Car, Epoch, Read, Record, Run, Train
+from kernel.names import Block, Car, Epoch, Read, Record, Run, Train
 from proofs.lift.sources import Code
 from proofs.planted import plausible, weakened
 from proofs.planted.fault import Fault
@@ -142,7 +142,7 @@ def _reads_elsewhere_than_at_the_tail(player: Player) -> None:
         reads = [running.genuine(player, tag) for tag in tags]
         for read in reads:
             cab = player.site.formation.cab[A1]
-            event = {"run": run, "car": A1, "antenna": Antenna.TAIL, "cab": cab, "healthy": False, "read": read}
+            event = {"run": run, "car": A1, "cab": cab, "healthy": False, "read": read}
             player.tries("tail_reads", **event)
         for held_for in (run, standing[T1]) if block == WEST else (run,):
             report = {"run": held_for, "block": block, "left": reads[0], "entered": reads[1]}

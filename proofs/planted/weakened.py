@@ -7,12 +7,13 @@ from dataclasses import replace
 from kernel.centre import NO_LOCKS, NO_RUNS, Centre
 from kernel.claims import end_claims
 from kernel.layout import Layout, TagRecords
-from kernel.names import Antenna, Block, Cab, Cause, Epoch, Read, Run, Stage, TerminalLife, UnitLife
+from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, Tag, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
 from kernel.route_setting import conflict
+from kernel.tail_evidence import has_been_in
 from kernel.terminal import Terminal
-from kernel.unit import NO_EVIDENCE, Evidence, Order, Unit
+from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Evidence, Order, Unit
 
 
 def request_by_runs_known(layout: Layout, centre: Centre, run: Run, base: Run) -> Refusal | None:
@@ -45,10 +46,10 @@ def unit_keeps_its_life(unit: Unit, life: UnitLife) -> Unit:
         answered=None,
         standing_in=frozenset(),
         orders={},
+        loop_open=False,
+        leading=None,
         head_tag=None,
-        head_cab=None,
         tail_read=None,
-        tail_cab=None,
         occupied=frozenset(),
     )
 
@@ -65,10 +66,11 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
                 permitted=False,
                 recalled=False,
                 given_back=False,
-                loop_closed=True,
                 begun=False,
                 stopped=False,
                 expected=layout.first_tag.get(run.route),
+                entered=NO_BLOCKS,
+                led_by=None,
                 left=NO_EVIDENCE,
             )
         },
@@ -81,76 +83,65 @@ def acknowledges_at_once(unit: Unit, run: Run) -> bool:
     return order is not None and order.recalled and not order.begun
 
 
-def any_antenna(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
-    """Count the reads of every antenna, over every line."""
+def any_antenna(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+    """Count the reads of every antenna, the head's too, over every line."""
     before = unit.tail_read
-    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
-        return replace(unit, tail_read=read, tail_cab=cab)
+    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read)
     block = layout.tag_in.get(before.tag)
     if block is None:
-        return replace(unit, tail_read=read, tail_cab=cab)
+        return replace(unit, tail_read=read)
     return replace(
         unit,
         tail_read=read,
-        tail_cab=cab,
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if order.begun and order.loop_closed
+            if has_been_in(layout, run, order, block)
             else order
             for run, order in unit.orders.items()
         },
     )
 
 
-def tail_over_a_broken_line(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
-    """Count the reads of the tail antenna even when the through line does not reach the tail."""
-    if antenna != Antenna.TAIL:
+def tail_over_a_broken_line(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+    """Count the reads of the cabs that do not lead even when the through line does not reach the tail."""
+    if unit.leading is None or unit.leading == cab:
         return unit
     before = unit.tail_read
-    if before is None or unit.tail_cab != cab or layout.partner.get(before.tag) != read.tag:
-        return replace(unit, tail_read=read, tail_cab=cab)
+    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+        return replace(unit, tail_read=read)
     block = layout.tag_in.get(before.tag)
     if block is None:
-        return replace(unit, tail_read=read, tail_cab=cab)
+        return replace(unit, tail_read=read)
     return replace(
         unit,
         tail_read=read,
-        tail_cab=cab,
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if order.begun and order.loop_closed
+            if has_been_in(layout, run, order, block)
             else order
             for run, order in unit.orders.items()
         },
     )
 
 
-def two_cabs_make_a_pair(layout: Layout, unit: Unit, antenna: Antenna, cab: Cab, healthy: bool, read: Read) -> Unit:
-    """Take two reads for a pair although the ends were changed between them."""
-    if antenna != Antenna.TAIL:
+def ends_changed_and_read_kept(unit: Unit, cab: Cab) -> Unit:
+    """Change ends and keep what the tail read before, on the way in the other direction."""
+    if unit.leading == cab:
         return unit
-    if not healthy:
-        return replace(unit, tail_read=None)
-    before = unit.tail_read
-    if before is None or layout.partner.get(before.tag) != read.tag:
-        return replace(unit, tail_read=read, tail_cab=cab)
-    block = layout.tag_in.get(before.tag)
-    if block is None:
-        return replace(unit, tail_read=read, tail_cab=cab)
-    return replace(
-        unit,
-        tail_read=read,
-        tail_cab=cab,
-        occupied=unit.occupied - {block},
-        orders={
-            run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if order.begun and order.loop_closed
-            else order
-            for run, order in unit.orders.items()
-        },
-    )
+    return replace(unit, leading=cab, head_tag=None)
+
+
+def tail_read_always_good(layout: Layout, unit: Unit, tag: Tag) -> Read | None:
+    """Keep the tail's last read though the head passes that boundary again."""
+    return unit.tail_read
+
+
+def begun_is_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bool:
+    """Take a run that has begun for one under which the train has been in any block."""
+    return order.begun
 
 
 def all_free_again(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:

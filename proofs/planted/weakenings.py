@@ -1,8 +1,18 @@
-"""Fifteen weakenings of the protocol, each with the one-line story of what goes wrong."""
+"""Sixteen weakenings of the protocol, each with the one-line story of what goes wrong."""
 
 from __future__ import annotations
 
-from kernel import authority, first_loop, recovery, release, restarts, route_setting, tail_evidence
+from kernel import (
+    authority,
+    change_of_ends,
+    first_loop,
+    recovery,
+    release,
+    restarts,
+    route_setting,
+    second_loop,
+    tail_evidence,
+)
 from proofs.planted import weakened
 from proofs.planted.fault import Fault
 
@@ -42,12 +52,6 @@ WEAKENINGS: tuple[Fault, ...] = (
         "The head antenna reads the pair, and the block is reported left with the rest of the train in it.",
         "tail_reads",
         {tail_evidence.note_tail_read: weakened.any_antenna},
-    ),
-    Fault(
-        "cars need not keep their order",
-        "A car of the train is behind the one that carries the tail antenna, and stays in the block reported left.",
-        "tail_reads",
-        without=frozenset({"the_last_car_is_behind_all_others"}),
     ),
     Fault(
         "blocks come back unoccupied after a restart",
@@ -93,8 +97,20 @@ WEAKENINGS: tuple[Fault, ...] = (
     ),
     Fault(
         "a pair of reads may be two cabs' reads",
-        "The train goes back between the two reads: one cab read the first tag, the other the second.",
+        "The train goes back between the two reads, and once more: the tail's last read is kept at a change of ends.",
+        "change_ends",
+        {change_of_ends.change_ends: weakened.ends_changed_and_read_kept},
+    ),
+    Fault(
+        "a pair of reads may be of two passages",
+        "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
+        "head_reads",
+        {second_loop.tail_read_still_good: weakened.tail_read_always_good},
+    ),
+    Fault(
+        "a block ahead counts as left",
+        "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",
         "tail_reads",
-        {tail_evidence.note_tail_read: weakened.two_cabs_make_a_pair},
+        {tail_evidence.has_been_in: weakened.begun_is_been_in},
     ),
 )

@@ -116,7 +116,7 @@ def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     block = layout.tag_in[tag]
     orders: dict[Run, dict[str, Any]] = {}
     known_orders = scenario.system.units[train].orders
-    on_the_way = any(expects(known, tag) and known.led_by is not None for known in known_orders.values())
+    on_the_way = any(expects(known, tag) and known.led_by is not None for _, known in known_orders.items())
     for other, known in known_orders.items():
         changed: dict[str, Any] = {}
         begun, led_by = known.begun, known.led_by

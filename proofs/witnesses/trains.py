@@ -223,8 +223,8 @@ def a_tag_read_early_opens_the_loop(steps: Steps) -> Scenario:
     head_passes(scenario, run, WEST, THROAT)
     again = {"train": T1, "cab": head_cab(scenario, run), "tag": pair(scenario.site.layout, WEST, THROAT)[1]}
     scenario.refuses("head_reads", **again, in_window=False)
-    early = {**again, "tag": pair(scenario.site.layout, THROAT, ONE)[0]}
-    scenario.does("head_reads", _loop_opened(scenario, early["tag"]), **early, in_window=False)
+    tag = pair(scenario.site.layout, THROAT, ONE)[0]
+    scenario.does("head_reads", _loop_opened(scenario, tag), **again | {"tag": tag}, in_window=False)
     crosses(scenario, run, A1, WEST, THROAT)
     rest(scenario, run)
     scenario.refuses("start_rolling", run=run)

@@ -77,6 +77,6 @@ def test_drawing_shows_the_claim_its_place_and_the_last_step(protocol: Protocol)
     assert page.count("<svg") == 3
 
 
-def test_there_are_fifteen_weakenings_and_five_protocols() -> None:
-    assert (len(WEAKENINGS), len(PROTOCOLS)) == (15, 5)
+def test_there_are_sixteen_weakenings_and_five_protocols() -> None:
+    assert (len(WEAKENINGS), len(PROTOCOLS)) == (16, 5)
     assert len({fault.name for fault in FAULTS}) == len(FAULTS)

@@ -102,7 +102,7 @@ def _run(site: Site, system: System, run: Run) -> dict[str, Any]:
         "stage": "not known" if grant is None else str(grant.stage.value),
         "first": _first_loop(system, run, order) if run.route in site.layout.routes else [],
         "over": grant is None or grant.stage == Stage.OVER,
-        "second": None if order is None else {"closed": order.loop_closed, "next": order.expected},
+        "second": None if unit is None or order is None else {"closed": not unit.loop_open, "next": order.expected},
         "left": sorted(order.left) if order is not None else [],
         "reported": sorted({block for other, block, _, _ in system.radio.tail_reports if other == run}),
         "released": {} if grant is None else {block: str(cause.value) for block, cause in sorted(grant.ended.items())},

@@ -331,6 +331,21 @@ def at_a_standstill_the_nearer_end_is_taken_and_the_brake_released() -> None:
     assert train.system.brake == Brake(applied=True, end_mm=nearer_mm)
 
 
+def a_train_without_an_end_stays_braked() -> None:
+    """No acknowledgement releases it before an end is taken, and a farther one will do (T4, T12)."""
+    train = running(20_000)
+    train.step("withhold_end")
+    assert train.system.brake == Brake(applied=True, end_mm=END_MM, withheld=True)
+    while train.system.speed_um_s > 0:
+        train.worst_cycle(acknowledged=True)
+    train.cycle(0, acknowledged=True)
+    assert train.brakes()
+    here_mm = -(-train.system.head_nm // NM_A_MM)
+    train.step("take_end", front_most_mm=here_mm, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=END_MM)
+    train.release()
+    assert machine.stand_still(5) == Brake(applied=True, end_mm=5, withheld=True)
+
+
 # ---- ranges
 
 
