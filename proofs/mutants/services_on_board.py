@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Antenna, Read, Record, Tag, UnitLife
+from kernel.names import Read, Record, Tag, UnitLife
 from kernel.refusal import Refusal
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
@@ -40,8 +40,10 @@ def a_tag_read_before_the_permit_opens_the_loop(steps: Steps) -> Scenario:
     setting.prove_all(scenario, run)
     setting.offer(scenario, run)
     tag, cab = scenario.site.layout.first_tag[WEST_TO_ONE], running.head_cab(scenario, run)
-    opened = {other: {"loop_closed": False} for other in (run, runs[T1])}
-    scenario.does("head_reads", {"units": {T1: {"orders": opened}}}, train=T1, cab=cab, tag=tag, in_window=True)
+    running.faces(scenario, run)
+    astray = {"astray": came((T1, run.life)), "last_read": {T1: tag}}
+    opened = {"units": {T1: {"loop_open": True}}, "track": astray}
+    scenario.does("head_reads", opened, train=T1, cab=cab, tag=tag, in_window=True)
     return scenario
 
 
@@ -54,6 +56,7 @@ def a_run_given_back_does_not_begin_with_its_successor(steps: Steps) -> Scenario
     setting.recall(scenario, older)
     setting.return_it(scenario, older)
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     return scenario
 
@@ -65,8 +68,10 @@ def a_run_given_back_expects_no_tag(steps: Steps) -> Scenario:
     setting.recall(scenario, run)
     setting.return_it(scenario, run)
     tag, cab = scenario.site.layout.first_tag[WEST_TO_ONE], running.head_cab(scenario, run)
-    opened = {other: {"loop_closed": False} for other in (run, runs[T1])}
-    scenario.does("head_reads", {"units": {T1: {"orders": opened}}}, train=T1, cab=cab, tag=tag, in_window=True)
+    running.faces(scenario, run)
+    astray = {"astray": came((T1, run.life)), "last_read": {T1: tag}}
+    opened = {"units": {T1: {"loop_open": True}}, "track": astray}
+    scenario.does("head_reads", opened, train=T1, cab=cab, tag=tag, in_window=True)
     return scenario
 
 
@@ -77,6 +82,7 @@ def a_run_not_yet_permitted_does_not_begin(steps: Steps) -> Scenario:
     second = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
     setting.prove_all(scenario, second)
     setting.offer(scenario, second)
+    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     return scenario
 
@@ -100,11 +106,11 @@ def a_broken_line_forgets_the_half_pair(steps: Steps) -> Scenario:
     """When the through line breaks between two tags the first is forgotten, wherever the antenna is (T2, T3)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.faces(scenario, run)
     first, second = running.pair(scenario.site.layout, WEST, THROAT)
     running.tail_reads_first(scenario, run, first)
     scenario.does("part", train=T1)
-    cab, read = scenario.site.formation.cab[A1], running.genuine(scenario, second)
-    event = {"run": run, "car": A1, "antenna": Antenna.TAIL, "cab": cab, "healthy": False, "read": read}
+    event = running.tail_read(scenario, run, second) | {"healthy": False}
     scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, **event)
     return scenario
 
@@ -113,10 +119,11 @@ def a_copied_tag_may_be_read_anywhere(steps: Steps) -> Scenario:
     """Nature puts no bounds on tags with foreign records; what they say is refused by the centre (T6)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     first, second = (running.genuine(scenario, tag) for tag in running.pair(scenario.site.layout, WEST, THROAT))
     last = scenario.site.formation.last[run]
-    event = {"run": run, "car": last, "antenna": Antenna.TAIL, "cab": scenario.site.formation.cab[last]}
+    event = {"run": run, "car": last, "cab": scenario.site.formation.cab[last]}
     copied = [Read(read.tag, Record("copied")) for read in (first, second)]
     for pair in ((copied[0], second), (first, copied[1])):
         for read in pair:

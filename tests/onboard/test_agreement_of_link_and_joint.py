@@ -47,7 +47,7 @@ from proofs.mutants.plays import witnesses
 from proofs.mutants.steps import SmallScope, identifiers
 from proofs.mutated import Sources, running
 from proofs.theories import THEORIES
-from tests.lift.differential import PARTIAL, QuantifiedScope, _can_fail
+from tests.lift.differential import PARTIAL, QuantifiedScope, can_fail
 from tests.onboard.agree import functions
 
 Code = Callable[..., Any]
@@ -303,7 +303,7 @@ def agree(name: str, wrong: Sources | None = None, wrong_in_logic: Sources | Non
         with running(wrong or {}):
             expected = called_with(function, arguments)
         if isinstance(expected, Exception):
-            assert any(_can_fail(each.claim) for each in lifter.obligations), f"{name}: an error without obligation"
+            assert any(can_fail(each.claim) for each in lifter.obligations), f"{name}: an error without obligation"
             seen[Exception] += 1
             continue
         scope.numerals = sorted({*ints, *(expected if isinstance(expected, frozenset) else ())})
@@ -313,7 +313,7 @@ def agree(name: str, wrong: Sources | None = None, wrong_in_logic: Sources | Non
             quantified = QuantifiedScope.of_universe(universe)
             again = [embed(quantified, argument, each) for argument, each in zip(arguments, types, strict=True)]
             formula = Lifter(quantified, wrong_in_logic).formula(function, *again)
-            assert not _can_fail(formula == expected), f"{name}{arguments}: {expected}, with quantifiers otherwise"
+            assert not can_fail(formula == expected), f"{name}{arguments}: {expected}, with quantifiers otherwise"
         seen[sort_of(arguments, expected)] += 1
     return seen
 

@@ -48,10 +48,11 @@ PERMITTED = Order(
     permitted=True,
     recalled=False,
     given_back=False,
-    loop_closed=True,
     begun=False,
     stopped=False,
     expected=None,
+    entered=frozenset(),
+    led_by=None,
     left={},
 )
 RECALLED = replace(PERMITTED, recalled=True)
@@ -91,7 +92,6 @@ class Station(Play[Survey, Joint]):
             begins_mm={},
             block_ends_mm={},
             asked=frozenset(),
-            leavable=frozenset(),
         )
         super().__init__(THEORY, site, start)
 
@@ -107,6 +107,10 @@ class Station(Play[Survey, Joint]):
     def told(self, orders: Mapping[Run, Order]) -> None:
         """The unit has these orders."""
         self.changes(replace(self.unit(), orders=dict(orders)))
+
+    def loop_opens(self) -> None:
+        """The unit's second loop opens."""
+        self.changes(replace(self.unit(), loop_open=True))
 
     def listed(self, run: Run, begins_mm: int, ends_mm: Map[Block, int]) -> None:
         """A run's list comes."""
@@ -214,7 +218,7 @@ def two_runs() -> Station:
 
 def released(brake: Brake, front_mm: int) -> Brake:
     """What a driver gets who acknowledges at a standstill."""
-    return supervise(BOUNDS, brake, front_mm, 0, demanded=False, acknowledged=True)
+    return supervise(BOUNDS, brake, front_mm, 0, 0, demanded=False, acknowledged=True)
 
 
 # ---- the ordinary way
@@ -235,9 +239,11 @@ def a_train_that_was_told_nothing_stands() -> None:
 
 def every_part_of_the_permission_is_needed() -> None:
     """Not permitted, recalled, second loop open: the end is that of the block, and the brake stays on (T4, T5, T9)."""
-    for order in (replace(PERMITTED, permitted=False), RECALLED, replace(PERMITTED, loop_closed=False)):
+    for order, opens in ((replace(PERMITTED, permitted=False), False), (RECALLED, False), (PERMITTED, True)):
         station = permitted()
         station.told({RUN: order})
+        if opens:
+            station.loop_opens()
         assert station.ends(399_000, 401_000) == {440_000}
         station.holds(440_000, withheld=True)
         assert not station.rolling()
@@ -247,7 +253,7 @@ def every_part_of_the_permission_is_needed() -> None:
 def under_orders_the_authority_ends_with_the_destination() -> None:
     """Through the throat into track one, and never into the overlap behind it (T4, T9, T12)."""
     station = under_way()
-    assert station.system.leavable == {(RUN, WEST), (RUN, THROAT)}
+    assert station.system.system.track.leavable == {(RUN, WEST), (RUN, THROAT)}
     station.runs(440_000)
     station.passes(441_000, THROAT, 550_000)
     station.passes(700_000, ONE, 750_000)
@@ -294,7 +300,7 @@ def another_trains_end_is_its_own() -> None:
 def what_ends_behind_the_train_does_not_count() -> None:
     """Of the blocks that the head may not leave, those whose end is no less than the least front (P7, T12)."""
     station = under_way(500_000)
-    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    station.loop_opens()
     assert station.ends(440_000, 440_000) == {440_000}
     assert station.ends(440_001, 440_001) == {550_000}
     assert station.ends(550_001, 551_000) == {750_000}
@@ -312,7 +318,7 @@ def a_change_of_ends_begins_a_new_kilometrage() -> None:
     assert station.system.brake[T1] == Brake(applied=True, end_mm=51_000, withheld=True)
     assert not station.rolling()
     assert not station.system.block_ends_mm
-    assert not station.system.leavable
+    assert not station.system.system.track.leavable
     station.holds(51_000, withheld=True)
 
 
@@ -322,7 +328,7 @@ def a_change_of_ends_begins_a_new_kilometrage() -> None:
 def authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels() -> None:
     """The loop opens, the unit restarts: the train that cannot stop any more runs on, braked, to the old end (T5)."""
     station = under_way(439_000)
-    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    station.loop_opens()
     brake = station.asks(speed_mm_s=20_000)
     assert brake == Brake(applied=True, end_mm=750_000, withheld=True)
     station.passes(500_000, THROAT, 550_000)
@@ -343,16 +349,12 @@ def a_false_pair_does_not_stop_the_train_on_the_spot() -> None:
     station.refuses("head_passes", train=T1, to_mm=560_000, block=ONE, block_end_mm=750_000)
 
 
-def the_tail_leaves_what_the_head_has_passed() -> None:
-    """A genuine pair: the block is behind, and the authority still ends in track one (T2)."""
+def what_the_tail_has_left_is_no_authority() -> None:
+    """The block behind is left: the authority still ends in track one (T2)."""
     station = under_way(500_000)
-    station.refuses("tail_leaves", run=RUN, block=THROAT)
-    station.step("tail_leaves", run=RUN, block=WEST)
-    assert station.system.system.track.behind == {(RUN, WEST)}
     station.told({RUN: replace(PERMITTED, left={WEST: A_PAIR})})
     station.holds(750_000)
     station.passes(600_000, ONE, 750_000)
-    station.step("tail_leaves", run=OTHER, block=WEST)
     station.refuses("take_list", run=RUN, begins_mm=0, block_ends_mm=ENDS_MM)
 
 
@@ -482,7 +484,7 @@ def what_the_other_proofs_exclude_does_not_happen() -> None:
     for least_mm, most_mm in ((450_001, 451_000), (448_000, 449_999)):
         station.refuses("ask_for_the_end", train=T1, front_least_mm=least_mm, front_most_mm=most_mm, brake=taken)
     around = {"train": T1, "front_least_mm": 449_000, "front_most_mm": 451_000}
-    station.told({RUN: replace(PERMITTED, loop_closed=False)})
+    station.loop_opens()
     for end_mm in (449_999, 750_000, 800_000):
         station.refuses("ask_for_the_end", **around, brake=Brake(applied=False, end_mm=end_mm))
 
@@ -521,7 +523,7 @@ WITNESSES = (
     a_change_of_ends_begins_a_new_kilometrage,
     authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels,
     a_false_pair_does_not_stop_the_train_on_the_spot,
-    the_tail_leaves_what_the_head_has_passed,
+    what_the_tail_has_left_is_no_authority,
     a_run_is_given_back_when_the_brake_holds_the_end_before_it,
     a_train_too_near_to_be_held_gives_nothing_back,
     a_train_that_rolls_in_keeps_its_run,
