@@ -136,7 +136,13 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
         return system
     if not a_pair_passed_in_order_proves_the_exit(site, system, run, car, read):
         return system
-    unit = tail_evidence.note_tail_read(site.layout, system.units[run.train], cab, healthy, read)
+    before = system.units[run.train]
+    elsewhere = (
+        healthy
+        and before.leading is not None
+        and (read.tag not in site.layout.tag_in or site.layout.tag_in[read.tag] not in before.occupied)
+    )
+    unit = tail_evidence.note_tail_read(site.layout, before, cab, healthy, read)
     counts = is_last(site, system, run, car) and is_genuine(site, read)
     behind = system.track.behind | frozenset(
         (other, block)
@@ -162,6 +168,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
             behind=behind,
             gone=gone,
             passed=system.track.passed | {(run.train, read.tag)} if counts else system.track.passed,
+            astray=system.track.astray | {(run.train, before.life)} if elsewhere else system.track.astray,
         ),
     )
 
