@@ -18,6 +18,30 @@ def has_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bool:
     return order.begun and (block in order.entered or layout.start.get(run.route) == block)
 
 
+def has_gone_on(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
+    """Tell whether the head has gone on out of ``block`` under this run or a later one (T2).
+
+    On a ring the head may have come round into the block that the tail is just leaving.
+    """
+    return any(
+        other.serial >= run.serial
+        and order.begun
+        and other.route in layout.way
+        and layout.way[other.route].get(block) in order.entered
+        for other, order in unit.orders.items()
+    )
+
+
+def has_left(layout: Layout, unit: Unit, run: Run, order: Order, block: Block) -> bool:
+    """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
+
+    A train that stood there has told so; one that backs out is led by its other cab.
+    """
+    return has_been_in(layout, run, order, block) and (
+        run.route not in layout.way or order.led_by != unit.leading or has_gone_on(layout, unit, run, block)
+    )
+
+
 def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
@@ -44,7 +68,7 @@ def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Re
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_been_in(layout, run, order, block)
+            if has_left(layout, unit, run, order, block)
             else order
             for run, order in unit.orders.items()
         },
