@@ -6,13 +6,14 @@ Messages are tuples: their kind, to whom they go, and what they carry.  What goe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from kernel import (
     authority,
     cancellation,
+    change_of_ends,
     first_loop,
     recovery,
     relay,
@@ -27,8 +28,8 @@ from kernel import (
 )
 from kernel.centre import NO_RUNS, Centre
 from kernel.layout import Layout, TagRecords
+from kernel.maps import Map
 from kernel.names import (
-    Antenna,
     Block,
     Cab,
     Epoch,
@@ -54,6 +55,8 @@ CENTRE = "centre"
 STANDING = Route("standing")
 BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, standstill_mm_s=100)
 """A brake of 1 m/s² within 0.8 s, and motors as strong."""
+BEHIND_MM = 2_000
+"""So far behind the front a list may end and still be looked up: more than the odometer is ever wrong."""
 
 
 class Sight(Protocol):
@@ -90,25 +93,30 @@ class Sight(Protocol):
         """How fast it is."""
 
     @property
-    def odometer_mm(self) -> int:
-        """How far its wheels have run in its life, to and fro."""
+    def head_cab(self) -> Cab:
+        """The cab that its driver is in."""
 
-    def ends_mm(self, route: Route) -> tuple[int, Mapping[Block, int]] | None:
-        """Where the start block of a route ends, and all its blocks; nothing if it does not lead there."""
+    def ends_mm(self, route: Route) -> tuple[int, Map[Block, int]] | None:
+        """Where the start block of a route begins, and where all its blocks end; nothing if it does not lead there."""
 
 
 @dataclass
 class Board:
     """What is on board of one train.
 
-    ``held``: the brake is to stay on until an end is taken that the train can keep to.
-    ``read_at_mm``: the odometer at the last read of the tail.
+    ``begins_mm``, ``ends_mm``: where the blocks of its orders lie, along the direction it runs in.
+    ``marks_mm``: all these places in a row.
+    ``asked``: for which unit the brake was asked last, and between which of the places the front was.
+    ``kept``: for kernels that keep what a cab's tail has read.
     """
 
     unit: Unit
     brake: Brake
-    held: bool = False
-    read_at_mm: int = 0
+    begins_mm: dict[Run, int] = field(default_factory=dict)
+    ends_mm: dict[Run, Map[Block, int]] = field(default_factory=dict)
+    marks_mm: list[int] = field(default_factory=list)
+    asked: tuple[Unit, tuple[int, int, int]] | None = None
+    kept: tuple[Cab, Read] | None = None
 
 
 class Calls:
@@ -128,13 +136,21 @@ class Calls:
     def restart_centre(self, centre: Centre) -> Centre:
         return restarts.restart_centre(self.layout, centre, Epoch(centre.epoch + 1))
 
-    def new_board(self, front_mm: int) -> Board:
-        unit = Unit(UnitLife(0), None, frozenset(), {}, None, None, None, None, frozenset())
-        return Board(restarts.restart_unit(unit, UnitLife(1)), Brake(True, front_mm))
+    def new_board(self, front_mm: int, cab: Cab) -> Board:
+        nothing = Unit(UnitLife(0), None, frozenset(), {}, False, None, None, None, frozenset())
+        unit = change_of_ends.change_ends(restarts.restart_unit(nothing, UnitLife(1)), cab)
+        return Board(unit, braking.stand_still(front_mm))
 
-    def restart_board(self, board: Board, front_mm: int) -> None:
+    def restart_board(self, board: Board, sight: Sight) -> None:
+        """After a restart the driver chooses his direction anew."""
         board.unit = restarts.restart_unit(board.unit, UnitLife(board.unit.life + 1))
-        board.brake, board.held = Brake(True, front_mm), False
+        self.begin_anew(board, sight)
+
+    def begin_anew(self, board: Board, sight: Sight) -> None:
+        """The driver sits in the cab at the head; the brake is on, and reckons along the direction it looks in."""
+        board.unit = change_of_ends.change_ends(board.unit, sight.head_cab)
+        board.brake = braking.stand_still(sight.front_mm[1])
+        self.follow(board, sight)
 
     def new_terminal(self) -> Terminal:
         return Terminal(TerminalLife(1), None, None, False)
@@ -158,7 +174,7 @@ class Calls:
         return cancellation.withdraw(self.layout, centre, run)
 
     def cancel(self, centre: Centre, run: Run) -> Centre:
-        return cancellation.cancel(centre, run)
+        return cancellation.cancel(self.layout, centre, run)
 
     def open_first_loop(self, centre: Centre, run: Run) -> Centre:
         return route_setting.open_first_loop(self.layout, centre, run)
@@ -253,8 +269,8 @@ class Calls:
     def statement_confirmed(
         self, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
     ) -> Centre:
-        """The second person confirms; what he saw goes with it, for a kernel that asks."""
-        return supervision.note_statement_confirmed(self.layout, centre, train, life, epoch, run)
+        """The second person confirms the blocks that he has seen the train in."""
+        return supervision.note_statement_confirmed(self.layout, centre, train, life, epoch, blocks, run)
 
     # ---- what a train receives
 
@@ -287,21 +303,25 @@ class Calls:
             board.unit = first_loop.take_standing(board.unit, run)
         else:
             assert kind == "recall", kind
-            self.give_back(board, run, sight)
+            self.recall(board, run, sight)
 
-    def stands_short(self, run: Run, sight: Sight) -> bool:
-        """By odometer and tags: the whole train stands still outside the run's blocks but for its start."""
-        beyond = self.layout.claims[run.route] - {self.layout.start[run.route]}
-        return sight.at_rest and sight.whole and not sight.blocks & beyond
+    def recall(self, board: Board, run: Run, sight: Sight) -> None:
+        """Note that a run is wanted back; it is given back when the brake holds the nearer end."""
+        board.unit = first_loop.recall(board.unit, run)
 
-    def give_back(self, board: Board, run: Run, sight: Sight) -> None:
-        board.unit = first_loop.give_back(board.unit, run, self.stands_short(run, sight))
+    def give_back(self, board: Board) -> None:
+        """Give back what is wanted and what the brake keeps the train out of, the last runs first."""
+        wanted = [run for run, order in board.unit.orders.items() if order.recalled and not order.given_back]
+        for run in sorted(wanted, reverse=True):
+            if run in board.ends_mm:
+                start_end_mm = board.ends_mm[run][self.layout.start[run.route]]
+                board.unit = first_loop.give_back(self.layout, board.unit, run, board.brake.end_mm, start_end_mm)
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
         board.unit = standing.answer(board.unit, epoch, life, sight.blocks, sight.at_rest, sight.whole)
         if board.unit is not before:
-            board.brake, board.held = Brake(True, sight.front_mm[0]), False
+            self.begin_anew(board, sight)
 
     # ---- what a train reads and notes
 
@@ -314,7 +334,7 @@ class Calls:
         self.follow(board, sight)
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
-        board.unit = tail_evidence.note_tail_read(self.layout, board.unit, Antenna.TAIL, cab, healthy, read)
+        board.unit = tail_evidence.note_tail_read(self.layout, board.unit, cab, healthy, read)
         self.follow(board, sight)
 
     def genuine(self, tag: Tag) -> Read:
@@ -332,8 +352,7 @@ class Calls:
 
     def change_ends(self, board: Board, sight: Sight) -> None:
         """The driver has gone to the other cab; the brake is on, and reckons along the new direction."""
-        board.brake, board.held = Brake(True, sight.front_mm[0]), False
-        self.follow(board, sight)
+        self.begin_anew(board, sight)
 
     # ---- what a train sends
 
@@ -366,37 +385,59 @@ class Calls:
 
     def is_open(self, board: Board) -> bool:
         """Whether a second loop is open."""
-        return any(not order.loop_closed for _, order in board.unit.orders.items())
+        return board.unit.loop_open
 
     def follow(self, board: Board, sight: Sight) -> None:
-        """From what the unit knows to what the brake must do: the farthest end that any run gives."""
-        front_mm = sight.front_mm
-        told = (run for run, order in board.unit.orders.items() if order.permitted)
-        ends_mm = [end for run in told for end in self.ends_of(board, run, front_mm[0], sight)]
-        if ends_mm:
-            board.brake = braking.take_end(BOUNDS, board.brake, front_mm[1], sight.speed_mm_s, max(ends_mm))
+        """From what the unit knows to what the brake must do, and what can be given back by that."""
+        self.look_up(board, sight)
+        self.obey(board, sight)
+        before = board.unit
+        self.give_back(board)
+        if board.unit is not before:
+            self.obey(board, sight)
 
-    def ends_of(self, board: Board, run: Run, front_least_mm: int, sight: Sight) -> frozenset[int]:
-        """The end of authority by one run, which need not be where the head is."""
-        found = sight.ends_mm(run.route) if run.route != STANDING else None
-        if found is None:
-            return frozenset()
-        return authority_end.ends_mm(self.layout, board.unit, run, found[1], front_least_mm)
+    def look_up(self, board: Board, sight: Sight) -> None:
+        """The lists of all orders that do not lie behind the train."""
+        board.begins_mm, board.ends_mm = {}, {}
+        least_mm = sight.front_mm[0] - BEHIND_MM
+        for run in board.unit.orders:
+            found = sight.ends_mm(run.route) if run.route != STANDING else None
+            if found is not None and any(end_mm >= least_mm for _, end_mm in found[1].items()):
+                board.begins_mm[run], board.ends_mm[run] = found
+        places = {end_mm for ends_mm in board.ends_mm.values() for _, end_mm in ends_mm.items()}
+        board.marks_mm, board.asked = sorted(places | set(board.begins_mm.values())), None
+
+    def obey(self, board: Board, sight: Sight) -> None:
+        """What the brake becomes in this cycle; asked again only where the answer may be another one."""
+        least_mm, most_mm = sight.front_mm
+        marks = board.marks_mm
+        where = bisect_left(marks, least_mm), bisect_right(marks, least_mm), bisect_left(marks, most_mm)
+        before, board.asked = board.asked, (board.unit, where)
+        same = before is not None and before[0] is board.unit and before[1] == where
+        if same and not board.brake.withheld:
+            return
+        board.brake = self.obeyed(board, least_mm, most_mm, sight.speed_mm_s)
+
+    def obeyed(self, board: Board, least_mm: int, most_mm: int, speed_mm_s: int) -> Brake:
+        (brake,) = authority_end.obey(
+            self.layout, board.unit, board.begins_mm, board.ends_mm, BOUNDS, board.brake, least_mm, most_mm, speed_mm_s
+        )
+        return brake
 
     def end_mm(self, board: Board) -> int:
         """The end that the driver is shown."""
         return board.brake.end_mm
 
-    def supervise(self, board: Board, front_most_mm: int, speed_mm_s: int, demanded: bool, acknowledged: bool) -> bool:
+    def supervise(self, board: Board, sight: Sight, demanded: bool, acknowledged: bool) -> bool:
         """One cycle of the brake; whether it is on."""
-        demanded = demanded or board.held
-        board.brake = braking.supervise(BOUNDS, board.brake, front_most_mm, speed_mm_s, demanded, acknowledged)
+        self.obey(board, sight)
+        most_mm, speed_mm_s = sight.front_mm[1], sight.speed_mm_s
+        board.brake = braking.supervise(BOUNDS, board.brake, most_mm, speed_mm_s, speed_mm_s, demanded, acknowledged)
         return board.brake.applied
 
     def could_start(self, board: Board, front_most_mm: int, demanded: bool) -> bool:
         """Whether the brake could be released at a standstill."""
-        demanded = demanded or board.held
-        return not braking.supervise(BOUNDS, board.brake, front_most_mm, 0, demanded, True).applied
+        return not braking.supervise(BOUNDS, board.brake, front_most_mm, 0, 0, demanded, True).applied
 
     # ---- points
 

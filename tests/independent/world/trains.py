@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from kernel.maps import Map
 from kernel.names import Block, Cab, Point, Position, Route, Tag, Train
 from tests.independent.raw_graph import Place
 from tests.independent.world.kernel_calls import Board
@@ -106,19 +107,27 @@ class OnRails:
         self._look_ahead()
         return self.place + self._ahead[0][1]
 
-    def ends_mm(self, route: Route) -> tuple[int, Mapping[Block, int]] | None:
+    def ends_mm(self, route: Route) -> tuple[int, Map[Block, int]] | None:
         self._look_ahead()
         assert self._here is not None
         path = self.rails.told.paths[route]
         place_mm = path.place_mm(self._here.track, self._here.heading, self._here.mm)
         if place_mm is not None and place_mm > 0:
             entry = self.place - place_mm
+            begins = entry - self._back_mm(path.entry)
         else:
-            found = [run_mm for place, run_mm in self._ahead if place == path.entry]
+            found = [at for at, (place, _) in enumerate(self._ahead) if place == path.entry]
             if not found:
                 return None
-            entry = self.place + found[0]
-        return entry, {block: entry + end for block, end in path.ends_mm.items()}
+            entry = self.place + self._ahead[found[0]][1]
+            back_mm = self._back_mm(self._here) if found[0] == 0 else -self._ahead[found[0] - 1][1]
+            begins = self.place - back_mm
+        return begins, {block: entry + end for block, end in path.ends_mm.items()}
+
+    def _back_mm(self, place: Place) -> int:
+        """How far behind a place the block before it begins, as points lie."""
+        back = ahead(self.rails, Place(place.track, place.mm, -place.heading), self.lies, 2)
+        return next((mm for _, mm in back if mm > 0), 0)
 
     def _look_ahead(self) -> None:
         key = self.place, self.way, self.thrown

@@ -8,7 +8,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
-from kernel.names import Block, Point, Position, Read, Record, Route, Run, Tag, Train
+from kernel.names import Block, Cab, Point, Position, Read, Record, Route, Run, Tag, Train
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
 from tests.independent.world.kernel_calls import BOUNDS, CENTRE, Calls, Message
 from tests.independent.world.rails import Body, Piece, Rails
@@ -19,6 +19,7 @@ Event = tuple[Any, ...]
 LONGEST_AIR = 60
 """So many messages are in the air at most; the oldest is lost then."""
 OVERDUE_MM = 4_000
+NO_CAB = Cab("none yet")
 LINE_SILENT_CYCLES = 20
 MASK = (1 << 64) - 1
 
@@ -68,9 +69,9 @@ class World:
             if any(a[0] == b[0] and a[1] < b[2] and b[1] < a[2] for a in spots for b in spots if a is not b):
                 continue
             body.take_up()
-            train = OnRails(name, self.rails, body, cars, self.calls.new_board(0), self.lies)
+            train = OnRails(name, self.rails, body, cars, self.calls.new_board(0, NO_CAB), self.lies)
             train.way = chance.choice((1, -1))
-            train.board = self.calls.new_board(train.place)
+            train.board = self.calls.new_board(train.place, train.head_cab)
             train.look(self.draw)
             self.trains[name] = train
             return
@@ -148,8 +149,7 @@ class World:
         if not train.whole:
             train.parted_cycles += 1
         demanded = train.demanded or train.parted_cycles > LINE_SILENT_CYCLES
-        front_most = train.place + train.errors_mm[1]
-        if self.calls.supervise(train.board, front_most, speed, demanded, pull and not was):
+        if self.calls.supervise(train.board, train, demanded, pull and not was):
             train.braked_cycles += 1
             if was == 0:
                 return False
@@ -188,6 +188,7 @@ class World:
                 assert tag is not None
                 if self.draw(100) >= self.missed_of_100:
                     self.calls.tail_reads(train.board, train.tail_cab, True, self.calls.genuine(tag), train)
+                    train.demanded = self.calls.is_open(train.board)
             elif kind == "overdue":
                 self.calls.tag_overdue(train.board, train)
                 train.demanded = self.calls.is_open(train.board)
@@ -283,7 +284,7 @@ class World:
 
     def restart_board(self, name: Train) -> bool:
         train = self.trains[name]
-        self.calls.restart_board(train.board, train.front_mm[0])
+        self.calls.restart_board(train.board, train)
         train.demanded = False
         return True
 
@@ -309,6 +310,7 @@ class World:
             train.body.take_up()
             if len(train.body.pieces) != laid:
                 train.look(self.draw)
+            self.calls.follow(train.board, train)
         return True
 
     def lock(self, point: Point) -> bool:
@@ -378,12 +380,12 @@ class World:
         return self._send(("statement", CENTRE, *said))
 
     def confirm(self, train: Train) -> bool:
-        """The second person looks for himself, and confirms what the first said last if it is so."""
+        """The second person looks for himself where the train stands that the first has spoken of."""
         said = self.statements.get(train)
         there = self.trains[train]
-        if said is None or not there.isolated or said[1] != there.board.unit.life or said[3] != there.blocks:
+        if said is None or not there.isolated or said[1] != there.board.unit.life:
             return False
-        return self._send(("confirmed statement", CENTRE, *said))
+        return self._send(("confirmed statement", CENTRE, *said[:3], there.blocks))
 
     # ---- the air
 
