@@ -63,6 +63,11 @@ READINGS: Mapping[str, str] = {
     "dispatching.take_place.is_located": "whether the receiver gives a place",
     "dispatching.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
     "crossing.decide.dues": "what the crossing's own reckoning says of each train, as `due` proves it",
+    "brake_watch.run_a_cycle.known": "whether the unit's odometry claims a range",
+    "brake_demand.decide.may_proceed": "what the unit's own orders say; any is allowed for",
+    "brake_demand.decide.acknowledged": "a button that the driver presses",
+    "speed_limit.run_on.known": "whether the unit's odometry claims a range",
+    "speed_limit.pass_tag.known": "whether the unit's odometry claims a range",
     "speed_limit.pass_tag.told_curve": "stands in the tag",
     "speed_limit.pass_tag.told_turnout": "stands in the tag",
 }
@@ -70,7 +75,6 @@ READINGS: Mapping[str, str] = {
 
 DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
-    "joint.take_end": "the unit takes an end for its brake: that is its decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "interlocking.relay_order": "a unit relays what it decides to relay",
 }
