@@ -80,6 +80,19 @@ DECISIONS: Mapping[str, str] = {
 }
 """Steps refused by the kernel because they are the machine's own deed, by their names' beginnings; why."""
 
+THEOREMS: Mapping[str, tuple[str, str]] = {
+    "joint: the_head_stays_inside_authority": ("braking", "head_stays_inside_authority"),
+}
+"""What one theory assumes of a machine's word because another proves it of that machine: the theory and its claim."""
+
+TOLD: Mapping[str, Mapping[str, str]] = {
+    "joint": {
+        "begins_mm": "where the lists of the train's runs begin: what its unit was given",
+        "block_ends_mm": "where the blocks of those lists end: what its unit was given",
+    },
+}
+"""Fields of a state, by theory, that are what a machine was told, though no record of the kernel holds them; why."""
+
 SIMULATIONS = ("models/simulation", "models/simulator", "models/rides", "fuzz/traffic")
 """Folders in which machines run beside what is really there."""
 
@@ -192,6 +205,7 @@ def noted_in_assumptions(theory: Theory) -> list[str]:
     return [
         f"{theory.name}: {name} rests on {path}"
         for name, predicate in assumed(theory).items()
+        if f"{theory.name}: {name}" not in THEOREMS
         for path in sorted({each for word in own_words(predicate) for each in paths_in(definition_of(word), machine)})
     ]
 
@@ -326,7 +340,7 @@ class Kept:
 
 def truth_into_kernel(theory: Theory) -> list[str]:
     """Find steps that hand what is really there, or history, to a function of the kernel."""
-    kept = Kept(machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | {"radio"})
+    kept = Kept(machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | {"radio", *TOLD.get(theory.name, ())})
     found: list[str] = []
     for name, step in theory.steps.items():
         carried: dict[str, str] = {}
