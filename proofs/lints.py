@@ -43,12 +43,47 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
         ),
     },
     "models/world/on_board.py": {
+        "head_reads": Leave(
+            frozenset(
+                {
+                    "track",
+                    "track.astray",
+                    "track.entered",
+                    "track.facing",
+                    "track.last_read",
+                    "formation.front",
+                    "ground.laid_in",
+                }
+            ),
+            frozenset({"entered", "last_read", "passed", "astray"}),
+            "writes the history on: where a head has been, what it read, and whether that was to come; which cab"
+            " the driver has chosen says which antenna is at the head",
+            frozenset({"track.facing"}),
+        ),
+        "window_passes": Leave(
+            frozenset({"track", "track.astray", "track.unread"}),
+            frozenset({"unread", "astray"}),
+            "writes the history on: that a tag was missed, and that it is overdue now",
+        ),
         "tail_reads": Leave(
-            frozenset({"track", "track.behind", "formation.ahead", "formation.cab", "formation.train_of"}),
-            frozenset({"behind"}),
-            "writes the history `behind` on, from what the unit noted; which car carries which cab's"
-            " antenna is how the train is wired, not where it is",
-            frozenset({"formation.ahead", "formation.cab", "formation.train_of"}),
+            frozenset(
+                {
+                    "track",
+                    "track.behind",
+                    "track.facing",
+                    "track.gone",
+                    "track.passed",
+                    "formation.cab",
+                    "formation.front",
+                    "formation.train_of",
+                    "ground.laid_leaves",
+                }
+            ),
+            frozenset({"behind", "gone", "passed"}),
+            "writes the history on: what the last antenna has passed and gone out of, and what the unit noted; which"
+            " car carries which cab's antenna, and which cab leads, is how the train is wired and driven, not where"
+            " it is",
+            frozenset({"formation.cab", "formation.train_of", "track.facing"}),
         ),
     },
     "models/world/at_a_point.py": {
@@ -59,7 +94,13 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
         ),
     },
     "models/world/radio.py": {},
-    "models/world/evidence.py": {},
+    "models/world/evidence.py": {
+        "unpassed": Leave(
+            frozenset({"track.passed"}),
+            frozenset(),
+            "gives the history `passed` for a head's step to write on; no machine is handed it",
+        ),
+    },
 }
 """The files in which machines are told things, and the functions there that touch what is really there."""
 
@@ -70,8 +111,13 @@ ASKED: Mapping[str, frozenset[str]] = {
             "a_head_runs_no_farther_than_its_brake_lets_it",
             "a_healthy_line_reaches_the_tail",
             "a_located_train_stands_where_it_says",
-            "a_pair_read_in_order_proves_the_exit",
+            "a_missed_tag_is_overdue_before_the_tail_comes",
+            "a_pair_passed_in_order_proves_the_exit",
+            "a_run_is_led_by_its_front",
+            "a_tag_is_read_where_it_lies",
             "a_train_within_its_destination_is_not_beyond",
+            "is_genuine",
+            "is_last",
         }
     ),
     "models/world/at_a_point.py": frozenset({"detection_is_true"}),

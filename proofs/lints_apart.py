@@ -63,6 +63,11 @@ READINGS: Mapping[str, str] = {
     "dispatching.take_place.is_located": "whether the receiver gives a place",
     "dispatching.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
     "crossing.decide.dues": "what the crossing's own reckoning says of each train, as `due` proves it",
+    "brake_watch.run_a_cycle.known": "whether the unit's odometry claims a range",
+    "brake_demand.decide.may_proceed": "what the unit's own orders say; any is allowed for",
+    "brake_demand.decide.acknowledged": "a button that the driver presses",
+    "speed_limit.run_on.known": "whether the unit's odometry claims a range",
+    "speed_limit.pass_tag.known": "whether the unit's odometry claims a range",
     "speed_limit.pass_tag.told_curve": "stands in the tag",
     "speed_limit.pass_tag.told_turnout": "stands in the tag",
 }
@@ -70,11 +75,23 @@ READINGS: Mapping[str, str] = {
 
 DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
-    "joint.take_end": "the unit takes an end for its brake: that is its decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "interlocking.relay_order": "a unit relays what it decides to relay",
 }
 """Steps refused by the kernel because they are the machine's own deed, by their names' beginnings; why."""
+
+THEOREMS: Mapping[str, tuple[str, str]] = {
+    "joint: the_head_stays_inside_authority": ("braking", "head_stays_inside_authority"),
+}
+"""What one theory assumes of a machine's word because another proves it of that machine: the theory and its claim."""
+
+TOLD: Mapping[str, Mapping[str, str]] = {
+    "joint": {
+        "begins_mm": "where the lists of the train's runs begin: what its unit was given",
+        "block_ends_mm": "where the blocks of those lists end: what its unit was given",
+    },
+}
+"""Fields of a state, by theory, that are what a machine was told, though no record of the kernel holds them; why."""
 
 SIMULATIONS = ("models/simulation", "models/simulator", "models/rides", "fuzz/traffic")
 """Folders in which machines run beside what is really there."""
@@ -188,6 +205,7 @@ def noted_in_assumptions(theory: Theory) -> list[str]:
     return [
         f"{theory.name}: {name} rests on {path}"
         for name, predicate in assumed(theory).items()
+        if f"{theory.name}: {name}" not in THEOREMS
         for path in sorted({each for word in own_words(predicate) for each in paths_in(definition_of(word), machine)})
     ]
 
@@ -322,7 +340,7 @@ class Kept:
 
 def truth_into_kernel(theory: Theory) -> list[str]:
     """Find steps that hand what is really there, or history, to a function of the kernel."""
-    kept = Kept(machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | {"radio"})
+    kept = Kept(machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | {"radio", *TOLD.get(theory.name, ())})
     found: list[str] = []
     for name, step in theory.steps.items():
         carried: dict[str, str] = {}

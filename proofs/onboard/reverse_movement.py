@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from kernel.onboard import reverse_movement as machine
 from models.onboard.reverse_movement import Rolling, Wheel, bounds_are_not_negative, locate_anew, run_a_cycle
 from proofs.theory import Theory, by_name
 
 
 def the_train_was_located(site: Wheel, system: Rolling) -> bool:
     """At the start nothing has been read (T8)."""
-    return system.movement == machine.LOCATED and not system.counts and not system.rolled_back
+    return not system.movement.reversed and not system.counts and not system.rolled_back
 
 
 def a_train_that_rolls_back_too_far_is_found(site: Wheel, system: Rolling) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from kernel.authority import may_leave, may_proceed
+from kernel.change_of_ends import change_ends
 from kernel.first_loop import take_offer, take_permit, take_standing
 from kernel.names import Cab, Route, Run, Serial, Tag, UnitLife
 from kernel.second_loop import note_head_read, note_window_passed
@@ -20,8 +21,9 @@ HEAD, OTHER = Cab("head"), Cab("other")
 
 
 def offered() -> Unit:
-    """A unit in W, told under which run it stands, with the list of tags to P."""
-    return take_offer(LAYOUT, take_standing(small_start(small_site()).units[T1], STANDING), RUN)
+    """A unit in W, its driver at the head, told under which run it stands, with the list of tags to P."""
+    unit = change_ends(small_start(small_site()).units[T1], HEAD)
+    return take_offer(LAYOUT, take_standing(unit, STANDING), RUN)
 
 
 def permitted() -> Unit:
@@ -71,9 +73,25 @@ def test_a_tag_that_does_not_come_opens_the_loop() -> None:
 
 
 def test_the_same_tag_read_again_at_once_is_one_reading() -> None:
-    """By the same cab; the other cab reads it anew, and it is not expected there (T5)."""
-    assert may_proceed(reads(permitted(), OUT, OUT), RUN)
-    assert not may_proceed(reads(reads(permitted(), OUT), OUT, cab=OTHER), RUN)
+    """By the same cab; another that leads reads it anew, and it is not expected there (T5)."""
+    unit = reads(permitted(), OUT)
+    assert may_proceed(reads(unit, OUT), RUN)
+    assert not may_proceed(reads(change_ends(unit, OTHER), OUT, cab=OTHER), RUN)
+
+
+def test_what_a_cab_reads_that_does_not_lead_is_the_tails() -> None:
+    """It neither begins a run nor opens the loop; before the driver has chosen, no cab leads (T2, T5)."""
+    unit = permitted()
+    assert reads(unit, OUT, IN, cab=OTHER) == unit
+    unit = replace(unit, leading=None)
+    assert reads(unit, OUT, IN) == unit
+
+
+def test_a_run_is_led_by_one_cab_throughout() -> None:
+    """Whoever changes ends between the two tags reads the second unexpected (T2, T5)."""
+    unit = change_ends(reads(permitted(), OUT), OTHER)
+    assert may_proceed(unit, RUN)
+    assert not may_proceed(reads(unit, IN, cab=OTHER), RUN)
 
 
 def test_an_open_loop_stays_open() -> None:

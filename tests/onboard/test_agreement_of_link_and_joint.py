@@ -306,7 +306,8 @@ def agree(name: str, wrong: Sources | None = None, wrong_in_logic: Sources | Non
             assert any(can_fail(each.claim) for each in lifter.obligations), f"{name}: an error without obligation"
             seen[Exception] += 1
             continue
-        scope.numerals = sorted({*ints, *(expected if isinstance(expected, frozenset) else ())})
+        if isinstance(expected, frozenset):
+            scope.numerals = sorted({*ints, *gather(kind_of_type(result), expected, {}).get(INT, ())})
         found = concretise(None, scope, lifted, result)
         assert found == expected, f"{name}{arguments}: {expected}, lifted {found}"
         if result is bool and number % WITH_QUANTIFIERS == 0:

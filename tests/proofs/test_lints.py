@@ -60,7 +60,7 @@ def test_the_kernel_knows_nothing_of_the_world(path: Path) -> None:
 
 
 ASSUMED = "from models.world.assumptions import"
-BEHIND = "track=replace(system.track, behind=behind)"
+BEHIND = "            behind=behind,\n"
 IF_GONE = "    if gone:\n        return system\n"
 ECHO = "    if run not in system.radio.echoes:\n        return system\n"
 
@@ -76,8 +76,8 @@ ECHO = "    if run not in system.radio.echoes:\n        return system\n"
         (CENTRE, "(system.track, under=under)", "(system.track, under=under, at={})", "writes more"),
         (CENTRE, "from kernel import", f"{ASSUMED} rails_lead\nfrom kernel import", "asks rails_lead"),
         (CENTRE, "def accounted_for", "def written_down", "has leave and is not there"),
-        (BOARD, BEHIND, "track=replace(system.track, at={})", "writes track"),
-        (BOARD, BEHIND, "track=something", "writes track"),
+        (BOARD, BEHIND, "            at={},\n", "writes track"),
+        (BOARD, "track=replace(\n            system.track,\n            behind", "track=made(\n            behind", "writes track"),
         (BOARD, "    unit = tail", f"    gone = system.track.behind\n{IF_GONE}    unit = tail", "decides"),
         (POINT, "track=replace(system.track, lies=", "track=replace(system.track, at=", "writes track"),
         (POINT, f"{ASSUMED} detection_is_true", f"{ASSUMED} detection_is_true, rails_lead", "asks rails_lead"),

@@ -39,7 +39,7 @@ class Train(Play[Vehicle, Approach]):
         """Begin."""
         super().__init__(THEORY, SITE, standing() if system is None else system)
         head_mm, end_mm = self.system.head_nm // NM_A_MM, self.system.brake.end_mm
-        self.step("take_end", front_most_mm=head_mm, speed_most_mm_s=0, end_mm=end_mm)
+        self.step("take_end", front_most_mm=head_mm, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=end_mm)
         assert self.system.brake == Brake(applied=True, end_mm=end_mm)
 
     def cycle(
