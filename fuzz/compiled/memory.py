@@ -46,7 +46,7 @@ EVENT_WORDS = 64
 SELDOM_SENT = frozenset(
     (
         *("relayed_orders", "enquiries", "relayed_enquiries", "confirmed", "challenges", "terminal_lives"),
-        *("statements", "confirmed_statements", "recalls", "returns"),
+        *("statements", "confirmed_statements", "recalls", "returns", "stops"),
     )
 )
 """Messages that are one part together."""
