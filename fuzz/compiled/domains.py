@@ -94,7 +94,7 @@ def domains(site: Site) -> Domains:
         value = getattr(site, name)
         _collect(RecordKind(type(value)), value, found)
     for name, values in vars(site.formation).items():
-        if name in ("train_of", "cab"):
+        if name in ("train_of", "cab", "carried_by"):
             _collect(fields_of(Formation)[name], values, found)
     names = {name: tuple(sorted(values)) for name, values in found.items()}
     return Domains(names, {name: {each: at for at, each in enumerate(values)} for name, values in names.items()})

@@ -46,7 +46,7 @@ EVENT_WORDS = 64
 SELDOM_SENT = frozenset(
     (
         *("relayed_orders", "enquiries", "relayed_enquiries", "confirmed", "challenges", "terminal_lives"),
-        *("statements", "confirmed_statements", "recalls", "returns"),
+        *("statements", "confirmed_statements", "recalls", "returns", "stops"),
     )
 )
 """Messages that are one part together."""
@@ -66,6 +66,7 @@ BY_ROUTE = TupleKind((kind_of_type(Route), kind_of_type(Train)))
 FORMATION: Mapping[str, Kind] = {
     "train_of": fields_of(Formation)["train_of"],
     "cab": fields_of(Formation)["cab"],
+    "carried_by": fields_of(Formation)["carried_by"],
     "front": MapKind(BY_ROUTE, kind_of_type(Cab)),
     "last": MapKind(BY_ROUTE, kind_of_type(Car)),
     "ahead": MapKind(BY_ROUTE, MapKind(kind_of_type(Car), kind_of_type(frozenset[Car]))),
@@ -199,7 +200,7 @@ def _fixed(site: Site, formation: Mapping[str, Any]) -> Iterator[tuple[str, Kind
 def _formation(site: Site, known: Domains) -> dict[str, Any]:
     """The formation, what it says of runs by their routes and trains."""
     formation = site.formation
-    made: dict[str, Any] = {"train_of": formation.train_of, "cab": formation.cab} | {name: {} for name in OF_A_RUN}
+    made: dict[str, Any] = {name: {} if name in OF_A_RUN else getattr(formation, name) for name in FORMATION}
     for route in known.names["Route"]:
         for train in known.names["Train"]:
             run = Run(Serial(0), Train(train), 0, Route(route))  # type: ignore[arg-type]

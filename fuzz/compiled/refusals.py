@@ -46,8 +46,11 @@ def recover_point(site: Site, system: System, point: Point) -> Refusal | None:
 def note_statement_confirmed(
     site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run
 ) -> Refusal | None:
-    """Why a supervised train is not accounted for (T8)."""
-    return supervised_refusal(site.layout, system.centre, train, life, epoch, run)
+    """Why a supervised train is not accounted for where the second person has seen it, if he has (T8)."""
+    blocks = system.radio.confirmed_statements.get((train, life, epoch))
+    if blocks is None:
+        return None
+    return supervised_refusal(site.layout, system.centre, train, life, epoch, blocks, run)
 
 
 REFUSALS: Mapping[str, Callable[..., Refusal | None]] = {

@@ -138,10 +138,13 @@ class Service:
         return False
 
     def _is_located(self, told: str) -> None:
-        front_mm = round(self.vehicle.front_mm)
-        self.vehicle.board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
+        """Staff locates it by the tag or post beside it; it has not turned, so its lists stay as they are."""
+        front_mm, board = round(self.vehicle.front_mm), self.vehicle.board
+        lists = board.lists
+        board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
+        board.lists = lists
         self.vehicle.at_rest_cycles = 0
-        self._survey(*(run for run in (self.base, self.run, self.onward) if run is not None))
+        self.vehicle.look_again()
         self.diary.note(STAFF, self.train, told)
 
     def _rests(self) -> None:
