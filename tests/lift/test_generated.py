@@ -8,7 +8,8 @@ from random import Random
 import pytest
 
 from proofs.lift import FiniteScope
-from tests.lift.generated import HEAD, function
+from tests.lift.generated import function
+from tests.lift.generated_types import HEAD
 from tests.lift.harbour import UNIVERSE
 from tests.lift.written import Compared, Disagreement, Draw, module_of
 
