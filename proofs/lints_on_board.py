@@ -69,8 +69,8 @@ def modules_of(functions: Iterable[Any]) -> list[ModuleType]:
 
 
 def world(theory: Theory) -> list[ModuleType]:
-    """Give the modules of a theory's world."""
-    return modules_of([*theory.steps.values(), *theory.premises.values()])
+    """Give the modules of a theory's world: of its steps, its premises and its state."""
+    return modules_of([*theory.steps.values(), *theory.premises.values(), theory.system])
 
 
 def own(module: ModuleType) -> dict[str, Any]:

@@ -114,7 +114,8 @@ def world_page() -> str:
             if asked:
                 lines += ["", "Assumed: " + ", ".join(f"`{one}`" for one in asked) + "."]
     for name, theory in OTHERS.items():
-        lines += ["", f"## {name}", "", *(plain(inspect.getdoc(module) or "") for module in world(theory))]
+        said = [plain(inspect.getdoc(module) or "") for module in world(theory)]
+        lines += ["", f"## {name}", "", "\n\n".join(said)]
         for step, function in theory.steps.items():
             event = ", ".join(event_types(function))
             lines += ["", f"### {name}.{step}({event})", "", " ".join(plain(inspect.getdoc(function) or "").split())]

@@ -17,6 +17,7 @@ from typing import Any, TypeAlias
 from fuzz.compiled.contents import TableMap, content
 from fuzz.compiled.domains import Domains
 from fuzz.compiled.emitter import Emitter
+from fuzz.compiled.loops import key_names, target_names
 from fuzz.compiled.memory import OF_A_RUN, Memory
 from fuzz.compiled.sets import (
     ByRun,
@@ -443,8 +444,8 @@ class _Text:
 
         parts = given.elts if isinstance(given, ast.Tuple) else [given]
         named = {part.id for part in parts if isinstance(part, ast.Name)}
-        keys = {name for each in generators for name in _key_names(each)}
-        if len(named) < len(parts) or not keys <= named or named & (_target_names(generators) - keys):
+        keys = {name for each in generators for name in key_names(each)}
+        if len(named) < len(parts) or not keys <= named or named & (target_names(generators) - keys):
             return Comprehension(loops, None)
         return Comprehension(loops, lambda element: self._direct(given, generators, env, element)[0])
 
@@ -454,7 +455,7 @@ class _Text:
         """Whether the turn that an element names is there; and the names of that turn."""
         inner: Env = {**env, **self.bound(given, element)}
         parts = given.elts if isinstance(given, ast.Tuple) else [given]
-        outer = {part.id for part in parts if isinstance(part, ast.Name)} - _target_names(generators)
+        outer = {part.id for part in parts if isinstance(part, ast.Name)} - target_names(generators)
         condition = both(*(equal(inner[name], self._name(ast.Name(name), env)) for name in sorted(outer)))
         for each in generators:
             collection, pairs = self._looped(each.iter, inner)
@@ -488,17 +489,3 @@ class _Text:
 
 def _is_empty(value: Any) -> bool:
     return (isinstance(value, Literal) and not value.elements) or (isinstance(value, Entries) and not value.entries)
-
-
-def _target_names(generators: Sequence[ast.comprehension]) -> set[str]:
-    """Every name that some loops bind."""
-    return {node.id for each in generators for node in ast.walk(each.target) if isinstance(node, ast.Name)}
-
-
-def _key_names(generator: ast.comprehension) -> set[str]:
-    """The names that tell one turn of a loop from another: of keys with values, the key's."""
-    target = generator.target
-    pairs = isinstance(generator.iter, ast.Call) and isinstance(generator.iter.func, ast.Attribute)
-    if pairs and generator.iter.func.attr == "items" and isinstance(target, ast.Tuple):  # type: ignore[attr-defined]
-        target = target.elts[0]
-    return {node.id for node in ast.walk(target) if isinstance(node, ast.Name)}

@@ -5,15 +5,13 @@ from __future__ import annotations
 from kernel.alarm.distance import train_off_um, worker_off_um
 from kernel.alarm.tone import Tone
 from models.alarm import alarm_tone as world
-from models.alarm.alarm_tone import (
-    Railway,
-    Worksite,
+from models.alarm import tone_assumptions as assumed
+from models.alarm.tone_assumptions import (
     a_wrong_fix_is_contradicted,
-    is_in_a_stretch,
-    is_report,
     no_train_is_longer_than_written,
     no_train_turns_sooner,
 )
+from models.alarm.worksite import Railway, Worksite, is_in_a_stretch, is_list_fresh, is_report
 from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
 
@@ -161,7 +159,7 @@ def no_train_of_the_line_is_longer(site: Railway, system: Worksite) -> bool:
 
 def a_fresh_list_has_every_train(site: Railway, system: Worksite) -> bool:
     """While the list is fresh, every train of the line is on it (A1)."""
-    return not world.is_list_fresh(site, system.told) or all(train in system.told.trains for train in system.bodies)
+    return not is_list_fresh(site, system.told) or all(train in system.told.trains for train in system.bodies)
 
 
 INITIAL = (nothing_was_told,)
@@ -185,7 +183,7 @@ INVARIANTS = (
     no_train_of_the_line_is_longer,
     a_fresh_list_has_every_train,
 )
-PREMISES = (world.the_alarm_limit_is_within_an_hour, world.the_error_is_not_negative)
+PREMISES = (assumed.the_alarm_limit_is_within_an_hour, assumed.the_error_is_not_negative)
 STEPS = (
     world.come,
     world.leave,

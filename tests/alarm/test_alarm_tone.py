@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import NOTHING_KNOWN, Display, Handset, Known, Tone, Train
-from models.alarm.alarm_tone import approaches_within
+from models.alarm.worksite import approaches_within
 from proofs.alarm.witnesses.alarm_tone import WITNESSES
 from proofs.alarm.witnesses.worksite import KM, REGISTER, STABLED, Day
 

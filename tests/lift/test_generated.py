@@ -8,7 +8,8 @@ from random import Random
 import pytest
 
 from proofs.lift import FiniteScope
-from tests.lift.generated import HEAD, function
+from tests.lift.generated import function
+from tests.lift.generated_types import HEAD
 from tests.lift.harbour import UNIVERSE
 from tests.lift.written import Compared, Disagreement, Draw, module_of
 
@@ -39,5 +40,5 @@ def test_a_sample_agrees_with_python(first: int, tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("first", range(SAMPLE, ALL, CHUNK * 4))
 def test_all_agree_with_python(first: int, tmp_path: Path) -> None:
-    for seed in range(first, first + CHUNK * 4):
-        compare(seed, tmp_path)
+    failing = [compare(seed, tmp_path) for seed in range(first, first + CHUNK * 4)]
+    assert sum(each == 0 for each in failing) > CHUNK * 4 // 3, "too few functions whose values were compared"

@@ -19,8 +19,8 @@ from kernel.alarm.tone import (
     Display,
     Tone,
 )
-from models.alarm.alarm_tone import Body, Heard, Railway, gap_um, has_departed
 from models.alarm.line import BOUNDS, FRESH
+from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed
 from proofs.alarm.witnesses import one_decision
 from proofs.alarm.witnesses.worksite import (
     ALARM,

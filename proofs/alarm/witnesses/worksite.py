@@ -26,8 +26,8 @@ from kernel.alarm.tone import (
     Tone,
     Train,
 )
-from models.alarm.alarm_tone import Body, Heard, Railway, Told, Worksite
 from models.alarm.line import BOUNDS, FRESH
+from models.alarm.worksite import Body, Heard, Railway, Told, Worksite
 from proofs.alarm.alarm_tone import THEORY
 from proofs.onboard.witnesses.play import Play
 

@@ -1,0 +1,151 @@
+"""What is assumed of trains, the worker, their fixes and the two sources of the alarm tone (A1 to A3, A5)."""
+
+from __future__ import annotations
+
+from kernel.alarm.distance import Direction, TrainFix, WorkerFix
+from kernel.alarm.tone import Display, Train
+from models.alarm.worksite import (
+    NOTHING_TOLD,
+    Body,
+    OfTrain,
+    Railway,
+    Told,
+    Worksite,
+    is_list_fresh,
+    is_report,
+    is_shown,
+    is_told_alike,
+    is_where_shown,
+    shunts,
+)
+from models.measures import UM_A_MM, apart
+
+# ---- premises
+
+
+def the_alarm_limit_is_within_an_hour(site: Railway) -> bool:
+    """What counts as fresh is within the ranges of reports (A1)."""
+    return site.register.fresh.server_ms <= 3_600_000
+
+
+def the_error_is_not_negative(site: Railway) -> bool:
+    """The error of a train's fix is written as a way, not below zero (A1)."""
+    return site.register.bounds.train_error_mm >= 0
+
+
+# ---- assumptions
+
+
+def no_train_is_longer_than_written(site: Railway, body: Body) -> bool:
+    """Both ends of a train are no farther from its antenna than the greatest length of the line (A1)."""
+    length_mm = site.register.bounds.length_mm
+    return 0 <= body.below_mm <= length_mm and 0 <= body.above_mm <= length_mm
+
+
+def the_train_keeps_the_lines_speed(site: Railway, from_um: int, to_um: int, elapsed_ms: int) -> bool:
+    """No train is faster than the line's greatest speed, of which the written bound has a margin for clocks (A1)."""
+    return apart(to_um, from_um) <= site.register.bounds.train_mm_s * elapsed_ms
+
+
+def all_trains_keep_the_lines_speed(site: Railway, system: Worksite, elapsed_ms: int) -> bool:
+    """None is faster, while time passes (A1)."""
+    return all(
+        the_train_keeps_the_lines_speed(site, body.antenna_um, body.next_um, elapsed_ms)
+        for _train, body in system.bodies.items()
+    )
+
+
+def all_trains_run_as_they_head(system: Worksite) -> bool:
+    """A train gets nowhere but the way that it heads; one that turns takes a step each way (A3)."""
+    return all(
+        (body.next_heading != Direction.DOWN or body.next_um >= body.antenna_um)
+        and (body.next_heading != Direction.UP or body.next_um <= body.antenna_um)
+        for _train, body in system.bodies.items()
+    )
+
+
+def the_worker_keeps_a_walking_speed(site: Railway, from_um: int, to_um: int, elapsed_ms: int) -> bool:
+    """No worker moves along the line faster than is written (A1)."""
+    return apart(to_um, from_um) <= site.register.bounds.worker_mm_s * elapsed_ms
+
+
+def a_train_fix_is_within_its_error(site: Railway, fix: TrainFix, at_um: int) -> bool:
+    """A right fix was within the error of where the antenna was (A1)."""
+    return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.register.bounds.train_error_mm
+
+
+def a_worker_fix_is_within_its_error(site: Railway, fix: WorkerFix, at_um: int) -> bool:
+    """A fix that is one was within the error of where the handset was; nothing contradicts a wrong one (A1)."""
+    return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.register.bounds.worker_error_mm
+
+
+def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, is_right: bool) -> bool:
+    """A wrong fix that fits agrees with no fresh display, nor puts a train that is not on it where trains shunt (A2).
+
+    So GPS does not err by less than the display can tell.  That is not true of nature: under a roof or in a cutting a
+    fix is off by 100 m, and the display shows a stretch of some km.  It cannot be had for less: only these two sources
+    tell of a train, so what both tell alike is believed, and a yard has one source alone.  The error as written has to
+    be one that is measured on the line, and stretches where it is exceeded are registered.
+
+    It says nothing of a wrong fix that agrees with no display, because there is none, nor of one that jumps from the
+    one before: then no tone is mild.
+    """
+    if is_right or not is_report(of.fix.place_mm, of.fix.age_ms):
+        return True
+    if is_shown(site, of):
+        return not is_where_shown(site, of)
+    return not shunts(site, of)
+
+
+def no_train_turns_sooner(site: Railway, of: OfTrain, heading: Direction) -> bool:
+    """A train on the display that was told to run one way does not run the other before it can have turned (A3).
+
+    One that shunts, and so is not on the display, may turn at any time (A5).
+    """
+    fix = of.fix
+    if not is_told_alike(site, of) or not fix.is_running:
+        return True
+    if fix.age_ms > site.register.bounds.turning_ms:
+        return True
+    return fix.direction in (Direction.UNKNOWN, heading)
+
+
+def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um: int) -> bool:
+    """The antenna was in the stretch that the display shows, within the error of its boundaries (A2)."""
+    error_mm = site.register.display_error_mm
+    return UM_A_MM * (display.from_mm - error_mm) <= at_um <= UM_A_MM * (display.to_mm + error_mm)
+
+
+def sources_do_not_fail_together(site: Railway, system: Worksite, told: Told) -> bool:
+    """As time passes, no display falls silent while a wrong fix puts its train where trains shunt (A2, A5)."""
+    return all(
+        a_wrong_fix_is_contradicted(site, told.trains[train], body.fix_is_right)
+        for train, body in system.bodies.items()
+        if train in told.trains
+    )
+
+
+def no_train_turns_as_time_passes(site: Railway, system: Worksite, told: Told) -> bool:
+    """None does what no train does (A3)."""
+    return all(
+        no_train_turns_sooner(site, told.trains[train], body.next_heading)
+        for train, body in system.bodies.items()
+        if train in told.trains
+    )
+
+
+def the_list_is_whole(site: Railway, system: Worksite) -> bool:
+    """A list of the server has every train that is on the line: each is on the display or has GPS (A1, A2)."""
+    return all(train in system.told.trains for train in system.bodies)
+
+
+def the_list_names_it_before_it_comes(site: Railway, system: Worksite, train: Train) -> bool:
+    """No train comes onto the line, nor its reports, before the list has it, unless the list is not fresh (A1, A2)."""
+    if train in system.told.trains:
+        return system.told.trains[train] == NOTHING_TOLD
+    return not is_list_fresh(site, system.told)
+
+
+def only_what_has_left_is_off_the_list(site: Railway, system: Worksite, train: Train) -> bool:
+    """The server takes no train off its list that is on the line (A2)."""
+    return train not in system.bodies
