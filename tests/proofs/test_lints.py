@@ -77,7 +77,12 @@ ECHO = "    if run not in system.radio.echoes:\n        return system\n"
         (CENTRE, "from kernel import", f"{ASSUMED} rails_lead\nfrom kernel import", "asks rails_lead"),
         (CENTRE, "def accounted_for", "def written_down", "has leave and is not there"),
         (BOARD, BEHIND, "            at={},\n", "writes track"),
-        (BOARD, "track=replace(\n            system.track,\n            behind", "track=made(\n            behind", "writes track"),
+        (
+            BOARD,
+            "track=replace(\n            system.track,\n            behind",
+            "track=made(\n            behind",
+            "writes track",
+        ),
         (BOARD, "    unit = tail", f"    gone = system.track.behind\n{IF_GONE}    unit = tail", "decides"),
         (POINT, "track=replace(system.track, lies=", "track=replace(system.track, at=", "writes track"),
         (POINT, f"{ASSUMED} detection_is_true", f"{ASSUMED} detection_is_true, rails_lead", "asks rails_lead"),

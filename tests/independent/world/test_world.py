@@ -205,11 +205,6 @@ def test_a_layout_is_without_hazard(layout: str) -> None:
     assert tally.moved_mm > 0
 
 
-@pytest.mark.xfail(
-    raises=Hazard,
-    strict=True,
-    reason="the exit of the tail frees a block that the head has come into anew",
-)
 def test_a_train_nearly_as_long_as_its_ring_keeps_the_block_that_it_comes_round_into() -> None:
     """Its tail leaves a block while its head is in it already, from the other side."""
     world = World(replace(told("ring", 1), lengths_mm=(450_000, 480_000, 540_000)), Calls, 1, 128)
