@@ -301,8 +301,12 @@ KEPT: Mapping[str, str] = {
     " released",
     "tags_of_a_boundary_are_partners": "is for service: without a pair at the end of a block its release could have"
     " no evidence; and it gives the premise `tags_lie_as_planned` its sense",
+    "the_last_car_is_behind_all_others": "gives the assumption `a_pair_passed_in_order_proves_the_exit` its sense: the"
+    " antenna of a car that others are behind proves nothing about them",
+    "a_cab_is_on_one_car": "gives the assumption `a_healthy_line_reaches_the_tail` its sense: of two antennas by one"
+    " name the unit could not say which of them is the last",
 }
-"""Axioms that no proof uses, and why they are asked of a layout nevertheless."""
+"""Axioms and premises that no proof uses, and why they are asked of a site nevertheless."""
 
 
 def script_faults(
