@@ -36,7 +36,6 @@ from proofs.witnesses.stations import (
     standing_at,
 )
 
-
 BETWEEN = Car("between a1 and a2")
 """A third car of T1, with a cab of its own that leads in neither direction."""
 
