@@ -99,9 +99,9 @@ def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Sce
     """The tags at the end of the start block are a second check: a begun run is not given back (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     setting.recall(scenario, run)
     scenario.does("recall", run=run)
-    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
     running.rest(scenario, run)
