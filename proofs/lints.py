@@ -302,7 +302,7 @@ KEPT: Mapping[str, str] = {
     "tags_of_a_boundary_are_partners": "is for service: without a pair at the end of a block its release could have"
     " no evidence; and it gives the premise `tags_lie_as_planned` its sense",
 }
-"""Axioms that no proof uses, and why they are asked of a layout nevertheless."""
+"""Axioms and premises that no proof uses, and why they are asked of a site nevertheless."""
 
 
 def script_faults(

@@ -340,9 +340,8 @@ class Kept:
 
 def truth_into_kernel(theory: Theory) -> list[str]:
     """Find steps that hand what is really there, or history, to a function of the kernel."""
-    kept = Kept(
-        machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | {"radio", *TOLD.get(theory.name, ())}
-    )
+    told = {"radio", *TOLD.get(theory.name, ())}
+    kept = Kept(machine_fields(theory.system) | frozenset(event_types_of_site(theory)) | told)
     found: list[str] = []
     for name, step in theory.steps.items():
         carried: dict[str, str] = {}

@@ -99,10 +99,12 @@ def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Sce
     """The tags at the end of the start block are a second check: a begun run is not given back (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     setting.recall(scenario, run)
     scenario.does("recall", run=run)
     running.head_passes(scenario, run, WEST, THROAT)
     scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    running.rest(scenario, run)
     scenario.does("start_rolling", run=run)
     return scenario
 
@@ -112,6 +114,7 @@ def a_recall_of_a_run_that_has_begun_changes_nothing(steps: Steps) -> Scenario:
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     setting.recall(scenario, run)
+    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     scenario.refuses("recall", run=run)
     return scenario
@@ -237,6 +240,7 @@ def a_run_that_was_given_back_speaks_for_no_point_below(steps: Steps) -> Scenari
     setting.recall(scenario, older)
     setting.return_it(scenario, older)
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     scenario.system = replace(scenario.system, radio=setting_again)
     scenario.refuses("relay_order", run=older, point=P1, life=life)

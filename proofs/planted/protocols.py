@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from kernel import release, restarts, tail_evidence, terminal
@@ -16,6 +16,7 @@ from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
+    CARS,
     ONE,
     P1,
     PASSING_PLACE,
@@ -35,6 +36,9 @@ from proofs.witnesses.stations import (
     standing_at,
 )
 
+BETWEEN = Car("between a1 and a2")
+"""A third car of T1, with a cab of its own that leads in neither direction."""
+
 
 @dataclass(frozen=True)
 class Protocol:
@@ -43,6 +47,7 @@ class Protocol:
     ``broken``: the safety claim that the fault breaks.
     ``stopped_at``: the step at which the true kernel does not go along.
     ``half``: only a part of the fault, and the step at which the rest of the kernel still stops it.
+    ``cars``: the cars of each train, in the order in which they run eastwards.
     """
 
     fault: Fault
@@ -52,10 +57,11 @@ class Protocol:
     stopped_at: str
     half: Mapping[Code, Code] = field(default_factory=dict)
     half_stopped_at: str = ""
+    cars: Mapping[Train, Sequence[Car]] = field(default_factory=lambda: CARS)
 
     def trace(self, instead: Mapping[Code, Code]) -> Trace:
         """Play the script with these functions replaced."""
-        site = site_of(PASSING_PLACE)
+        site = site_of(PASSING_PLACE, self.cars)
         system = standing_at(site, {car: frozenset({block}) for car, block in self.at.items()}, {})
         sources = Fault("", "", "", instead).sources
         return play(self.script, Player(sources, self.broken, site, system))
@@ -129,7 +135,7 @@ def _comes_back_unoccupied(player: Player) -> None:
 
 
 def _reads_elsewhere_than_at_the_tail(player: Player) -> None:
-    """T1 parts; a1 runs on to one and its rear antenna poses as the tail, with a2 still in the west."""
+    """T1 parts behind its second car, whose antenna poses as the tail; a2 is still in the west."""
     standing = _ready(player)
     run = setting.set_route(player, T1, WEST_TO_ONE, standing[T1])
     running.roll(player, run)
@@ -138,11 +144,13 @@ def _reads_elsewhere_than_at_the_tail(player: Player) -> None:
         running.head_passes(player, run, block, target)
         running.enters(player, run, A1, block, target)
         running.leaves(player, A1, block)
+        running.follows(player, BETWEEN, A1, target)
+        running.leaves(player, BETWEEN, block)
         tags = running.pair(player.site.layout, block, target)
         reads = [running.genuine(player, tag) for tag in tags]
         for read in reads:
-            cab = player.site.formation.cab[A1]
-            event = {"run": run, "car": A1, "cab": cab, "healthy": False, "read": read}
+            cab = player.site.formation.cab[BETWEEN]
+            event = {"run": run, "car": BETWEEN, "cab": cab, "healthy": False, "read": read}
             player.tries("tail_reads", **event)
         for held_for in (run, standing[T1]) if block == WEST else (run,):
             report = {"run": held_for, "block": block, "left": reads[0], "entered": reads[1]}
@@ -212,13 +220,14 @@ PROTOCOLS: tuple[Protocol, ...] = (
     Protocol(
         Fault(
             "evidence from an antenna that is not at the tail",
-            "The train has parted; the antenna behind the first car reads on, and the rest stands in the block freed.",
+            "The train has parted; the antenna of its middle car reads on, and the last stands in the block freed.",
             "tail_reads",
             {tail_evidence.note_tail_read: weakened.tail_over_a_broken_line},
         ),
-        {A1: WEST, A2: WEST, B1: TWO},
+        {A1: WEST, BETWEEN: WEST, A2: WEST, B1: TWO},
         _reads_elsewhere_than_at_the_tail,
         "no_two_trains_in_a_block",
         "send_tail_report",
+        cars={**CARS, T1: (A1, BETWEEN, A2)},
     ),
 )

@@ -340,8 +340,8 @@ def imported(text: str) -> Imported:
     return station
 
 
-def site_of(text: str) -> Site:
-    """The station with its two trains."""
+def site_of(text: str, cars: Mapping[Train, Sequence[Car]] = CARS) -> Site:
+    """The station with its two trains, or with others."""
     station = imported(text)
     layout, ground = with_continuations(station.layout, station.ground)
     along = directions(layout, ground)
@@ -350,7 +350,7 @@ def site_of(text: str) -> Site:
         layout=layout,
         records=station.records,
         ground=ground,
-        formation=formation(CARS, lambda route: along.get(route, leading) == leading),
+        formation=formation(cars, lambda route: along.get(route, leading) == leading),
     )
 
 

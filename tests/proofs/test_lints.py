@@ -61,6 +61,7 @@ def test_the_kernel_knows_nothing_of_the_world(path: Path) -> None:
 
 ASSUMED = "from models.world.assumptions import"
 BEHIND = "            behind=behind,\n"
+HISTORY = f"track=replace(\n            system.track,\n{BEHIND}"
 IF_GONE = "    if gone:\n        return system\n"
 ECHO = "    if run not in system.radio.echoes:\n        return system\n"
 
@@ -77,12 +78,7 @@ ECHO = "    if run not in system.radio.echoes:\n        return system\n"
         (CENTRE, "from kernel import", f"{ASSUMED} rails_lead\nfrom kernel import", "asks rails_lead"),
         (CENTRE, "def accounted_for", "def written_down", "has leave and is not there"),
         (BOARD, BEHIND, "            at={},\n", "writes track"),
-        (
-            BOARD,
-            "track=replace(\n            system.track,\n            behind",
-            "track=made(\n            behind",
-            "writes track",
-        ),
+        (BOARD, HISTORY, f"track=made(\n{BEHIND}", "writes track"),
         (BOARD, "    unit = tail", f"    gone = system.track.behind\n{IF_GONE}    unit = tail", "decides"),
         (POINT, "track=replace(system.track, lies=", "track=replace(system.track, at=", "writes track"),
         (POINT, f"{ASSUMED} detection_is_true", f"{ASSUMED} detection_is_true, rails_lead", "asks rails_lead"),
