@@ -152,7 +152,7 @@ def some_run(memory: Any, desk: Any) -> Any:
 
 @compiled
 def some_name(desk: Any, kind: Any) -> Any:
-    """Some identifier of a type of which the site has so many, or a truth value."""
+    """Some identifier of a type that the site has so many of, a truth value, or 0 or 1 mm."""
     bound = 2
     if kind == IS_TRAIN:
         bound = desk[TRAINS]

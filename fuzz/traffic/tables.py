@@ -106,8 +106,9 @@ CONFIRM_STATEMENT = NUMBERS["confirm_statement"]
     IS_CAR,
     IS_CAB,
     IS_BOOL,
+    IS_MM,
     IS_BLOCKS,
-) = range(14)
+) = range(15)
 _TYPES: Mapping[Any, tuple[int, ...]] = {
     Run: (IS_RUN,),
     Train: (IS_TRAIN,),
@@ -123,6 +124,7 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Car: (IS_CAR,),
     Cab: (IS_CAB,),
     bool: (IS_BOOL,),
+    int: (IS_MM,),
 }
 
 
