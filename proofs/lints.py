@@ -69,6 +69,7 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
             frozenset(
                 {
                     "track",
+                    "track.astray",
                     "track.behind",
                     "track.facing",
                     "track.gone",
@@ -79,7 +80,7 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
                     "ground.laid_leaves",
                 }
             ),
-            frozenset({"behind", "gone", "passed"}),
+            frozenset({"behind", "gone", "passed", "astray"}),
             "writes the history on: what the last antenna has passed and gone out of, and what the unit noted; which"
             " car carries which cab's antenna, and which cab leads, is how the train is wired and driven, not where"
             " it is",

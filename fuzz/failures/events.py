@@ -92,7 +92,7 @@ def _list(data: Any, place: str) -> list[Any]:
 
 def _plain(kind: Any, data: Any, place: str) -> Any:
     """A text, a number or a truth; a truth is no number."""
-    wanted = kind if kind is bool else kind.__supertype__
+    wanted = kind if kind in (bool, int) else kind.__supertype__
     if type(data) is not wanted:
         words: Mapping[Any, str] = {bool: "true or false", str: "a text", int: "a whole number"}
         raise NotSo(place, f"is {data!r}, not {words[wanted]}")

@@ -15,6 +15,7 @@ from fuzz.compiled.places import Bits, Fields, Place, Rows, Table, Words, spread
 from fuzz.jolted.leaves import (
     BLOCKS,
     NOTHING,
+    NUMBER,
     REPORT_TYPES,
     ROUTE,
     TYPES,
@@ -35,6 +36,8 @@ AS_SENT = 24
 MOST_AXES, MOST_DIMS, MOST_BELOW, MOST_BESIDE, MOST_WORDS = 5, 6, 24, 12, 16
 MOST_NAMES = 1024
 SERIALS = 1 << 62
+FEW_NUMBERS = 2
+"""Numbers of an event are compared with one another only: two of them give every answer."""
 """A type without bound."""
 GRANTING = ("request", "note_standing", "note_statement_confirmed")
 """Kinds of events that bring a new run."""
@@ -148,7 +151,9 @@ def _sizes(memory: Memory) -> Ints:
         for place in event_places(memory, transition).values():
             for scalar in _scalars(place):
                 for _, part in spread(scalar):
-                    sizes[TYPES.index(part.name)] = memory.domains.size(part)
+                    if part.name != "int":
+                        sizes[TYPES.index(part.name)] = memory.domains.size(part)
+    sizes[NUMBER] = FEW_NUMBERS
     sizes[ROUTE] = len(memory.domains.names["Route"])
     return sizes
 

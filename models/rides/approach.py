@@ -113,7 +113,7 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
     """Let a train approach the end of its authority until it stands."""
     wheel = speed_m_s * (1 + ending.scale)
     rolling = Rolling(head_m, speed_m_s, wheel, motion.way_mm / 1000 + 0.001, 0.0)
-    brake = Brake(False, nearest_end_mm(motion) + int(ending.margin_m * 1000))
+    brake = Brake(False, nearest_end_mm(motion) + int(ending.margin_m * 1000), False)
     watch, movement, braked_cycles = watching(motion.speed_most_mm_s), NOT_MOVED, 0
     whole = made_up(SPLIT_LIMITS)
     out[tally.APPROACHES] = 1

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 from kernel import (
     authority,
@@ -49,6 +49,7 @@ from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.terminal import Terminal
 from kernel.unit import Unit
+from tests.independent.world.sight import Sight
 
 Message = tuple[Any, ...]
 CENTRE = "centre"
@@ -57,47 +58,6 @@ BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, st
 """A brake of 1 m/s² within 0.8 s, and motors as strong."""
 BEHIND_MM = 2_000
 """So far behind the front a list may end and still be looked up: more than the odometer is ever wrong."""
-
-
-class Sight(Protocol):
-    """A train as it truly stands or runs; places count along the direction it runs in."""
-
-    name: Train
-
-    @property
-    def at_rest(self) -> bool:
-        """Whether it stands."""
-
-    @property
-    def whole(self) -> bool:
-        """Whether all its cars are coupled."""
-
-    @property
-    def blocks(self) -> frozenset[Block]:
-        """All the blocks it is in, with what it has left behind."""
-
-    @property
-    def front_block(self) -> Block:
-        """The block that its front is in."""
-
-    @property
-    def front_block_end_mm(self) -> int:
-        """Where that block ends ahead of the train."""
-
-    @property
-    def front_mm(self) -> tuple[int, int]:
-        """Where its front is: no less far, and no farther, by the odometry."""
-
-    @property
-    def speed_mm_s(self) -> int:
-        """How fast it is."""
-
-    @property
-    def head_cab(self) -> Cab:
-        """The cab that its driver is in."""
-
-    def ends_mm(self, route: Route) -> tuple[int, Map[Block, int]] | None:
-        """Where the start block of a route begins, and where all its blocks end; nothing if it does not lead there."""
 
 
 @dataclass

@@ -14,7 +14,8 @@ from kernel.names import Block, Cab, Epoch, Read, Run, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.unit import Evidence
-from tests.independent.world.kernel_calls import BOUNDS, Board, Calls, Sight
+from tests.independent.world.kernel_calls import BOUNDS, Board, Calls
+from tests.independent.world.sight import Sight
 
 
 class EvidenceAhead(Calls):

@@ -12,7 +12,7 @@ from kernel.names import Point, Position, Train
 from tests.independent.world.campaign import Found, Tally, campaign, campaigns, happens_again, layouts, live, shrunk
 from tests.independent.world.drawn import LAYOUTS, told
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
-from tests.independent.world.kernel_calls import Board, Calls, Sight
+from tests.independent.world.kernel_calls import Board, Calls
 from tests.independent.world.planted_faults import (
     BrakeNotHeld,
     EvidenceAcrossTurns,
@@ -21,6 +21,7 @@ from tests.independent.world.planted_faults import (
     RunSetAhead,
 )
 from tests.independent.world.schedule import Schedule
+from tests.independent.world.sight import Sight
 from tests.independent.world.told import TAG_MM
 from tests.independent.world.trains import LAID_MM, OVERHANG_MM, WINDOW_MM
 from tests.independent.world.world import World

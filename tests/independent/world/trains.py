@@ -61,7 +61,7 @@ class OnRails:
     thrown: int = 0
     """So many times a point has been thrown: what was seen ahead may be so no more."""
 
-    # ---- as the machines on board may know it (kernel_calls.Sight)
+    # ---- as the machines on board may know it (sight.Sight)
 
     @property
     def at_rest(self) -> bool:
