@@ -137,5 +137,6 @@ VALUES: Mapping[Any, Value] = {
     UnitLife: _unit_life,
     TerminalLife: _terminal_life,
     bool: lambda site, system, pick: bool(pick(2)),
+    int: lambda site, system, pick: pick(2),
 }
 """For every type of an event but sets: how to come by a value."""
