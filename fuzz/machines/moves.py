@@ -33,6 +33,7 @@ TROUBLES = (
     "part",
     "open_procedure",
     "take_over",
+    "correct_statement",
 )
 """What people, brakes and antennas do beside ordinary service."""
 SOONEST = 3

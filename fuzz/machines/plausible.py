@@ -193,6 +193,11 @@ def _statements(site: Site, system: System) -> Events:
         yield {name: event[name] for name in ("train", "epoch", "life", "blocks")}
 
 
+def _corrections(site: Site, system: System) -> Events:
+    for train, life, epoch in sorted(system.radio.statements):
+        yield {"train": train, "epoch": epoch, "life": life, "blocks": stands_in(site, system, train)}
+
+
 def stands_in(site: Site, system: System, train: Train) -> frozenset[Any]:
     """The blocks that a train is in."""
     at = system.track.at
@@ -354,5 +359,6 @@ SOURCES: Mapping[str, Source] = {
     "car_leaves": _leaves,
     "part": _trains,
     "take_over": _statements,
+    "correct_statement": _corrections,
 }
 """For each transition that no message begins: where its plausible events are read off."""
