@@ -112,11 +112,12 @@ def tell(play: Play, train: Train) -> Run | None:
 
 
 def state(play: Play, train: Train, life: UnitLife) -> Run | None:
-    """Two persons state where a train is whose unit cannot."""
+    """Two persons state where a train is whose unit cannot; the first begins with what he sees of it at once."""
     epoch, at, train_of = play.system.centre.epoch, play.system.track.at, play.site.formation.train_of
     blocks = frozenset(block for car in at if train_of[car] == train for block in at[car])
     play.take("open_procedure", train=train)
-    play.take("take_over", train=train, epoch=epoch, life=life, blocks=blocks)
+    play.take("take_over", train=train, epoch=epoch, life=life, blocks=frozenset())
+    play.take("correct_statement", train=train, epoch=epoch, life=life, blocks=blocks)
     play.take("note_statement", train=train, life=life, epoch=epoch)
     play.take("confirm_statement", train=train, epoch=epoch, life=life)
     run = next_run(play, train, NO_ROUTE)

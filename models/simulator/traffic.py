@@ -91,6 +91,8 @@ class Traffic:
 
     def _overdue_tag(self) -> None:
         journey = self._some()
+        tag = self.random.choice(sorted(self.play.site.layout.tag_in))
+        self.play.take("head_misses", train=journey.train.train, tag=tag)
         self.play.take("window_passes", train=journey.train.train)
         journey.lose_way(self.play)
 

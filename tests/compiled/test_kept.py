@@ -108,7 +108,7 @@ def test_two_processes_compile_at_once_and_the_next_reads(tmp_path: Path) -> Non
 def test_a_changed_kernel_is_never_run_with_stale_code(tmp_path: Path) -> None:
     """Changed where it is called from: in another file, an operator and a constant.  What is as it was is read."""
     sources = tmp_path / "sources"
-    for folder in ("kernel", "models/compiled"):
+    for folder in ("kernel", "models/compiled", "models/subset"):
         shutil.copytree(ROOT / folder, sources / folder, ignore=shutil.ignore_patterns("__pycache__"))
     for name in ("models/__init__.py", "models/kept_folder.py", "models/names_apart.py"):
         shutil.copy(ROOT / name, sources / name)
