@@ -51,4 +51,4 @@ def a_nearer_end_is_taken_or_brakes(end_mm: int) -> None:
     """At a standstill: with the way of 17 cycles' gain and of the brake before it, 5.9 m (T9, T12)."""
     assert end_mm < 1_000_000
     after = take_end(BOUNDS, OFF, 0, 0, end_mm)
-    assert after == (Brake(False, end_mm) if end_mm >= 5_898 else Brake(True, 1_000_000))
+    assert after == (Brake(False, end_mm) if end_mm >= 5_898 else Brake(True, 1_000_000, withheld=True))

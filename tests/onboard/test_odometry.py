@@ -16,7 +16,7 @@ from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, NM_A_MM
 from kernel.onboard.odometry import GREATEST_WAY_MM, Loss, Motion, Readings, SensorBounds
 from models.onboard.odometry import Line, Running
 from proofs.onboard.odometry import THEORY
-from proofs.onboard.witnesses import odometry, odometry_readings
+from proofs.onboard.witnesses import odometry
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.rolling_stock import BOUNDS, SITE, Train, rolling
 from proofs.onboard.witnesses.sixty_four_bits import GREATEST, LEAST, Checked, Wrapped, with_ints
@@ -35,7 +35,7 @@ READINGS = st.builds(
 FIXES = st.tuples(NUMBERS, NUMBERS)
 
 
-@pytest.mark.parametrize("witness", [*odometry.WITNESSES, *odometry_readings.WITNESSES])
+@pytest.mark.parametrize("witness", odometry.WITNESSES)
 def test_witness(witness: Callable[[], None]) -> None:
     assert witness.__doc__
     witness()

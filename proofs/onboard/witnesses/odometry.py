@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.onboard import odometry as machine
 from kernel.onboard.odometry import Loss, Motion
 from models.onboard.units import NM_A_MM
+from proofs.onboard.witnesses import odometry_readings
 from proofs.onboard.witnesses.rolling_stock import SITE, Train, rolling
 
 # ---- trust
@@ -312,4 +313,5 @@ WITNESSES = (
     motors_and_brakes_limit_what_inertia_leaves_open,
     the_way_is_between_the_speeds_at_both_ends,
     a_train_that_stops_in_a_slide_stands_in_the_range,
+    *odometry_readings.WITNESSES,
 )
