@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.layout import Layout
 from kernel.names import Block, Run
+from kernel.tag_list import TagLists
 from kernel.unit import Unit
 
 
@@ -31,21 +31,24 @@ def may_overrun(unit: Unit, run: Run) -> bool:
     return may_proceed(unit, run) and order is not None and not order.stopped
 
 
-def may_leave(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
+def may_leave(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     """Tell whether the end of authority lies beyond ``block``, so that a head in it may go on (T4, T12).
 
     It lies beyond while the way goes on, out of and into blocks that the tail has not left in
     this run, and into the overlap only until the train has told that it stopped.
     """
     order = unit.orders.get(run)
-    target = layout.way[run.route].get(block) if run.route in layout.way else None
+    if order is None or order.tag_list is None:
+        return False
+    if order.tag_list not in lists.way or order.tag_list not in lists.overlap:
+        return False
+    target = lists.way[order.tag_list].get(block)
     return (
-        order is not None
-        and target is not None
+        target is not None
         and may_proceed(unit, run)
         and block not in order.left
         and target not in order.left
-        and (target not in layout.overlap[run.route] or may_overrun(unit, run))
+        and (target not in lists.overlap[order.tag_list] or may_overrun(unit, run))
     )
 
 

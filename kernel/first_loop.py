@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.layout import Layout
-from kernel.names import Run
+from kernel.names import Run, TagList
+from kernel.tag_list import TagLists
 from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Order, Unit
 
 
-def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
-    """Store the tag list of a run; from now on the unit echoes it (first loop; T4).
+def take_offer(lists: TagLists, unit: Unit, run: Run, tag_list: TagList) -> Unit:
+    """Store what the centre has sent for a run, all of it; from now on the unit echoes that (first loop; T4).
 
     A list that comes again changes nothing: what the run has gone through must not be forgotten.
     The first order of a life is the one under which the train stands, so that its tail's
@@ -25,12 +25,13 @@ def take_offer(layout: Layout, unit: Unit, run: Run) -> Unit:
         orders=unit.orders
         | {
             run: Order(
+                tag_list=tag_list,
                 permitted=False,
                 recalled=False,
                 given_back=False,
                 begun=False,
                 stopped=False,
-                expected=layout.first_tag.get(run.route),
+                expected=lists.first_tag.get(tag_list),
                 entered=NO_BLOCKS,
                 led_by=None,
                 left=NO_EVIDENCE,
@@ -48,6 +49,7 @@ def take_standing(unit: Unit, run: Run) -> Unit:
         orders=unit.orders
         | {
             run: Order(
+                tag_list=None,
                 permitted=False,
                 recalled=False,
                 given_back=True,
@@ -62,9 +64,10 @@ def take_standing(unit: Unit, run: Run) -> Unit:
     )
 
 
-def echoes(unit: Unit, run: Run) -> bool:
-    """Tell whether the unit echoes the list of ``run`` (T4)."""
-    return run in unit.orders
+def echoes(unit: Unit, run: Run, tag_list: TagList) -> bool:
+    """Tell whether the unit sends back ``tag_list`` for ``run``: the very one that it keeps and will use (T4)."""
+    order = unit.orders.get(run)
+    return order is not None and order.tag_list == tag_list
 
 
 def take_permit(unit: Unit, run: Run) -> Unit:
@@ -86,15 +89,22 @@ def recall(unit: Unit, run: Run) -> Unit:
     return replace(unit, orders=unit.orders | {run: replace(order, recalled=True)})
 
 
-def is_followed(layout: Layout, unit: Unit, run: Run) -> bool:
+def is_followed(lists: TagLists, unit: Unit, run: Run) -> bool:
     """Tell whether a later run starts in what ``run`` covers, and was not given back (T9)."""
-    return run.route in layout.covers and any(
-        run.serial < other.serial and not order.given_back and layout.start.get(other.route) in layout.covers[run.route]
+    known = unit.orders.get(run)
+    if known is None or known.tag_list is None or known.tag_list not in lists.covers:
+        return False
+    covered = lists.covers[known.tag_list]
+    return any(
+        run.serial < other.serial
+        and not order.given_back
+        and order.tag_list is not None
+        and lists.start.get(order.tag_list) in covered
         for other, order in unit.orders.items()
     )
 
 
-def give_back(layout: Layout, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
+def give_back(lists: TagLists, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
     """Give a run back that was recalled, once the brake keeps the train out of it (接近鎖錠; T9, T12).
 
     ``held_end_mm``: the end of authority that the brake control holds.  ``start_end_mm``: where the block
@@ -104,7 +114,7 @@ def give_back(layout: Layout, unit: Unit, run: Run, held_end_mm: int, start_end_
     order = unit.orders.get(run)
     if order is None or not order.recalled or order.begun or held_end_mm > start_end_mm:
         return unit
-    if is_followed(layout, unit, run):
+    if is_followed(lists, unit, run):
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, given_back=True)})
 

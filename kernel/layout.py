@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from kernel.names import Block, Point, Position, Record, Route, Serial, Tag, Train
+from kernel.names import Block, Point, Position, Record, Route, Serial, Tag, TagList, Train
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,7 @@ class Layout:
     ``tag_in``, ``partner``: the block a tag is planned in; the other tag of its boundary (T2).
     ``tag_after``: the tag to be read next on a route after this one (T5).
     ``first_tag``: the tag to be read first on a route (T5).
+    ``tag_list``: what the first loop carries to the train for a route (T4).
     ``last_serial``: the largest run number that counters and telegrams can hold; it is never
     granted, so that no number wraps (T10).
     """
@@ -57,6 +58,7 @@ class Layout:
     partner: Mapping[Tag, Tag]
     first_tag: Mapping[Route, Tag]
     tag_after: Mapping[Route, Mapping[Tag, Tag]]
+    tag_list: Mapping[Route, TagList]
     last_serial: Serial = Serial(2**63 - 1)
 
 

@@ -26,6 +26,8 @@ Cab = NewType("Cab", str)
 """One end of a train with the antenna below it; which end is head depends on the direction (T2)."""
 Tag = NewType("Tag", str)
 """The UID of an IC tag, its only key; T1."""
+TagList = NewType("TagList", str)
+"""All that a unit will use of a route, as the first loop carries it, written down; T4."""
 Record = NewType("Record", str)
 """What stands in a tag beside its UID, known only to who has read it; T1, T6."""
 

@@ -23,6 +23,7 @@ class Refusal(Enum):
     START_WANTED_BACK = "the run that the train stands under is wanted back"
     NO_SUCH_RUN = "there is no such run"
     WRONG_STAGE = "the run is not at that stage"
+    LISTS_DIFFER = "the train keeps another tag list of the route than it was sent"
     POINTS_NOT_PROVED = "a point of the route is not yet proved"
     A_RUN_LEADS_ON = "another run of the train starts in what this one covers: take that one back first"
     NOT_CLAIMED = "the block is not held for this run"

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from kernel.layout import Layout
-from kernel.names import Point, Run
+from kernel.names import Point, Position, Run
+from kernel.tag_list import TagLists, TagPlan
 from kernel.unit import Unit
 
 
-def relays_order(layout: Layout, unit: Unit, run: Run, point: Point) -> bool:
-    """Tell whether the unit passes the order for ``point`` on (T10).
+def relays_order(plan: TagPlan, lists: TagLists, unit: Unit, run: Run, point: Point, position: Position) -> bool:
+    """Tell whether the unit passes the order on that wants ``point`` in ``position`` (T10).
 
     Standing on the turnout block of the point it passes only what cannot throw it: an order
     for the position in which a run that the train is on already holds the point.
     """
-    if run.life != unit.life or run.route not in layout.needs or point not in layout.needs[run.route]:
+    if run.life != unit.life:
         return False
-    if point not in layout.stands_in or layout.stands_in[point] not in unit.occupied:
+    if point not in plan.stands_in or plan.stands_in[point] not in unit.occupied:
         return True
     return any(
         order.begun
-        and other.route in layout.needs
-        and layout.needs[other.route].get(point) == layout.needs[run.route][point]
-        for other, order in unit.orders.items()
+        and order.tag_list is not None
+        and order.tag_list in lists.needs
+        and lists.needs[order.tag_list].get(point) == position
+        for _, order in unit.orders.items()
     )

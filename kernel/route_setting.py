@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.centre import NO_BLOCKS, NO_LOCKS, NO_RUNS, NOTHING_ENDED, Centre, Grant
 from kernel.layout import Layout
-from kernel.names import Point, Position, Run, Stage, TerminalLife
+from kernel.names import Point, Position, Run, Stage, TagList, TerminalLife
 from kernel.refusal import Refusal
 
 
@@ -129,10 +129,22 @@ def offers(centre: Centre, run: Run) -> bool:
     return grant is not None and grant.stage == Stage.OFFERED
 
 
-def note_echo(centre: Centre, run: Run) -> Centre:
-    """Set the run: the train has echoed the list (first loop, back; T4)."""
+def echo_refusal(layout: Layout, centre: Centre, run: Run, tag_list: TagList) -> Refusal | None:
+    """Say why a run is not set though the train has sent ``tag_list`` back: another one than it was sent (T4)."""
     grant = centre.runs.get(run)
-    if grant is None or grant.stage != Stage.OFFERED:
+    if grant is None:
+        return Refusal.NO_SUCH_RUN
+    if grant.stage != Stage.OFFERED:
+        return Refusal.WRONG_STAGE
+    if layout.tag_list.get(run.route) != tag_list:
+        return Refusal.LISTS_DIFFER
+    return None
+
+
+def note_echo(layout: Layout, centre: Centre, run: Run, tag_list: TagList) -> Centre:
+    """Set the run: what the train keeps of the route is what the centre has sent (first loop, back; T4)."""
+    grant = centre.runs.get(run)
+    if grant is None or echo_refusal(layout, centre, run, tag_list) is not None:
         return centre
     return replace(centre, runs=centre.runs | {run: replace(grant, stage=Stage.SET)})
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.layout import Layout
-from kernel.names import Block, Cab, Read, Run, Tag
+from kernel.names import Block, Cab, Read, Tag
+from kernel.tag_list import TagLists, TagPlan
 from kernel.unit import Order, Unit
 
 
@@ -14,13 +14,15 @@ def open_loop(unit: Unit) -> Unit:
     return replace(unit, loop_open=True)
 
 
-def expects(layout: Layout, unit: Unit, run: Run, order: Order, cab: Cab, tag: Tag) -> bool:
+def expects(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bool:
     """Tell whether a permitted run that was not given back expects ``tag`` next, read by ``cab`` (T5).
 
     A run begins with both tags at the end of its start block, one right after the other, and is
     led by one cab throughout.
     """
-    first = layout.first_tag.get(run.route)
+    if order.tag_list is None:
+        return False
+    first = lists.first_tag.get(order.tag_list)
     return (
         order.permitted
         and not order.given_back
@@ -30,50 +32,52 @@ def expects(layout: Layout, unit: Unit, run: Run, order: Order, cab: Cab, tag: T
     )
 
 
-def is_next(layout: Layout, unit: Unit, run: Run, order: Order, cab: Cab, tag: Tag) -> bool:
+def is_next(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bool:
     """Tell whether ``tag`` is the next one of this run, and not only where another ends (T5).
 
     A run back, permitted before the train has arrived, begins with the tag that the way in ends with.
     """
-    return expects(layout, unit, run, order, cab, tag) and (
+    return expects(lists, unit, order, cab, tag) and (
         order.led_by is not None
         or all(
-            on_the_way.led_by is None or not expects(layout, unit, other, on_the_way, cab, tag)
-            for other, on_the_way in unit.orders.items()
+            on_the_way.led_by is None or not expects(lists, unit, on_the_way, cab, tag)
+            for _, on_the_way in unit.orders.items()
         )
     )
 
 
-def tail_read_still_good(layout: Layout, unit: Unit, tag: Tag) -> Read | None:
+def tail_read_still_good(plan: TagPlan, unit: Unit, tag: Tag) -> Read | None:
     """Give the tail's last read, unless the head passes that boundary now: the tail then comes to it anew (T2)."""
     before = unit.tail_read
-    if before is None or before.tag == tag or layout.partner.get(before.tag) == tag:
+    if before is None or before.tag == tag or plan.partner.get(before.tag) == tag:
         return None
     return before
 
 
-def advance(layout: Layout, run: Run, order: Order, cab: Cab, tag: Tag) -> Order:
+def advance(lists: TagLists, order: Order, cab: Cab, tag: Tag) -> Order:
     """Take the expected tag for read: with the second one the run has begun; the next is expected (T5)."""
+    if order.tag_list is None:
+        return order
     return replace(
         order,
-        begun=order.begun or layout.first_tag.get(run.route) != tag,
-        expected=layout.tag_after[run.route].get(tag) if run.route in layout.tag_after else None,
+        begun=order.begun or lists.first_tag.get(order.tag_list) != tag,
+        expected=lists.tag_after[order.tag_list].get(tag) if order.tag_list in lists.tag_after else None,
         led_by=cab,
     )
 
 
-def enter(layout: Layout, run: Run, order: Order, cab: Cab, block: Block) -> Order:
+def enter(lists: TagLists, order: Order, cab: Cab, block: Block) -> Order:
     """Note that the head is in ``block``, if a run has begun that claims it beyond its start, led by this cab (T2)."""
-    if not order.begun or order.led_by != cab:
+    if not order.begun or order.led_by != cab or order.tag_list is None:
         return order
-    if run.route not in layout.claims or block not in layout.claims[run.route]:
+    if order.tag_list not in lists.claims or block not in lists.claims[order.tag_list]:
         return order
-    if layout.start.get(run.route) == block:
+    if lists.start.get(order.tag_list) == block:
         return order
     return replace(order, entered=order.entered | {block})
 
 
-def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bool) -> Unit:
+def note_head_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, tag: Tag, in_window: bool) -> Unit:
     """Compare what the head read with the lists of the first loop, in order (T2, T5).
 
     ``in_window``: the running distance since the last tag lies within what the tags allow, so
@@ -82,14 +86,14 @@ def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bo
     """
     if unit.leading != cab:
         return unit
-    tail_read = tail_read_still_good(layout, unit, tag)
+    tail_read = tail_read_still_good(plan, unit, tag)
     if unit.head_tag == tag or unit.loop_open:
         return replace(unit, tail_read=tail_read)
-    if not in_window or not any(expects(layout, unit, run, order, cab, tag) for run, order in unit.orders.items()):
+    if not in_window or not any(expects(lists, unit, order, cab, tag) for _, order in unit.orders.items()):
         return open_loop(unit)
-    block = layout.tag_in.get(tag)
+    block = plan.tag_in.get(tag)
     advanced = {
-        run: advance(layout, run, order, cab, tag) if is_next(layout, unit, run, order, cab, tag) else order
+        run: advance(lists, order, cab, tag) if is_next(lists, unit, order, cab, tag) else order
         for run, order in unit.orders.items()
     }
     if block is None:
@@ -99,7 +103,7 @@ def note_head_read(layout: Layout, unit: Unit, cab: Cab, tag: Tag, in_window: bo
         head_tag=tag,
         tail_read=tail_read,
         occupied=unit.occupied | {block},
-        orders={run: enter(layout, run, order, cab, block) for run, order in advanced.items()},
+        orders={run: enter(lists, order, cab, block) for run, order in advanced.items()},
     )
 
 

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.layout import Layout
 from kernel.names import Block, Cab, Read, Run
 from kernel.second_loop import open_loop
+from kernel.tag_list import TagLists, TagPlan
 from kernel.unit import Evidence, Order, Unit
 
 
-def has_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bool:
+def has_been_in(lists: TagLists, order: Order, block: Block) -> bool:
     """Tell whether the train has been in ``block`` under a run: it began there, or its head has entered it (T2).
 
     On a ring the block that the tail leaves may be one that the run has yet to come to.
     """
-    return order.begun and (block in order.entered or layout.start.get(run.route) == block)
+    return order.begun and (
+        block in order.entered or (order.tag_list is not None and lists.start.get(order.tag_list) == block)
+    )
 
 
-def has_gone_on(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
+def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     """Tell whether the head has gone on out of ``block`` under this run or a later one (T2).
 
     On a ring the head may have come round into the block that the tail is just leaving.
@@ -26,23 +28,24 @@ def has_gone_on(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
     return any(
         other.serial >= run.serial
         and order.begun
-        and other.route in layout.way
-        and layout.way[other.route].get(block) in order.entered
+        and order.tag_list is not None
+        and order.tag_list in lists.way
+        and lists.way[order.tag_list].get(block) in order.entered
         for other, order in unit.orders.items()
     )
 
 
-def has_left(layout: Layout, unit: Unit, run: Run, order: Order, block: Block) -> bool:
+def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) -> bool:
     """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
 
     A train that stood there has told so; one that backs out is led by its other cab.
     """
-    return has_been_in(layout, run, order, block) and (
-        run.route not in layout.way or order.led_by != unit.leading or has_gone_on(layout, unit, run, block)
+    return has_been_in(lists, order, block) and (
+        order.tag_list is None or order.led_by != unit.leading or has_gone_on(lists, unit, run, block)
     )
 
 
-def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
     ``healthy``: the through line reaches the tail, so that the antenna is the train's last (T2, T3).
@@ -53,13 +56,13 @@ def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Re
         return unit
     if not healthy:
         return replace(unit, tail_read=None)
-    entered = layout.tag_in.get(read.tag)
+    entered = plan.tag_in.get(read.tag)
     if entered is None or entered not in unit.occupied:
         return open_loop(replace(unit, tail_read=None))
     before = unit.tail_read
-    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+    if before is None or unit.loop_open or plan.partner.get(before.tag) != read.tag:
         return replace(unit, tail_read=read)
-    block = layout.tag_in.get(before.tag)
+    block = plan.tag_in.get(before.tag)
     if block is None:
         return replace(unit, tail_read=read)
     return replace(
@@ -68,14 +71,14 @@ def note_tail_read(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Re
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_left(layout, unit, run, order, block)
+            if has_left(lists, unit, run, order, block)
             else order
             for run, order in unit.orders.items()
         },
     )
 
 
-def reports_left(layout: Layout, unit: Unit, run: Run, block: Block, left: Read, entered: Read) -> bool:
+def reports_left(lists: TagLists, unit: Unit, run: Run, block: Block, left: Read, entered: Read) -> bool:
     """Tell whether the unit reports that its tail has left ``block``, and by which reads (third loop; T6, T7).
 
     A block is reported once the tail has left the end of its part too.
@@ -86,5 +89,7 @@ def reports_left(layout: Layout, unit: Unit, run: Run, block: Block, left: Read,
     evidence = order.left.get(block)
     if evidence is None or evidence.left != left or evidence.entered != entered:
         return False
-    after = layout.released_after[run.route].get(block) if run.route in layout.released_after else None
+    if order.tag_list is None or order.tag_list not in lists.released_after:
+        return True
+    after = lists.released_after[order.tag_list].get(block)
     return after is None or after in order.left

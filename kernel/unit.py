@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.maps import Map
-from kernel.names import Block, Cab, Epoch, Read, Run, Tag, UnitLife
+from kernel.names import Block, Cab, Epoch, Read, Run, Tag, TagList, UnitLife
 
 
 @dataclass(frozen=True)
@@ -20,6 +20,8 @@ class Evidence:
 class Order:
     """A run as the train knows it (T4, T5).
 
+    ``tag_list``: all that the train knows of the route, as the first loop brought it; none for the run that it
+    stands under (T4, T8).
     ``permitted``: the route-complete message has come.
     ``recalled``: the centre has asked for it; no authority any more, unless the head has begun it (T9).
     ``given_back``: acknowledged as cancelled; never to be entered again (T9).
@@ -31,6 +33,7 @@ class Order:
     ``left``: blocks the tail has left during this run, with what it read (T2, T6).
     """
 
+    tag_list: TagList | None
     permitted: bool
     recalled: bool
     given_back: bool

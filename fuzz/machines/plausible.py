@@ -66,6 +66,8 @@ def _messages(site: Site, system: System, step: str) -> Events:
         event = dict(zip(names, message if len(names) > 1 else (message,), strict=True))
         if step == "obey_order":
             event["detected"] = system.track.lies[event["point"]]
+        elif step == "take_offer":
+            event["tag_list"] = site.layout.tag_list[event["run"].route]
         elif step in ("note_standing", "note_statement_confirmed"):
             event["run"] = next_run(system, event["train"], event["life"])
         yield event
@@ -288,6 +290,14 @@ def _rolling(site: Site, system: System) -> Events:
         yield {"run": run}
 
 
+def _kept(site: Site, system: System) -> Events:
+    """What each unit keeps of the routes that it was sent."""
+    for train in sorted(system.units):
+        for run, order in sorted(system.units[train].orders.items()):
+            if order.tag_list is not None:
+                yield {"run": run, "tag_list": order.tag_list}
+
+
 def _moves(site: Site, system: System) -> Events:
     """Every car of a rolling train, the front first, into whatever follows a block that it is in."""
     at, leads = system.track.at, site.ground.leads
@@ -338,7 +348,7 @@ SOURCES: Mapping[str, Source] = {
     "send_enquiry": _enquiries,
     "send_confirmation": _confirmations,
     "send_offer": _granted,
-    "send_echo": _ordered,
+    "send_echo": _kept,
     "send_permit": _granted,
     "send_recall": _granted,
     "give_back": _given_back,

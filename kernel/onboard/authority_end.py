@@ -10,28 +10,30 @@ beyond the end, and never counted in.
 from __future__ import annotations
 
 from kernel.authority import may_leave, may_proceed
-from kernel.layout import Layout
 from kernel.maps import Map
 from kernel.names import Block, Run
 from kernel.onboard import braking
 from kernel.onboard.arithmetic import smaller
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.tag_list import TagLists
 from kernel.unit import Unit
 
 
-def may_be_left(layout: Layout, unit: Unit, run: Run, block: Block) -> bool:
+def may_be_left(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     """Tell whether the head may run on out of ``block``, into a block that is not overlap (T4, T9)."""
-    target = layout.way[run.route].get(block) if run.route in layout.way else None
-    return target is not None and target not in layout.overlap[run.route] and may_leave(layout, unit, run, block)
+    order = unit.orders.get(run)
+    if order is None or order.tag_list is None or not may_leave(lists, unit, run, block):
+        return False
+    return lists.way[order.tag_list].get(block) not in lists.overlap[order.tag_list]
 
 
-def is_open(layout: Layout, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]], block: Block, end_mm: int) -> bool:
+def is_open(lists: TagLists, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]], block: Block, end_mm: int) -> bool:
     """Tell whether some order lets the head run on out of ``block`` where that ends at ``end_mm`` (T4).
 
     On a loop one block may lie ahead twice, and an order for the first time is none for the second.
     """
     return any(
-        block_ends_mm[run].get(block) == end_mm and may_be_left(layout, unit, run, block) for run in block_ends_mm
+        block_ends_mm[run].get(block) == end_mm and may_be_left(lists, unit, run, block) for run in block_ends_mm
     )
 
 
@@ -41,7 +43,7 @@ def covers_the_head(begins_mm: int, block_ends_mm: Map[Block, int], front_least_
 
 
 def ends_mm(
-    layout: Layout,
+    lists: TagLists,
     unit: Unit,
     begins_mm: Map[Run, int],
     block_ends_mm: Map[Run, Map[Block, int]],
@@ -59,9 +61,9 @@ def ends_mm(
         for run in block_ends_mm
         for block, end_mm in block_ends_mm[run].items()
         if end_mm >= front_least_mm
-        and not is_open(layout, unit, block_ends_mm, block, end_mm)
+        and not is_open(lists, unit, block_ends_mm, block, end_mm)
         and all(
-            end_mm <= other_mm or other_mm < front_least_mm or is_open(layout, unit, block_ends_mm, beside, other_mm)
+            end_mm <= other_mm or other_mm < front_least_mm or is_open(lists, unit, block_ends_mm, beside, other_mm)
             for other in block_ends_mm
             for beside, other_mm in block_ends_mm[other].items()
         )
@@ -79,7 +81,7 @@ def is_stopped(unit: Unit, block_ends_mm: Map[Run, Map[Block, int]]) -> bool:
 
 
 def obey(
-    layout: Layout,
+    lists: TagLists,
     unit: Unit,
     begins_mm: Map[Run, int],
     block_ends_mm: Map[Run, Map[Block, int]],
@@ -90,7 +92,7 @@ def obey(
     speed_most_mm_s: int,
 ) -> frozenset[Brake]:
     """Give what the brake becomes by all that the unit knows: one state, asked for in every cycle (T4, T9, T12)."""
-    wanted_mm = ends_mm(layout, unit, begins_mm, block_ends_mm, front_least_mm, front_most_mm)
+    wanted_mm = ends_mm(lists, unit, begins_mm, block_ends_mm, front_least_mm, front_most_mm)
     if not any(True for _ in wanted_mm):
         return frozenset({braking.withhold_end(brake)})
     taken = frozenset(braking.take_end(bounds, brake, front_most_mm, speed_most_mm_s, end_mm) for end_mm in wanted_mm)

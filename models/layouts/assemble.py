@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Point, Position, Route, Tag, Train
+from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
 from models.layouts.blocks import Blocks, demanded, exits, inward
 from models.layouts.distances import next_tag_mm
@@ -106,27 +107,30 @@ def _layout(blocks: Blocks, granted: Sequence[Granted], told: Told, tags: Tags) 
     """The relations that the kernel is told."""
     order = {Route(route.name): tags_in_order(route) for route in granted}
     by = {Route(route.name): route for route in granted}
-    return Layout(
-        fleet=frozenset(Train(train) for train in told.trains),
-        blocks=frozenset(blocks.pieces),
-        routes=frozenset(by),
-        points=frozenset(blocks.stands_in),
-        start={name: route.start for name, route in by.items()},
-        destination={name: route.covers[-1] for name, route in by.items()},
-        covers={name: frozenset(route.covers) for name, route in by.items()},
-        overlap={name: frozenset(route.overlap) for name, route in by.items()},
-        claims={name: frozenset(route.claims) for name, route in by.items()},
-        way={name: route.way for name, route in by.items()},
-        needs={name: route.needs for name, route in by.items()},
-        released_with={name: route.released_with for name, route in by.items()},
-        released_after={name: route.released_after for name, route in by.items()},
-        fouls=told.fouls,
-        stands_in=blocks.stands_in,
-        points_in=dict(blocks.points_in),
-        tag_in=tags.block,
-        partner=tags.partner,
-        first_tag={name: read[0] for name, read in order.items()},
-        tag_after={name: dict(pairwise(read)) for name, read in order.items()},
+    return with_tag_lists(
+        Layout(
+            fleet=frozenset(Train(train) for train in told.trains),
+            blocks=frozenset(blocks.pieces),
+            routes=frozenset(by),
+            points=frozenset(blocks.stands_in),
+            start={name: route.start for name, route in by.items()},
+            destination={name: route.covers[-1] for name, route in by.items()},
+            covers={name: frozenset(route.covers) for name, route in by.items()},
+            overlap={name: frozenset(route.overlap) for name, route in by.items()},
+            claims={name: frozenset(route.claims) for name, route in by.items()},
+            way={name: route.way for name, route in by.items()},
+            needs={name: route.needs for name, route in by.items()},
+            released_with={name: route.released_with for name, route in by.items()},
+            released_after={name: route.released_after for name, route in by.items()},
+            fouls=told.fouls,
+            stands_in=blocks.stands_in,
+            points_in=dict(blocks.points_in),
+            tag_in=tags.block,
+            partner=tags.partner,
+            first_tag={name: read[0] for name, read in order.items()},
+            tag_list={},
+            tag_after={name: dict(pairwise(read)) for name, read in order.items()},
+        )
     )
 
 

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 from kernel.layout import Layout
 from kernel.names import Block, Point, Position, Route, Tag
+from kernel.tag_list_text import with_tag_lists
 from models import axioms
 from models.ground import Ground
 
@@ -35,7 +36,7 @@ def with_continuations(layout: Layout, ground: Ground) -> tuple[Layout, Ground]:
     rests = [rest for route in sorted(layout.routes) for rest in _rests(layout, route)]
     wider, ground_wider = _layout(layout, rests), _ground(layout, ground, rests)
     sound = [rest for rest in rests if _holds(wider, ground_wider, rest.name)]
-    return _layout(layout, sound), _ground(layout, ground, sound)
+    return with_tag_lists(_layout(layout, sound)), _ground(layout, ground, sound)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from kernel.layout import Layout
 from kernel.names import Block, Point, Position, Route, Tag, Train
+from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
 from models.layouts.findings import Findings
 from models.layouts.numbers import number_blocks, records_for
@@ -182,30 +183,33 @@ def _layout(rows: Sequence[Row], stands_in: Mapping[Point, Block], track: Track,
     blocks = frozenset(block for row in rows for block in row.chain) | frozenset(stands_in.values())
     tag_in = {tag: block for pair in track.pairs for tag, block in zip(tags(*pair), pair, strict=True)}
     order = {name: [tag for pair in pairwise(row.chain) for tag in tags(*pair)] for name, row in by.items()}
-    return Layout(
-        fleet=frozenset(Train(train) for train in trains),
-        blocks=blocks,
-        routes=frozenset(by),
-        points=frozenset(stands_in),
-        start={name: row.start for name, row in by.items()},
-        destination={name: row.covers[-1] for name, row in by.items()},
-        covers={name: frozenset(row.covers) for name, row in by.items()},
-        overlap={name: frozenset() for name in by},
-        claims={name: frozenset(row.chain) for name, row in by.items()},
-        way={name: dict(pairwise(row.chain)) for name, row in by.items()},
-        needs={name: row.needs for name, row in by.items()},
-        released_with={
-            name: {p: stands_in[p] if stands_in[p] in row.chain else row.covers[-1] for p in row.needs}
-            for name, row in by.items()
-        },
-        released_after={name: _released_after(row) for name, row in by.items()},
-        fouls={},
-        stands_in=stands_in,
-        points_in={block: frozenset(p for p in stands_in if stands_in[p] == block) for block in blocks},
-        tag_in=tag_in,
-        partner={tag: other for pair in track.pairs for tag, other in _both_ways(tags(*pair))},
-        first_tag={name: read[0] for name, read in order.items()},
-        tag_after={name: dict(pairwise(read)) for name, read in order.items()},
+    return with_tag_lists(
+        Layout(
+            fleet=frozenset(Train(train) for train in trains),
+            blocks=blocks,
+            routes=frozenset(by),
+            points=frozenset(stands_in),
+            start={name: row.start for name, row in by.items()},
+            destination={name: row.covers[-1] for name, row in by.items()},
+            covers={name: frozenset(row.covers) for name, row in by.items()},
+            overlap={name: frozenset() for name in by},
+            claims={name: frozenset(row.chain) for name, row in by.items()},
+            way={name: dict(pairwise(row.chain)) for name, row in by.items()},
+            needs={name: row.needs for name, row in by.items()},
+            released_with={
+                name: {p: stands_in[p] if stands_in[p] in row.chain else row.covers[-1] for p in row.needs}
+                for name, row in by.items()
+            },
+            released_after={name: _released_after(row) for name, row in by.items()},
+            fouls={},
+            stands_in=stands_in,
+            points_in={block: frozenset(p for p in stands_in if stands_in[p] == block) for block in blocks},
+            tag_in=tag_in,
+            partner={tag: other for pair in track.pairs for tag, other in _both_ways(tags(*pair))},
+            first_tag={name: read[0] for name, read in order.items()},
+            tag_list={},
+            tag_after={name: dict(pairwise(read)) for name, read in order.items()},
+        )
     )
 
 

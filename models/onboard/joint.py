@@ -281,10 +281,10 @@ def ask_for_the_end(
         return system
     if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
         return system
-    layout, unit, before = site.site.layout, system.system.units[train], system.brake[train]
+    unit, before = system.system.units[train], system.brake[train]
     begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
     ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
-    wanted_mm = authority_end.ends_mm(layout, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
+    wanted_mm = authority_end.ends_mm(site.site.lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
     if not the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm):
         return system
     asked = replace(
@@ -312,7 +312,7 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
         for run in system.block_ends_mm
         if run.train == train
         for block in system.block_ends_mm[run]
-        if authority_end.may_be_left(layout, unit, run, block)
+        if authority_end.may_be_left(site.site.lists, unit, run, block)
     )
     return replace(
         system,

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
-from kernel.layout import Layout
 from kernel.maps import Map
 from kernel.names import Block, Run, Tag
 from kernel.onboard import (
@@ -28,6 +27,7 @@ from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.way import UNKNOWN, Way, between
+from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
 from models.concrete.rails import ANTENNA_MM
 from models.rides.plan import PLAN, TAG_ERROR_MM
@@ -124,10 +124,10 @@ class OnBoard:
 
     # ---- what the unit was told
 
-    def follow(self, layout: Layout, unit: Unit) -> None:
+    def follow(self, unit: Unit) -> None:
         """Let the brake do what the orders of the unit ask, and await the next tag by them (T4, T5)."""
         runs = [run for run in self.lists if run in unit.orders]
-        self.brake = self._asked(layout, unit, runs)
+        self.brake = self._asked(unit, runs)
         tags_mm: dict[Tag, int] = {}
         for run in runs:
             order = unit.orders[run]
@@ -136,13 +136,13 @@ class OnBoard:
                 tags_mm[order.expected] = self.lists[run].tags_mm[order.expected]
         self._await(tags_mm)
 
-    def _asked(self, layout: Layout, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
+    def _asked(self, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
         """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
         begins_mm = {run: self.lists[run].begins_mm for run in runs}
         ends_mm: dict[Run, Map[Block, int]] = {run: self.lists[run].ends_mm for run in runs}
         motion = self.motion
         (brake,) = authority_end.obey(
-            layout,
+            what_they_say(kept for run in runs if (kept := unit.orders[run].tag_list) is not None),
             unit,
             begins_mm,
             ends_mm,

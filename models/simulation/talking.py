@@ -14,6 +14,7 @@ from kernel.link import Party
 from kernel.names import Block, Epoch, Point, Run, Serial, Stage, Train
 from models.simulation.links import CENTRE, Links
 from models.simulation.motors import Motors
+from models.simulation.parts import Joined, in_parts
 from models.simulation.wording import Fields, was_sent
 from models.simulator.messages import NO_ROUTE
 from models.simulator.play import Play
@@ -25,8 +26,6 @@ HeldBefore = Callable[[Run], tuple[int, int] | None]
 
 STEPS: Mapping[str, str] = {
     "relayed life": "note_terminal_life",
-    "offer": "take_offer",
-    "echo": "note_echo",
     "permit": "take_permit",
     "return": "note_given_back",
     "tail report": "release_block",
@@ -47,6 +46,7 @@ class Talk:
         self.motors = motors
         self.may_answer = may_answer
         self.held_before = held_before
+        self._offered, self._echoed = Joined(), Joined()
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
         self._acts: Mapping[str, Callable[[Train, Fields], object]] = {
             "order": lambda train, fields: self._relays("relay_order", "relayed order", train, fields),
@@ -56,6 +56,8 @@ class Talk:
             "confirmation": self._relays_confirmation,
             "relayed confirmation": self._is_confirmed,
             "terminal's life": lambda train, fields: self._say(self._unit[train], CENTRE, "relayed life", fields),
+            "offer": self._is_offered,
+            "echo": self._is_echoed,
             "recall": self._is_recalled,
             "challenge": self._answers,
             "standing": self._is_noted,
@@ -103,10 +105,12 @@ class Talk:
             self._prove_points(run, grant)
         elif grant.stage == Stage.OFFERED and order is None:
             play.take("send_offer", run=run)
-            self._to_unit(run.train, "offer", run=run)
-        elif grant.stage == Stage.OFFERED:
-            play.take("send_echo", run=run)
-            self._to_centre(run.train, "echo", run=run)
+            for part in in_parts(run, play.site.layout.tag_list[run.route]):
+                self._to_unit(run.train, "offer", **part)
+        elif grant.stage == Stage.OFFERED and order is not None and order.tag_list is not None:
+            play.take("send_echo", run=run, tag_list=order.tag_list)
+            for part in in_parts(run, order.tag_list):
+                self._to_centre(run.train, "echo", **part)
         elif grant.stage == Stage.SET and order is not None and not order.permitted and not grant.cancelling:
             play.take("send_permit", run=run)
             self._to_unit(run.train, "permit", run=run)
@@ -187,6 +191,20 @@ class Talk:
         if held[0] <= held[1]:
             self.play.take("come_to_rest", run=run)
         self.play.take("give_back", run=run, held_end_mm=held[0], start_end_mm=held[1])
+
+    def _is_offered(self, train: Train, fields: Fields) -> None:
+        """The unit keeps the list as it came; where it comes in parts, once it has them all (T4)."""
+        tag_list = self._offered.take(**fields)
+        if tag_list is not None and self.play.take("take_offer", run=fields["run"], tag_list=tag_list):
+            self.with_train(train)
+
+    def _is_echoed(self, train: Train, fields: Fields) -> None:
+        """The centre compares what came back; the world has it if it was sent (T4)."""
+        tag_list = self._echoed.take(**fields)
+        if tag_list is None or tag_list != self.play.system.radio.echoes.get(fields["run"]):
+            return
+        if self.play.take("note_echo", run=fields["run"]):
+            self.with_train(train)
 
     def _is_recalled(self, train: Train, fields: Fields) -> None:
         if self.play.take("recall", **fields):

@@ -115,7 +115,7 @@ class Vehicle:
         place = (board.motion.front_least_mm, board.motion.front_most_mm, board.motion.speed_most_mm_s)
         if unit is not self._unit or (board.brake.withheld and board.lists and place != self._asked_at):
             self._unit, self._asked_at = unit, place
-            board.follow(play.site.layout, unit)
+            board.follow(unit)
         return self.run is None or board.brake.withheld
 
     def look_again(self) -> None:

@@ -14,7 +14,7 @@ from kernel.telegram import Said
 from models.simulator.messages import NO_ROUTE
 from models.world.state import Radio, Site
 
-SERIAL_BYTES, SIGNED_BYTES, NUMBER_BYTES, LENGTH_BYTES = 8, 8, 4, 1
+SERIAL_BYTES, SIGNED_BYTES, NUMBER_BYTES, LENGTH_BYTES, TEXT_LENGTH_BYTES = 8, 8, 4, 1, 2
 
 
 class Kind(NamedTuple):
@@ -26,6 +26,7 @@ class Kind(NamedTuple):
 
 LIFE_SIGN, RANGING = "life sign", "ranging"
 OF_A_POINT = ("run", "point", "life")
+OF_A_LIST = ("run", "part", "parts", "text")
 KINDS: Mapping[str, Kind] = {
     LIFE_SIGN: Kind((), ""),
     RANGING: Kind(("at_ms", "way_mm", "speed_mm_s", "is_coming"), ""),
@@ -37,8 +38,8 @@ KINDS: Mapping[str, Kind] = {
     "relayed confirmation": Kind(("run", "point", "position"), "confirmations"),
     "terminal's life": Kind(("point", "life"), "terminal_lives"),
     "relayed life": Kind(("point", "life"), "terminal_lives"),
-    "offer": Kind(("run",), "offers"),
-    "echo": Kind(("run",), "echoes"),
+    "offer": Kind(OF_A_LIST, "offers"),
+    "echo": Kind(OF_A_LIST, "echoes"),
     "permit": Kind(("run",), "permits"),
     "recall": Kind(("run",), "recalls"),
     "return": Kind(("run",), "returns"),
@@ -62,8 +63,10 @@ def was_sent(radio: Radio, kind: str, fields: Fields) -> bool:
     if kind == "standing":
         key = fields["train"], fields["life"], fields["epoch"]
         return bool(radio.standings.get(key) == fields["blocks"])
-    said = tuple(fields[name] for name in KINDS[kind].fields)
     sent: Set[Any] = getattr(radio, KINDS[kind].sent_in)
+    if KINDS[kind].fields == OF_A_LIST:
+        return fields["run"] in sent
+    said = tuple(fields[name] for name in KINDS[kind].fields)
     return (said[0] if len(said) == 1 else said) in sent
 
 
@@ -87,6 +90,9 @@ class _Reader:
 
     def number(self, size: int = NUMBER_BYTES) -> int:
         return int.from_bytes(self.take(size), "big")
+
+    def text(self) -> bytes:
+        return self.take(self.number(TEXT_LENGTH_BYTES))
 
     def signed(self) -> int:
         return int.from_bytes(self.take(SIGNED_BYTES), "big", signed=True)
@@ -135,6 +141,9 @@ class Wording:
             "entered": (self._write_read, self._read_read),
             "life": (_write_number, _Reader.number),
             "epoch": (_write_number, _Reader.number),
+            "part": (_write_number, _Reader.number),
+            "parts": (_write_number, _Reader.number),
+            "text": (_write_text, _Reader.text),
             "at_ms": (_write_signed, _Reader.signed),
             "way_mm": (_write_signed, _Reader.signed),
             "speed_mm_s": (_write_signed, _Reader.signed),
@@ -185,6 +194,10 @@ class Wording:
 
 def _write_signed(number: int) -> bytes:
     return number.to_bytes(SIGNED_BYTES, "big", signed=True)
+
+
+def _write_text(text: bytes) -> bytes:
+    return len(text).to_bytes(TEXT_LENGTH_BYTES, "big") + text
 
 
 def _write_number(number: int) -> bytes:

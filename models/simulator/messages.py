@@ -8,6 +8,8 @@ from kernel.names import Point, Route, Run, Serial, Stage, Train, UnitLife
 from models.simulator.play import Play
 
 NO_ROUTE = Route("standing")
+ARRIVES = {"offer": "take_offer", "echo": "note_echo", "permit": "take_permit"}
+"""The steps of the first loop, and of the permit, as they arrive."""
 
 
 def next_run(play: Play, train: Train, route: Route) -> Run:
@@ -57,10 +59,11 @@ def close_loop(play: Play, run: Run, random: Random, loss: float) -> bool:
         return False
     if grant.stage == Stage.RESERVED:
         play.take("open_first_loop", run=run)
-    for send, receive in (("send_offer", "take_offer"), ("send_echo", "note_echo"), ("send_permit", "take_permit")):
-        play.take(send, run=run)
+    tag_list = {"tag_list": play.site.layout.tag_list[run.route]}
+    for step, event in (("offer", {}), ("echo", tag_list), ("permit", {})):
+        play.take(f"send_{step}", run=run, **event)
         if random.random() >= loss:
-            play.take(receive, run=run)
+            play.take(ARRIVES[step], run=run, **(tag_list if step == "offer" else {}))
     order = play.system.units[run.train].orders.get(run)
     return order is not None and order.permitted
 

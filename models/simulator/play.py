@@ -15,7 +15,7 @@ from models.ground import Ground
 from models.layouts.continuation import with_continuations
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from models.world.formations import directions, formation
-from models.world.start import start
+from models.world.start import site_as_told, start
 from models.world.state import Site, System
 
 Step = Callable[..., System]
@@ -61,7 +61,7 @@ def site_of(layout: Layout, ground: Ground, records: TagRecords, cars: Mapping[T
     """A station with its continuations, and these trains for its fleet."""
     wider, ground_wider = with_continuations(layout, ground)
     along = directions(wider, ground_wider)
-    return Site(
+    return site_as_told(
         layout=replace(wider, fleet=frozenset(cars)),
         records=records,
         ground=ground_wider,

@@ -115,6 +115,8 @@ class Traffic:
             if step == "note_standing":
                 run = messages.next_run(self.play, event["train"], messages.NO_ROUTE)
                 event["run"] = run._replace(life=event["life"])
+            if step == "take_offer":
+                event["tag_list"] = self.play.site.layout.tag_list[event["run"].route]
             take(step, **event)
 
 

@@ -29,9 +29,10 @@ def open_first_loop(site: Site, system: System, run: Run) -> System:
 
 def note_echo(site: Site, system: System, run: Run) -> System:
     """An echo arrives (T4)."""
-    if run not in system.radio.echoes:
+    tag_list = system.radio.echoes.get(run)
+    if tag_list is None:
         return system
-    return replace(system, centre=route_setting.note_echo(system.centre, run))
+    return replace(system, centre=route_setting.note_echo(site.layout, system.centre, run, tag_list))
 
 
 def release_block(site: Site, system: System, run: Run, block: Block, left: Read, entered: Read) -> System:

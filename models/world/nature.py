@@ -21,9 +21,13 @@ from models.world.state import Site, System
 def start_rolling(site: Site, system: System, run: Run) -> System:
     """A train with authority gathers speed: from now on it may run up to the end that its brake was given.
 
-    Without authority the unit holds the brake, so no train begins to roll.
+    Without authority the unit holds the brake, so no train begins to roll.  The end is worked out from the list
+    that the unit keeps.
     """
     if run.train not in system.units or not may_proceed(system.units[run.train], run):
+        return system
+    tag_list = system.units[run.train].orders[run].tag_list
+    if tag_list is None or tag_list not in site.lists.way or tag_list not in site.lists.overlap:
         return system
     return replace(
         system,
@@ -33,9 +37,9 @@ def start_rolling(site: Site, system: System, run: Run) -> System:
             leavable=system.track.leavable
             | frozenset(
                 (run, block)
-                for block in site.layout.way[run.route]
-                if site.layout.way[run.route][block] not in site.layout.overlap[run.route]
-                and may_leave(site.layout, system.units[run.train], run, block)
+                for block in site.lists.way[tag_list]
+                if site.lists.way[tag_list][block] not in site.lists.overlap[tag_list]
+                and may_leave(site.lists, system.units[run.train], run, block)
             ),
         ),
     )
@@ -44,6 +48,9 @@ def start_rolling(site: Site, system: System, run: Run) -> System:
 def overrun(site: Site, system: System, run: Run) -> System:
     """A train brakes so late that it will slip into its overlap; the overlap is laid out for no more (T9)."""
     if run.train not in system.units or not may_overrun(system.units[run.train], run):
+        return system
+    tag_list = system.units[run.train].orders[run].tag_list
+    if tag_list is None or tag_list not in site.lists.way or tag_list not in site.lists.overlap:
         return system
     return replace(
         system,
@@ -54,8 +61,8 @@ def overrun(site: Site, system: System, run: Run) -> System:
             leavable=system.track.leavable
             | frozenset(
                 (run, block)
-                for block in site.layout.way[run.route]
-                if may_leave(site.layout, system.units[run.train], run, block)
+                for block in site.lists.way[tag_list]
+                if may_leave(site.lists, system.units[run.train], run, block)
             ),
         ),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel import authority, first_loop, second_loop, standing, tail_evidence
-from kernel.names import Block, Cab, Car, Epoch, Read, Run, Tag, Train, UnitLife
+from kernel.names import Block, Cab, Car, Epoch, Read, Run, Tag, TagList, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from kernel.unit import Unit
 from models.world.assumptions import (
@@ -29,11 +29,11 @@ def with_unit(system: System, train: Train, unit: Unit) -> System:
     return replace(system, units=system.units | {train: unit})
 
 
-def take_offer(site: Site, system: System, run: Run) -> System:
-    """The tags of a route arrive (T4)."""
+def take_offer(site: Site, system: System, run: Run, tag_list: TagList) -> System:
+    """The tags of a route arrive, and the unit keeps some list of them: nothing is assumed of which (T4)."""
     if run not in system.radio.offers or run.train not in system.units:
         return system
-    return with_unit(system, run.train, first_loop.take_offer(site.layout, system.units[run.train], run))
+    return with_unit(system, run.train, first_loop.take_offer(site.lists, system.units[run.train], run, tag_list))
 
 
 def take_permit(site: Site, system: System, run: Run) -> System:
@@ -56,7 +56,7 @@ def give_back(site: Site, system: System, run: Run, held_end_mm: int, start_end_
         return system
     if not a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm):
         return system
-    unit = first_loop.give_back(site.layout, system.units[run.train], run, held_end_mm, start_end_mm)
+    unit = first_loop.give_back(site.lists, system.units[run.train], run, held_end_mm, start_end_mm)
     return with_unit(system, run.train, unit)
 
 
@@ -83,7 +83,7 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
         order.permitted and not order.given_back and order.expected == tag for _, order in unit.orders.items()
     )
     return replace(
-        with_unit(system, train, second_loop.note_head_read(site.layout, unit, cab, tag, in_window)),
+        with_unit(system, train, second_loop.note_head_read(site.plan, site.lists, unit, cab, tag, in_window)),
         track=replace(
             system.track,
             entered=system.track.entered
@@ -140,9 +140,9 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
     elsewhere = (
         healthy
         and before.leading is not None
-        and (read.tag not in site.layout.tag_in or site.layout.tag_in[read.tag] not in before.occupied)
+        and (read.tag not in site.plan.tag_in or site.plan.tag_in[read.tag] not in before.occupied)
     )
-    unit = tail_evidence.note_tail_read(site.layout, before, cab, healthy, read)
+    unit = tail_evidence.note_tail_read(site.plan, site.lists, before, cab, healthy, read)
     counts = is_last(site, system, run, car) and is_genuine(site, read)
     behind = system.track.behind | frozenset(
         (other, block)

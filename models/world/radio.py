@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from kernel import cancellation, first_loop, recovery, relay, route_setting, standing, tail_evidence
 from kernel.authority import tells_stopped
-from kernel.names import Block, Epoch, Point, Position, Read, Run, TerminalLife, Train
+from kernel.names import Block, Epoch, Point, Position, Read, Run, TagList, TerminalLife, Train
 from kernel.terminal import confirms
 from models.world.assumptions import detection_is_true
 from models.world.state import Site, System
@@ -25,10 +25,17 @@ def send_order(site: Site, system: System, run: Run, point: Point, life: Termina
 
 
 def relay_order(site: Site, system: System, run: Run, point: Point, life: TerminalLife) -> System:
-    """Train to terminal: the order that came, unless it would throw the point below (T10)."""
+    """Train to terminal: the order that came, unless it would throw the point below (T10).
+
+    The order names the position that the route needs.
+    """
     if (run, point, life) not in system.radio.orders or run.train not in system.units:
         return system
-    if not relay.relays_order(site.layout, system.units[run.train], run, point):
+    if run.route not in site.layout.needs or point not in site.layout.needs[run.route]:
+        return system
+    if not relay.relays_order(
+        site.plan, site.lists, system.units[run.train], run, point, site.layout.needs[run.route][point]
+    ):
         return system
     radio = replace(system.radio, relayed_orders=system.radio.relayed_orders | {(run, point, life)})
     return replace(system, radio=radio)
@@ -77,11 +84,11 @@ def send_offer(site: Site, system: System, run: Run) -> System:
     return replace(system, radio=replace(system.radio, offers=system.radio.offers | {run}))
 
 
-def send_echo(site: Site, system: System, run: Run) -> System:
-    """Train to centre: the same tags back (first loop; T4)."""
-    if run.train not in system.units or not first_loop.echoes(system.units[run.train], run):
+def send_echo(site: Site, system: System, run: Run, tag_list: TagList) -> System:
+    """Train to centre: the list that it keeps (first loop; T4)."""
+    if run.train not in system.units or not first_loop.echoes(system.units[run.train], run, tag_list):
         return system
-    return replace(system, radio=replace(system.radio, echoes=system.radio.echoes | {run}))
+    return replace(system, radio=replace(system.radio, echoes=system.radio.echoes | {run: tag_list}))
 
 
 def send_permit(site: Site, system: System, run: Run) -> System:
@@ -109,7 +116,7 @@ def send_tail_report(site: Site, system: System, run: Run, block: Block, left: R
     """Train to centre: the tail has left ``block``, and read this (third loop; T6, T7)."""
     if run.train not in system.units:
         return system
-    if not tail_evidence.reports_left(site.layout, system.units[run.train], run, block, left, entered):
+    if not tail_evidence.reports_left(site.lists, system.units[run.train], run, block, left, entered):
         return system
     radio = replace(system.radio, tail_reports=system.radio.tail_reports | {(run, block, left, entered)})
     return replace(system, radio=radio)

@@ -5,13 +5,29 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from kernel.centre import Centre
+from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Car, Epoch, Point, Position, Serial, TerminalLife, Train, UnitLife
 from kernel.restarts import restart_centre, restart_terminal, restart_unit
+from kernel.tag_list import TagPlan
+from kernel.tag_list_text import what_they_say
 from kernel.terminal import Terminal
 from kernel.unit import NO_ORDERS, Unit
-from models.world.state import Radio, Site, System, Track
+from models.ground import Ground
+from models.world.state import Formation, Radio, Site, System, Track
 
 FIRST_EPOCH = Epoch(1)
+
+
+def site_as_told(layout: Layout, records: TagRecords, ground: Ground, formation: Formation) -> Site:
+    """Give the site on which every unit reads tag lists right, and has the centre's plan of the tags."""
+    return Site(
+        layout=layout,
+        lists=what_they_say(tag_list for _, tag_list in layout.tag_list.items()),
+        plan=TagPlan(tag_in=layout.tag_in, partner=layout.partner, stands_in=layout.stands_in),
+        records=records,
+        ground=ground,
+        formation=formation,
+    )
 
 
 def silent_radio() -> Radio:
@@ -24,7 +40,7 @@ def silent_radio() -> Radio:
         confirmed=frozenset(),
         confirmations=frozenset(),
         offers=frozenset(),
-        echoes=frozenset(),
+        echoes={},
         permits=frozenset(),
         recalls=frozenset(),
         returns=frozenset(),

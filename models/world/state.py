@@ -17,10 +17,12 @@ from kernel.names import (
     Read,
     Run,
     Tag,
+    TagList,
     TerminalLife,
     Train,
     UnitLife,
 )
+from kernel.tag_list import TagLists, TagPlan
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 from models.ground import Ground
@@ -50,9 +52,14 @@ class Formation:
 
 @dataclass(frozen=True)
 class Site:
-    """What does not change: the layout as told, what is written in its tags, the ground, the trains."""
+    """What does not change: the layout as the centre has it, what is on board, what is written in tags, ground, trains.
+
+    ``lists``: what tag lists say, right or wrong.  ``plan``: the line's tags as the units know them.
+    """
 
     layout: Layout
+    lists: TagLists
+    plan: TagPlan
     records: TagRecords
     ground: Ground
     formation: Formation
@@ -64,7 +71,8 @@ class Radio:
 
     ``orders``, ``enquiries``: centre to train, for a point terminal; ``relayed_…``: on to the terminal.
     ``confirmed``: terminal to train; ``confirmations``: on to the centre.
-    ``offers``, ``permits``, ``recalls``: centre to train; ``echoes``, ``returns``: back.
+    ``offers``, ``permits``, ``recalls``: centre to train; ``echoes``, with the list that the train keeps, and
+    ``returns``: back.
     ``tail_reports``, ``stops``: train to centre (third loop, standstill).
     ``challenges``: centre to all; ``standings``: the answers, one a life and epoch.
     ``standing_runs``: centre to train, under which run it stands.
@@ -79,7 +87,7 @@ class Radio:
     confirmed: frozenset[tuple[Run, Point, Position]]
     confirmations: frozenset[tuple[Run, Point, Position]]
     offers: frozenset[Run]
-    echoes: frozenset[Run]
+    echoes: Map[Run, TagList]
     permits: frozenset[Run]
     recalls: frozenset[Run]
     returns: frozenset[Run]

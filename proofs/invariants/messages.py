@@ -31,7 +31,7 @@ def a_message_follows_its_stage(site: Site, system: System) -> bool:
 def an_answer_follows_its_question(site: Site, system: System) -> bool:
     """Echo after list, permit after echo, acknowledgement after echo; relays pass on only what was sent (T4, T10)."""
     return (
-        all(run in system.radio.offers or run in system.radio.standing_runs for run in system.radio.echoes)
+        all(run in system.radio.offers for run in system.radio.echoes)
         and all(run in system.radio.offers and run in system.radio.echoes for run in system.radio.permits)
         and all(run in system.radio.offers for run in system.radio.returns)
         and all(run in system.radio.permits for run in system.radio.stops)
@@ -42,10 +42,36 @@ def an_answer_follows_its_question(site: Site, system: System) -> bool:
 
 
 def a_set_run_was_offered(site: Site, system: System) -> bool:
-    """A run is set only after its list was sent and echoed (T4)."""
+    """A run is set only after its list was sent, and the very same came back (T4)."""
     return all(
-        grant.stage != Stage.SET or (run in system.radio.offers and run in system.radio.echoes)
+        grant.stage != Stage.SET
+        or (
+            run in system.radio.offers
+            and run in system.radio.echoes
+            and run.route in site.layout.tag_list
+            and system.radio.echoes[run] == site.layout.tag_list[run.route]
+        )
         for run, grant in system.centre.runs.items()
+    )
+
+
+def a_permitted_run_was_compared(site: Site, system: System) -> bool:
+    """A run is permitted only after the list that the train keeps was found to be the centre's (T4)."""
+    return all(
+        run in system.radio.echoes
+        and run.route in site.layout.tag_list
+        and system.radio.echoes[run] == site.layout.tag_list[run.route]
+        for run in system.radio.permits
+    )
+
+
+def a_unit_goes_by_the_centres_list(site: Site, system: System) -> bool:
+    """What a unit keeps of a route that it may enter is what the centre has sent (T4)."""
+    return all(
+        run not in system.radio.permits
+        or (run.route in site.layout.tag_list and order.tag_list == site.layout.tag_list[run.route])
+        for train in system.units
+        for run, order in system.units[train].orders.items()
     )
 
 
@@ -54,7 +80,10 @@ def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
     return all(
         run.train == train
         and run.life == system.units[train].life
-        and (run in system.radio.offers or (run in system.radio.standing_runs and order.given_back and order.begun))
+        and (
+            (run in system.radio.offers and order.tag_list is not None)
+            or (run in system.radio.standing_runs and order.given_back and order.begun and order.tag_list is None)
+        )
         and (not order.permitted or run in system.radio.permits)
         and (not order.recalled or run in system.radio.recalls)
         and (not order.stopped or order.given_back or run in system.radio.permits)
@@ -64,10 +93,16 @@ def a_unit_knows_only_what_was_sent(site: Site, system: System) -> bool:
 
 
 def an_echo_is_of_a_known_run(site: Site, system: System) -> bool:
-    """A unit forgets no run in the life in which it has echoed its tags (T4)."""
+    """A unit forgets no run in the life in which it has echoed its tags, nor what it echoed (T4)."""
     return all(
         run.train in system.units
-        and (run.life != system.units[run.train].life or run in system.units[run.train].orders)
+        and (
+            run.life != system.units[run.train].life
+            or (
+                run in system.units[run.train].orders
+                and system.units[run.train].orders[run].tag_list == system.radio.echoes[run]
+            )
+        )
         for run in system.radio.echoes
     )
 

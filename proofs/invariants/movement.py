@@ -185,17 +185,17 @@ def a_head_that_read_a_tag_was_there(site: Site, system: System) -> bool:
 def a_run_not_yet_begun_expects_its_first_tags(site: Site, system: System) -> bool:
     """Until a run has begun its unit expects the tags at the end of its start block, the nearer one first (T5)."""
     return all(
-        run.route not in site.layout.routes
+        order.tag_list is None
         or order.begun
         or order.expected is None
-        or order.expected == site.layout.first_tag.get(run.route)
+        or order.expected == site.lists.first_tag.get(order.tag_list)
         or (
-            run.route in site.layout.first_tag
-            and run.route in site.layout.tag_after
-            and order.expected == site.layout.tag_after[run.route].get(site.layout.first_tag[run.route])
+            order.tag_list in site.lists.first_tag
+            and order.tag_list in site.lists.tag_after
+            and order.expected == site.lists.tag_after[order.tag_list].get(site.lists.first_tag[order.tag_list])
         )
         for train in system.units
-        for run, order in system.units[train].orders.items()
+        for _run, order in system.units[train].orders.items()
     )
 
 

@@ -7,10 +7,11 @@ from dataclasses import replace
 from kernel.centre import NO_LOCKS, NO_RUNS, Centre
 from kernel.claims import end_claims
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, Tag, TerminalLife, UnitLife
+from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, Tag, TagList, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
 from kernel.route_setting import conflict
+from kernel.tag_list import TagLists, TagPlan
 from kernel.tail_evidence import has_been_in
 from kernel.terminal import Terminal
 from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Evidence, Order, Unit
@@ -54,7 +55,7 @@ def unit_keeps_its_life(unit: Unit, life: UnitLife) -> Unit:
     )
 
 
-def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
+def offer_to_any_life(lists: TagLists, unit: Unit, run: Run, tag_list: TagList) -> Unit:
     """Store a tag list whatever life it names, so that it is echoed and given back for another."""
     if run in unit.orders:
         return unit
@@ -63,12 +64,13 @@ def offer_to_any_life(layout: Layout, unit: Unit, run: Run) -> Unit:
         orders=unit.orders
         | {
             run: Order(
+                tag_list=tag_list,
                 permitted=False,
                 recalled=False,
                 given_back=False,
                 begun=False,
                 stopped=False,
-                expected=layout.first_tag.get(run.route),
+                expected=lists.first_tag.get(tag_list),
                 entered=NO_BLOCKS,
                 led_by=None,
                 left=NO_EVIDENCE,
@@ -83,12 +85,12 @@ def acknowledges_at_once(unit: Unit, run: Run) -> bool:
     return order is not None and order.recalled and not order.begun
 
 
-def any_antenna(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def any_antenna(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Count the reads of every antenna, the head's too, over every line."""
     before = unit.tail_read
-    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+    if before is None or unit.loop_open or plan.partner.get(before.tag) != read.tag:
         return replace(unit, tail_read=read)
-    block = layout.tag_in.get(before.tag)
+    block = plan.tag_in.get(before.tag)
     if block is None:
         return replace(unit, tail_read=read)
     return replace(
@@ -97,21 +99,21 @@ def any_antenna(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read)
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_been_in(layout, run, order, block)
+            if has_been_in(lists, order, block)
             else order
             for run, order in unit.orders.items()
         },
     )
 
 
-def tail_over_a_broken_line(layout: Layout, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def tail_over_a_broken_line(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Count the reads of the cabs that do not lead even when the through line does not reach the tail."""
     if unit.leading is None or unit.leading == cab:
         return unit
     before = unit.tail_read
-    if before is None or unit.loop_open or layout.partner.get(before.tag) != read.tag:
+    if before is None or unit.loop_open or plan.partner.get(before.tag) != read.tag:
         return replace(unit, tail_read=read)
-    block = layout.tag_in.get(before.tag)
+    block = plan.tag_in.get(before.tag)
     if block is None:
         return replace(unit, tail_read=read)
     return replace(
@@ -120,7 +122,7 @@ def tail_over_a_broken_line(layout: Layout, unit: Unit, cab: Cab, healthy: bool,
         occupied=unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_been_in(layout, run, order, block)
+            if has_been_in(lists, order, block)
             else order
             for run, order in unit.orders.items()
         },
@@ -134,12 +136,12 @@ def ends_changed_and_read_kept(unit: Unit, cab: Cab) -> Unit:
     return replace(unit, leading=cab, head_tag=None)
 
 
-def tail_read_always_good(layout: Layout, unit: Unit, tag: Tag) -> Read | None:
+def tail_read_always_good(plan: TagPlan, unit: Unit, tag: Tag) -> Read | None:
     """Keep the tail's last read though the head passes that boundary again."""
     return unit.tail_read
 
 
-def begun_is_been_in(layout: Layout, run: Run, order: Order, block: Block) -> bool:
+def begun_is_been_in(lists: TagLists, order: Order, block: Block) -> bool:
     """Take a run that has begun for one under which the train has been in any block."""
     return order.begun
 

@@ -56,7 +56,7 @@ def its_brake_keeps_it_out(site: Site, system: System, run: Run, held_end_mm: in
         held_end_mm <= start_end_mm
         and a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm)
         and run.train in system.units
-        and not is_followed(site.layout, system.units[run.train], run)
+        and not is_followed(site.lists, system.units[run.train], run)
     )
 
 

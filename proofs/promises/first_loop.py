@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.names import Run, Stage
+from kernel.names import Run, Stage, TagList
 from models.world import at_the_centre, on_board, radio
 from models.world.state import Site, System
 from proofs.invariants.vocabulary import at_stage
@@ -13,11 +13,11 @@ from proofs.promises.vocabulary import can_be_told, lives, order_of
 def a_proved_run_is_permitted(site: Site, system: System, run: Run) -> bool:
     """The train may enter a run whose points are proved.
 
-    Or the run is taken back meanwhile, or the unit restarts (T4).
+    Or the run is taken back meanwhile, or the unit restarts, or it keeps another list than it was sent (T4).
     """
     order = order_of(system, run)
     return (
-        (order is not None and (order.permitted or order.given_back))
+        (order is not None and (order.permitted or order.given_back or not keeps_the_centres_list(site, system, run)))
         or not lives(system, run.train, run.life)
         or not is_wanted(system, run)
     )
@@ -27,6 +27,16 @@ def is_wanted(system: System, run: Run) -> bool:
     """The centre has the run, not over, and has not asked for it back."""
     grant = system.centre.runs.get(run)
     return grant is not None and grant.stage != Stage.OVER and not grant.cancelling
+
+
+def keeps_the_centres_list(site: Site, system: System, run: Run) -> bool:
+    """What the unit keeps of the route is what the centre has sent."""
+    order = order_of(system, run)
+    return (
+        order is not None
+        and run.route in site.layout.tag_list
+        and order.tag_list == site.layout.tag_list[run.route]
+    )
 
 
 def its_points_are_proved(site: Site, system: System, run: Run) -> bool:
@@ -53,7 +63,13 @@ def its_tags_are_in_the_air(site: Site, system: System, run: Run) -> bool:
 
 def its_tags_are_on_board(site: Site, system: System, run: Run) -> bool:
     """The unit has the tag list, and echoes it."""
-    return it_is_offered(site, system, run) and order_of(system, run) is not None
+    return it_is_offered(site, system, run) and keeps_the_centres_list(site, system, run)
+
+
+def it_is_the_list_on_board(site: Site, system: System, run: Run, tag_list: TagList) -> bool:
+    """What the unit sends back is what it keeps."""
+    order = order_of(system, run)
+    return order is not None and order.tag_list == tag_list
 
 
 def its_echo_is_in_the_air(site: Site, system: System, run: Run) -> bool:
@@ -103,7 +119,7 @@ PROMISES = (
             Link(its_points_are_proved, at_the_centre.open_first_loop),
             Link(it_is_offered, radio.send_offer),
             Link(its_tags_are_in_the_air, on_board.take_offer),
-            Link(its_tags_are_on_board, radio.send_echo),
+            Link(its_tags_are_on_board, radio.send_echo, it_is_the_list_on_board),
             Link(its_echo_is_in_the_air, at_the_centre.note_echo),
             Link(its_loop_is_closed, radio.send_permit),
             Link(its_permit_is_in_the_air, on_board.take_permit),

@@ -35,7 +35,7 @@ def the_exit_is_on_board(site: Site, system: System, run: Run, block: Block, lef
     return (
         genuine(site, block, left, entered)
         and unit is not None
-        and reports_left(site.layout, unit, run, block, left, entered)
+        and reports_left(site.lists, unit, run, block, left, entered)
     )
 
 

@@ -221,10 +221,11 @@ def a_standing_run_told_late_is_no_order(steps: Steps) -> Scenario:
         prove(scenario, run, point)
     scenario.does("open_first_loop", run=run)
     scenario.does("send_offer", run=run)
-    scenario.refuses("take_offer", run=run)
-    scenario.refuses("send_echo", run=run)
+    tag_list = scenario.site.layout.tag_list[run.route]
+    scenario.refuses("take_offer", run=run, tag_list=tag_list)
+    scenario.refuses("send_echo", run=run, tag_list=tag_list)
     tell_back(scenario, stands[T1])
-    scenario.does("take_offer", run=run)
+    scenario.does("take_offer", run=run, tag_list=tag_list)
     return scenario
 
 

@@ -100,7 +100,7 @@ def a_route_is_set_step_by_step(steps: Steps) -> Scenario:
     echo(scenario, run)
     scenario.refuses("start_rolling", run=run)
     permit(scenario, run)
-    scenario.refuses("take_offer", run=run)
+    scenario.refuses("take_offer", run=run, tag_list=scenario.site.layout.tag_list[run.route])
     at_stage(scenario, run, Stage.SET)
     return scenario
 

@@ -105,7 +105,9 @@ def open_first_loop(scenario: Scenario, run: Run) -> None:
 def send_list(scenario: Scenario, run: Run) -> None:
     """The list comes to the train."""
     scenario.does("send_offer", {"radio": {"offers": came(run)}}, run=run)
+    tag_list = scenario.site.layout.tag_list[run.route]
     taken = Order(
+        tag_list=tag_list,
         permitted=False,
         recalled=False,
         given_back=False,
@@ -116,12 +118,13 @@ def send_list(scenario: Scenario, run: Run) -> None:
         led_by=None,
         left={},
     )
-    scenario.does("take_offer", {"units": {run.train: {"orders": {run: taken}}}}, run=run)
+    scenario.does("take_offer", {"units": {run.train: {"orders": {run: taken}}}}, run=run, tag_list=tag_list)
 
 
 def echo(scenario: Scenario, run: Run) -> None:
     """The same list comes back, and the run is set."""
-    scenario.does("send_echo", {"radio": {"echoes": came(run)}}, run=run)
+    tag_list = scenario.site.layout.tag_list[run.route]
+    scenario.does("send_echo", {"radio": {"echoes": {run: tag_list}}}, run=run, tag_list=tag_list)
     scenario.does("note_echo", {"centre": {"runs": {run: {"stage": Stage.SET}}}}, run=run)
 
 

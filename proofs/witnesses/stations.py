@@ -10,7 +10,7 @@ from models.layouts.continuation import with_continuations
 from models.layouts.loading import load_text
 from models.layouts.results import Imported
 from models.world.formations import directions, formation
-from models.world.start import start
+from models.world.start import site_as_told, start
 from models.world.state import Site, System
 
 NORMAL, REVERSE = Position("normal"), Position("reverse")
@@ -346,7 +346,7 @@ def site_of(text: str, cars: Mapping[Train, Sequence[Car]] = CARS) -> Site:
     layout, ground = with_continuations(station.layout, station.ground)
     along = directions(layout, ground)
     leading = along[LEADS[text]]
-    return Site(
+    return site_as_told(
         layout=layout,
         records=station.records,
         ground=ground,

@@ -116,6 +116,7 @@ def tell_back(scenario: Scenario, run: Run) -> None:
     """The centre tells the train under which run it stands."""
     scenario.does("send_standing_run", {"radio": {"standing_runs": came(run)}}, run=run)
     stands = Order(
+        tag_list=None,
         permitted=False,
         recalled=False,
         given_back=True,

@@ -16,7 +16,7 @@ import z3
 from kernel.names import Block, Car, Cause, Point, Position, Stage
 from models.layouts import load
 from models.world.formations import directions, formation
-from models.world.start import start
+from models.world.start import site_as_told, start
 from models.world.state import Site, System
 from proofs.catalogue import AXIOMS, INITIAL, INVARIANTS, PREMISES
 from proofs.finite import LARGER, World
@@ -48,7 +48,7 @@ def station(path: Path) -> tuple[Site, System]:
     along = directions(layout, imported.ground)
     trains = sorted(layout.fleet)
     cars = {train: [Car(f"{train}.1"), Car(f"{train}.2")] for train in trains}
-    site = Site(layout, imported.records, imported.ground, formation(cars, lambda route: along.get(route, True)))
+    site = site_as_told(layout, imported.records, imported.ground, formation(cars, lambda route: along.get(route, True)))
     apart: list[Block] = []
     for block in sorted(layout.blocks):
         if len(apart) < len(trains) and not any(other in layout.fouls.get(block, ()) for other in apart):

@@ -8,9 +8,10 @@ from __future__ import annotations
 from kernel.layout import Layout, TagRecords
 from kernel.maps import Map
 from kernel.names import Block, Cab, Car, Point, Position, Record, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
 from models.world.formations import cabs
-from models.world.start import start
+from models.world.start import site_as_told, start
 from models.world.state import Formation, Site, System
 
 N, R = Position("normal"), Position("reverse")
@@ -44,27 +45,30 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
     for (a, b), name in ends.items():
         partner[tag(name, a)], partner[tag(name, b)] = tag(name, b), tag(name, a)
         tag_in[tag(name, a)], tag_in[tag(name, b)] = a, b
-    layout = Layout(
-        fleet=frozenset({T1, T2}),
-        blocks=frozenset({W, P, Q, E}),
-        routes=frozenset(routes),
-        points=frozenset({PW, PE}),
-        start={r: a for r, (a, b) in routes.items()},
-        destination={r: b for r, (a, b) in routes.items()},
-        covers={r: frozenset({b}) for r, (a, b) in routes.items()},
-        overlap={r: frozenset() for r in routes},
-        claims={r: frozenset({a, b}) for r, (a, b) in routes.items()},
-        way={r: {a: b} for r, (a, b) in routes.items()},
-        needs=needs,
-        released_with=released_with,
-        released_after={r: {a: a, b: b} for r, (a, b) in routes.items()},
-        fouls={},
-        stands_in={PW: W, PE: E},
-        points_in={W: frozenset({PW}), E: frozenset({PE})},
-        tag_in=tag_in,
-        partner=partner,
-        first_tag={r: tag(boundary[a, b], a) for r, (a, b) in routes.items()},
-        tag_after={r: {tag(boundary[a, b], a): tag(boundary[a, b], b)} for r, (a, b) in routes.items()},
+    layout = with_tag_lists(
+        Layout(
+            fleet=frozenset({T1, T2}),
+            blocks=frozenset({W, P, Q, E}),
+            routes=frozenset(routes),
+            points=frozenset({PW, PE}),
+            start={r: a for r, (a, b) in routes.items()},
+            destination={r: b for r, (a, b) in routes.items()},
+            covers={r: frozenset({b}) for r, (a, b) in routes.items()},
+            overlap={r: frozenset() for r in routes},
+            claims={r: frozenset({a, b}) for r, (a, b) in routes.items()},
+            way={r: {a: b} for r, (a, b) in routes.items()},
+            needs=needs,
+            released_with=released_with,
+            released_after={r: {a: a, b: b} for r, (a, b) in routes.items()},
+            fouls={},
+            stands_in={PW: W, PE: E},
+            points_in={W: frozenset({PW}), E: frozenset({PE})},
+            tag_in=tag_in,
+            partner=partner,
+            first_tag={r: tag(boundary[a, b], a) for r, (a, b) in routes.items()},
+            tag_list={},
+            tag_after={r: {tag(boundary[a, b], a): tag(boundary[a, b], b)} for r, (a, b) in routes.items()},
+        )
     )
     ground = Ground(
         leads=leads,
@@ -103,7 +107,7 @@ def small_site(serials: int = 8, lives: int = 4) -> Site:
         front[run] = Cab(f"cab of {order[0]}")
         last[run] = order[-1]
         ahead[run] = {c: frozenset(order[:i]) for i, c in enumerate(order)}
-    return Site(
+    return site_as_told(
         layout=layout,
         records=records,
         ground=ground,

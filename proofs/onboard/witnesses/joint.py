@@ -103,7 +103,7 @@ def another_trains_end_is_its_own() -> None:
     assert station.system.brake[T2] == Brake(applied=True, end_mm=10_500, withheld=True)
     assert station.system.brake[T1].end_mm == 750_000
     assert station.rolling() == {RUN}
-    unit = replace(station.system.system.units[T2], orders={OTHER: PERMITTED})
+    unit = replace(station.system.system.units[T2], orders={OTHER: station.listed_by_the_centre(OTHER, PERMITTED)})
     station.step("unit_changes", train=T2, unit=unit)
     event = {"train": T2, "front_least_mm": 9_500, "front_most_mm": 10_500}
     station.step("ask_for_the_end", **event, brake=Brake(applied=True, end_mm=300_000))
@@ -200,7 +200,7 @@ def a_train_too_near_to_be_held_gives_nothing_back() -> None:
         assert brake == Brake(applied=True, end_mm=750_000, withheld=True)
         assert released(brake, 439_500).applied
         assert not station.gives_back()
-    assert station.unit().orders[RUN] == RECALLED
+    assert station.order(RUN) == RECALLED
 
 
 def a_train_that_rolls_in_keeps_its_run() -> None:
@@ -252,11 +252,11 @@ def a_permit_after_the_recall_permits_nothing() -> None:
     station.told({RUN: replace(PERMITTED, permitted=False)})
     station.changes(first_loop.recall(station.unit(), RUN))
     station.changes(first_loop.take_permit(station.unit(), RUN))
-    assert station.unit().orders[RUN] == RECALLED
+    assert station.order(RUN) == RECALLED
     station.holds(440_000, withheld=True)
     assert station.gives_back()
     station.changes(first_loop.take_permit(station.unit(), RUN))
-    assert station.unit().orders[RUN] == GIVEN_BACK
+    assert station.order(RUN) == GIVEN_BACK
 
 
 def a_unit_that_restarts_while_recalled_gives_nothing_back() -> None:

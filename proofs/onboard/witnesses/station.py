@@ -45,6 +45,7 @@ RUN = Run(Serial(2), T1, UnitLife(0), WEST_TO_ONE)
 ONWARD = Run(Serial(3), T1, UnitLife(0), ONE_TO_EAST)
 OTHER = Run(Serial(4), T2, UnitLife(0), Route("east to one"))
 PERMITTED = Order(
+    tag_list=None,
     permitted=True,
     recalled=False,
     given_back=False,
@@ -105,8 +106,16 @@ class Station(Play[Survey, Joint]):
         assert self.unit() == unit
 
     def told(self, orders: Mapping[Run, Order]) -> None:
-        """The unit has these orders."""
-        self.changes(replace(self.unit(), orders=dict(orders)))
+        """The unit has these orders, each with the centre's list of its route."""
+        self.changes(replace(self.unit(), orders={run: self.listed_by_the_centre(run, each) for run, each in orders.items()}))
+
+    def listed_by_the_centre(self, run: Run, order: Order) -> Order:
+        """An order as it is with the centre's list."""
+        return replace(order, tag_list=self.site.site.layout.tag_list[run.route])
+
+    def order(self, run: Run) -> Order:
+        """What the unit knows of a run, but for its list."""
+        return replace(self.unit().orders[run], tag_list=None)
 
     def loop_opens(self) -> None:
         """The unit's second loop opens."""
@@ -121,14 +130,14 @@ class Station(Play[Survey, Joint]):
     def ends(self, front_least_mm: int, front_most_mm: int) -> frozenset[int]:
         """Where the authority ends, by the orders that the unit has now."""
         lists = (self.system.begins_mm, self.system.block_ends_mm)
-        return machine.ends_mm(self.site.site.layout, self.unit(), *lists, front_least_mm, front_most_mm)
+        return machine.ends_mm(self.site.site.lists, self.unit(), *lists, front_least_mm, front_most_mm)
 
     def asks(self, speed_mm_s: int = 0, error_mm: int = 1_000) -> Brake:
         """A cycle on board: the brake does what the kernel says."""
         head_mm = self.system.head_mm[T1]
         least_mm, most_mm = head_mm - error_mm, head_mm + error_mm
         asked = machine.obey(
-            self.site.site.layout,
+            self.site.site.lists,
             self.unit(),
             self.system.begins_mm,
             self.system.block_ends_mm,
@@ -172,7 +181,7 @@ class Station(Play[Survey, Joint]):
         """The unit gives the run back if it may, by what the brake holds; say whether it then says so."""
         ends_mm, start = self.system.block_ends_mm[run], self.site.site.layout.start[run.route]
         held_mm = self.system.brake[T1].end_mm
-        self.changes(first_loop.give_back(self.site.site.layout, self.unit(), run, held_mm, ends_mm[start]))
+        self.changes(first_loop.give_back(self.site.site.lists, self.unit(), run, held_mm, ends_mm[start]))
         return first_loop.acknowledges_back(self.unit(), run)
 
 
