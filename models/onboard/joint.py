@@ -61,6 +61,17 @@ def every_route_has_an_overlap(site: Survey) -> bool:
     return all(route in site.site.layout.overlap for route in site.site.layout.way)
 
 
+def a_centres_list_says_what_its_layout_does(site: Survey) -> bool:
+    """The list that the centre sends for a route has the way and the overlap of its layout (T4)."""
+    return all(
+        route in site.site.layout.tag_list
+        and site.site.lists.way.get(site.site.layout.tag_list[route]) == site.site.layout.way[route]
+        and site.site.lists.overlap.get(site.site.layout.tag_list[route]) == site.site.layout.overlap[route]
+        for route in site.site.layout.way
+        if route in site.site.layout.overlap
+    )
+
+
 # ---- assumptions: of the track and its survey
 
 
@@ -133,6 +144,19 @@ def no_car_is_ahead_of_the_head(
 
 
 # ---- assumptions: what each side's proof gives the other
+
+
+def the_unit_goes_by_the_centres_list(site: Survey, unit: Unit) -> bool:
+    """What a unit keeps of a route that it is permitted to enter is the centre's list of it (T4)."""
+    return all(
+        not order.permitted
+        or (
+            run.route in site.site.layout.way
+            and run.route in site.site.layout.tag_list
+            and order.tag_list == site.site.layout.tag_list[run.route]
+        )
+        for run, order in unit.orders.items()
+    )
 
 
 def the_head_stays_inside_authority(system: Joint, train: Train, to_mm: int) -> bool:
@@ -362,4 +386,6 @@ def cars_move(site: Survey, system: Joint, at: Map[Car, frozenset[Block]], under
 
 def unit_changes(site: Survey, system: Joint, train: Train, unit: Unit) -> Joint:
     """Messages, reads, restarts: the unit becomes whatever the interlocking's world may make of it (T8)."""
+    if not the_unit_goes_by_the_centres_list(site, unit):
+        return system
     return replace(system, system=replace(system.system, units=system.system.units | {train: unit}))

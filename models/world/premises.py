@@ -11,18 +11,26 @@ def tags_lie_as_planned(site: Site) -> bool:
     Centre and units have the same plan.  The maintainer lays and surveys the tags; the second loop checks
     distances on every run (T5).
     """
-    return all(
-        tag in site.ground.laid_in and site.ground.laid_in[tag] == site.layout.tag_in[tag] for tag in site.layout.tag_in
-    ) and all(
-        tag in site.ground.laid_leaves
-        and site.layout.partner[tag] in site.ground.laid_leaves[tag]
-        and site.layout.tag_in[tag] in site.ground.laid_leaves[tag][site.layout.partner[tag]]
-        for tag in site.layout.partner
-    ) and (
-        all(tag in site.layout.tag_in and site.layout.tag_in[tag] == site.plan.tag_in[tag] for tag in site.plan.tag_in)
-        and all(tag in site.plan.tag_in for tag in site.layout.tag_in)
-        and all(site.plan.partner.get(tag) == site.layout.partner[tag] for tag in site.layout.partner)
-        and all(tag in site.layout.partner for tag in site.plan.partner)
+    return (
+        all(
+            tag in site.ground.laid_in and site.ground.laid_in[tag] == site.layout.tag_in[tag]
+            for tag in site.layout.tag_in
+        )
+        and all(
+            tag in site.ground.laid_leaves
+            and site.layout.partner[tag] in site.ground.laid_leaves[tag]
+            and site.layout.tag_in[tag] in site.ground.laid_leaves[tag][site.layout.partner[tag]]
+            for tag in site.layout.partner
+        )
+        and (
+            all(
+                tag in site.layout.tag_in and site.layout.tag_in[tag] == site.plan.tag_in[tag]
+                for tag in site.plan.tag_in
+            )
+            and all(tag in site.plan.tag_in for tag in site.layout.tag_in)
+            and all(site.plan.partner.get(tag) == site.layout.partner[tag] for tag in site.layout.partner)
+            and all(tag in site.layout.partner for tag in site.plan.partner)
+        )
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from models.onboard.joint import (
     Joint,
     Survey,
+    a_centres_list_says_what_its_layout_does,
     a_list_follows_the_way,
     a_list_tells_the_track,
     ask_for_the_end,
@@ -15,6 +16,7 @@ from models.onboard.joint import (
     locate,
     no_car_is_ahead_of_the_head,
     take_list,
+    the_unit_goes_by_the_centres_list,
     unit_changes,
 )
 from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it, a_train_obeys_its_authority
@@ -24,9 +26,10 @@ from proofs.theory import Theory, by_name
 
 
 def no_train_is_located(site: Survey, system: Joint) -> bool:
-    """At the start no train knows where it is: it has no end, no list, and no run rolls (T4)."""
+    """At the start no train knows where it is: it has no order, no end, no list, and no run rolls (T4)."""
     return (
-        not any(True for train in system.head_mm)
+        all(not any(True for _ in unit.orders) for _, unit in system.system.units.items())
+        and not any(True for train in system.head_mm)
         and not any(True for train in system.block)
         and not any(True for train in system.block_end_mm)
         and not any(True for train in system.brake)
@@ -163,6 +166,11 @@ def a_block_that_could_be_left_has_a_way_on(site: Survey, system: Joint) -> bool
     )
 
 
+def every_unit_goes_by_the_centres_list(site: Survey, system: Joint) -> bool:
+    """Whatever has become of the units, what they keep of a route that they may enter is the centre's list (T4)."""
+    return all(the_unit_goes_by_the_centres_list(site, unit) for _, unit in system.system.units.items())
+
+
 def a_rolling_run_starts_before_the_end(site: Survey, system: Joint) -> bool:
     """A run that is listed rolls only while the brake holds an end beyond its start block; none else rolls (T12)."""
     return all(
@@ -203,10 +211,11 @@ INVARIANTS = (
     what_lies_before_the_end_could_be_left,
     the_heads_block_is_listed,
     a_block_that_could_be_left_has_a_way_on,
+    every_unit_goes_by_the_centres_list,
     a_rolling_run_starts_before_the_end,
     no_car_came_under_a_run_ahead,
 )
-PREMISES = (every_route_has_an_overlap,)
+PREMISES = (every_route_has_an_overlap, a_centres_list_says_what_its_layout_does)
 STEPS = (locate, take_list, ask_for_the_end, head_runs, head_passes, cars_move, unit_changes)
 
 THEORY = Theory(

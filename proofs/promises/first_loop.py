@@ -32,11 +32,7 @@ def is_wanted(system: System, run: Run) -> bool:
 def keeps_the_centres_list(site: Site, system: System, run: Run) -> bool:
     """What the unit keeps of the route is what the centre has sent."""
     order = order_of(system, run)
-    return (
-        order is not None
-        and run.route in site.layout.tag_list
-        and order.tag_list == site.layout.tag_list[run.route]
-    )
+    return order is not None and run.route in site.layout.tag_list and order.tag_list == site.layout.tag_list[run.route]
 
 
 def its_points_are_proved(site: Site, system: System, run: Run) -> bool:

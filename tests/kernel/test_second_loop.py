@@ -14,8 +14,9 @@ from kernel.second_loop import note_head_read, note_window_passed
 from kernel.unit import Unit
 from tests.world.small_site import T1, P, W, small_site, small_start, tag
 
-LAYOUT = small_site().layout
+SITE = small_site()
 STANDING, RUN = Run(Serial(1), T1, UnitLife(1), Route("standing")), Run(Serial(2), T1, UnitLife(1), Route("W-P"))
+LIST = SITE.layout.tag_list[RUN.route]
 OUT, IN = tag("wp", W), tag("wp", P)
 HEAD, OTHER = Cab("head"), Cab("other")
 
@@ -23,7 +24,7 @@ HEAD, OTHER = Cab("head"), Cab("other")
 def offered() -> Unit:
     """A unit in W, its driver at the head, told under which run it stands, with the list of tags to P."""
     unit = change_ends(small_start(small_site()).units[T1], HEAD)
-    return take_offer(LAYOUT, take_standing(unit, STANDING), RUN)
+    return take_offer(SITE.lists, take_standing(unit, STANDING), RUN, LIST)
 
 
 def permitted() -> Unit:
@@ -35,7 +36,7 @@ def permitted() -> Unit:
 
 def reads(unit: Unit, *tags: Tag, cab: Cab = HEAD) -> Unit:
     for each in tags:
-        unit = note_head_read(LAYOUT, unit, cab, each, True)
+        unit = note_head_read(SITE.plan, SITE.lists, unit, cab, each, True)
     return unit
 
 
@@ -57,13 +58,13 @@ def test_a_wrong_or_missing_tag_opens_the_loop_and_frees_nothing(wrong: tuple[Ta
     before = permitted()
     unit = reads(before, *wrong)
     assert not may_proceed(unit, RUN)
-    assert not may_leave(LAYOUT, unit, RUN, W)
+    assert not may_leave(SITE.lists, unit, RUN, W)
     assert unit.occupied >= before.occupied
 
 
 def test_an_early_or_late_tag_opens_the_loop() -> None:
     """Right, but not within its window of running distance (T5)."""
-    unit = note_head_read(LAYOUT, permitted(), HEAD, OUT, False)
+    unit = note_head_read(SITE.plan, SITE.lists, permitted(), HEAD, OUT, False)
     assert not may_proceed(unit, RUN)
 
 
@@ -99,7 +100,7 @@ def test_an_open_loop_stays_open() -> None:
     unit = reads(note_window_passed(permitted()), OUT, IN)
     assert not may_proceed(unit, RUN)
     assert not may_proceed(take_permit(unit, RUN), RUN)
-    assert not may_proceed(take_offer(LAYOUT, unit, RUN), RUN)
+    assert not may_proceed(take_offer(SITE.lists, unit, RUN, LIST), RUN)
 
 
 def test_nothing_is_expected_before_the_permit() -> None:

@@ -33,7 +33,7 @@ from proofs.onboard.witnesses.station import (
 )
 from proofs.witnesses.stations import EAST, ONE, OUTLET, T1, THROAT, WEST
 
-LAYOUT = surveyed().site.layout
+SITE = surveyed().site
 BLOCKS = tuple(ENDS_MM)
 HUGE = 2**62
 ORDERS = st.builds(
@@ -54,15 +54,20 @@ TRACK = ((WEST, 440_000), (THROAT, 550_000), (ONE, 750_000), (OUTLET, 860_000), 
 """The blocks of the track ahead of the train in the west, and where each ends."""
 
 
+def kept(orders: Mapping[Run, Order]) -> Map[Run, Order]:
+    """Orders, each with the centre's list of its route."""
+    return {run: Station().listed_by_the_centre(run, order) for run, order in orders.items()}
+
+
 def ends(order: Order, ends_mm: Mapping[Block, int], least_mm: int, most_mm: int, begins_mm: int = 0) -> frozenset[int]:
-    unit = replace(Station().unit(), orders={RUN: order})
-    return machine.ends_mm(LAYOUT, unit, {RUN: begins_mm}, {RUN: dict(ends_mm)}, least_mm, most_mm)
+    unit = replace(Station().unit(), orders=kept({RUN: order}))
+    return machine.ends_mm(SITE.lists, unit, {RUN: begins_mm}, {RUN: dict(ends_mm)}, least_mm, most_mm)
 
 
 def leavable(station: Station) -> set[Block]:
     """Give the blocks that the orders which the unit has now let the head leave."""
     unit = station.unit()
-    return {block for run in unit.orders for block, _ in TRACK if machine.may_be_left(LAYOUT, unit, run, block)}
+    return {block for run in unit.orders for block, _ in TRACK if machine.may_be_left(SITE.lists, unit, run, block)}
 
 
 @pytest.mark.parametrize("witness", WITNESSES)
@@ -76,11 +81,11 @@ def test_witness(witness: Callable[[], None]) -> None:
 def test_there_is_one_end_and_it_is_the_nearest_that_may_not_be_passed(
     order: Order, ends_mm: dict[Block, int], least_mm: int, most_mm: int, begins_mm: int
 ) -> None:
-    unit = replace(Station().unit(), orders={RUN: order})
+    unit = replace(Station().unit(), orders=kept({RUN: order}))
     closed = [
         end_mm
         for block, end_mm in ends_mm.items()
-        if end_mm >= least_mm and not machine.may_be_left(LAYOUT, unit, RUN, block)
+        if end_mm >= least_mm and not machine.may_be_left(SITE.lists, unit, RUN, block)
     ]
     known = begins_mm <= least_mm and closed and min(most_mm, *closed) <= max(ends_mm.values())
     assert ends(order, ends_mm, least_mm, most_mm, begins_mm) == (frozenset({min(closed)}) if known else frozenset())
@@ -92,15 +97,15 @@ def test_two_runs_end_where_one_of_them_does_and_never_beyond_a_block_of_neither
     order: Order, onward: Order, least_mm: int, range_mm: int
 ) -> None:
     """Walked along the track block by block: the first that neither run lets the head leave, if it is listed."""
-    unit = replace(Station().unit(), orders={RUN: order, ONWARD: onward})
+    unit = replace(Station().unit(), orders=kept({RUN: order, ONWARD: onward}))
     listed: dict[Run, Map[Block, int]] = {RUN: ENDS_MM, ONWARD: ONWARD_MM}
     walked = next(
         end_mm
         for block, end_mm in TRACK
         if end_mm >= least_mm
-        and not any(block in listed[run] and machine.may_be_left(LAYOUT, unit, run, block) for run in listed)
+        and not any(block in listed[run] and machine.may_be_left(SITE.lists, unit, run, block) for run in listed)
     )
-    found = machine.ends_mm(LAYOUT, unit, {RUN: BEGINS_MM, ONWARD: 550_000}, listed, least_mm, least_mm + range_mm)
+    found = machine.ends_mm(SITE.lists, unit, {RUN: BEGINS_MM, ONWARD: 550_000}, listed, least_mm, least_mm + range_mm)
     straddles = least_mm < 550_000 and min(least_mm + range_mm, walked) > 750_000
     assert found == (frozenset() if straddles else {walked})
 
@@ -129,17 +134,17 @@ def test_without_a_list_there_is_no_end() -> None:
     assert not ends(PERMITTED, ENDS_MM, HUGE, HUGE)
     assert ends(PERMITTED, ENDS_MM, -HUGE, HUGE, -HUGE) == {ENDS_MM[ONE]}
     unit = replace(Station().unit(), orders={})
-    assert machine.ends_mm(LAYOUT, unit, {RUN: 0}, {RUN: ENDS_MM}, 0, 0) == {ENDS_MM[WEST]}
-    assert not machine.ends_mm(LAYOUT, unit, {}, {RUN: ENDS_MM}, 0, 0)
-    assert not machine.ends_mm(LAYOUT, unit, {RUN: 0}, {}, 0, 0)
+    assert machine.ends_mm(SITE.lists, unit, {RUN: 0}, {RUN: ENDS_MM}, 0, 0) == {ENDS_MM[WEST]}
+    assert not machine.ends_mm(SITE.lists, unit, {}, {RUN: ENDS_MM}, 0, 0)
+    assert not machine.ends_mm(SITE.lists, unit, {RUN: 0}, {}, 0, 0)
 
 
 def test_a_block_that_lies_ahead_twice_may_be_left_where_the_order_says() -> None:
     """On a loop: a lap later the same block is not the order's (T4)."""
-    unit = replace(Station().unit(), orders={RUN: PERMITTED})
+    unit = replace(Station().unit(), orders=kept({RUN: PERMITTED}))
     first, later = {**ENDS_MM, ONE: 1_300_000}, {WEST: 1_440_000, THROAT: 1_550_000}
     listed: dict[Run, Map[Block, int]] = {RUN: first, ONWARD: later}
-    assert machine.ends_mm(LAYOUT, unit, {RUN: 0, ONWARD: 750_000}, listed, 1_400_000, 1_401_000) == {1_440_000}
+    assert machine.ends_mm(SITE.lists, unit, {RUN: 0, ONWARD: 750_000}, listed, 1_400_000, 1_401_000) == {1_440_000}
 
 
 @settings(max_examples=60, deadline=None)

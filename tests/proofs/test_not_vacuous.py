@@ -48,7 +48,9 @@ def station(path: Path) -> tuple[Site, System]:
     along = directions(layout, imported.ground)
     trains = sorted(layout.fleet)
     cars = {train: [Car(f"{train}.1"), Car(f"{train}.2")] for train in trains}
-    site = site_as_told(layout, imported.records, imported.ground, formation(cars, lambda route: along.get(route, True)))
+    site = site_as_told(
+        layout, imported.records, imported.ground, formation(cars, lambda route: along.get(route, True))
+    )
     apart: list[Block] = []
     for block in sorted(layout.blocks):
         if len(apart) < len(trains) and not any(other in layout.fouls.get(block, ()) for other in apart):

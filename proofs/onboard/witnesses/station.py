@@ -107,7 +107,9 @@ class Station(Play[Survey, Joint]):
 
     def told(self, orders: Mapping[Run, Order]) -> None:
         """The unit has these orders, each with the centre's list of its route."""
-        self.changes(replace(self.unit(), orders={run: self.listed_by_the_centre(run, each) for run, each in orders.items()}))
+        self.changes(
+            replace(self.unit(), orders={run: self.listed_by_the_centre(run, each) for run, each in orders.items()})
+        )
 
     def listed_by_the_centre(self, run: Run, order: Order) -> Order:
         """An order as it is with the centre's list."""

@@ -41,12 +41,15 @@ from kernel.names import (
     Serial,
     Stage,
     Tag,
+    TagList,
     TerminalLife,
     Train,
     UnitLife,
 )
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.tag_list import TagPlan
+from kernel.tag_list_text import what_they_say, with_tag_lists
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 from tests.independent.world.sight import Sight
@@ -83,8 +86,11 @@ class Calls:
     """The kernel, as this world drives it, for one layout."""
 
     def __init__(self, layout: Layout, records: TagRecords) -> None:
-        self.layout = layout
+        self.layout = layout = with_tag_lists(layout)
         self.records = records
+        self.route_of = {tag_list: route for route, tag_list in layout.tag_list.items()}
+        self.lists = what_they_say(layout.tag_list.values())
+        self.plan = TagPlan(layout.tag_in, layout.partner, layout.stands_in)
 
     # ---- beginnings and restarts: what survives is docs/persistence.md
 
@@ -176,7 +182,7 @@ class Calls:
         life = centre.terminal_life.get(point)
         if life is None or not route_setting.orders_point(self.layout, centre, run, point, life):
             return None
-        return ("order", run.train, run, point, life)
+        return ("order", run.train, run, point, self.layout.needs[run.route][point], life)
 
     def enquiry(self, centre: Centre, run: Run, point: Point) -> Message | None:
         life = centre.terminal_life.get(point)
@@ -189,7 +195,7 @@ class Calls:
         if cancellation.asks_back(centre, run):
             return ("recall", run.train, run)
         if route_setting.offers(centre, run):
-            return ("offer", run.train, run)
+            return ("offer", run.train, run, self.layout.tag_list[run.route])
         if route_setting.permits(centre, run):
             return ("permit", run.train, run)
         if recovery.acknowledges_standing(centre, run):
@@ -201,7 +207,7 @@ class Calls:
     def centre_hears(self, centre: Centre, message: Message) -> Centre:
         kind, _, *told = message
         if kind == "echo":
-            return route_setting.note_echo(centre, *told)
+            return route_setting.note_echo(self.layout, centre, *told)
         if kind == "confirmation":
             centre = route_setting.note_confirmation(self.layout, centre, *told)
             return recovery.adopt_point(self.layout, centre, *told)
@@ -238,10 +244,10 @@ class Calls:
         """Take a message on board; what it passes on."""
         kind, _, *told = message
         if kind == "order":
-            run, point, life = told
-            if not relay.relays_order(self.layout, board.unit, run, point):
+            run, point, position, life = told
+            if not relay.relays_order(self.plan, self.lists, board.unit, run, point, position):
                 return []
-            return [("relayed order", point, run, self.layout.needs[run.route][point], life)]
+            return [("relayed order", point, run, position, life)]
         if kind == "enquiry":
             run, point, life = told
             return [("relayed enquiry", point, run, life)]
@@ -250,13 +256,23 @@ class Calls:
         if kind == "challenge":
             self.answer(board, told[0], sight)
         else:
-            self.take(board, kind, told[0], sight)
+            self.take(board, kind, sight, *told)
         self.follow(board, sight)
         return []
 
-    def take(self, board: Board, kind: str, run: Run, sight: Sight) -> None:
+    def another_list(self, message: Message, number: int) -> Message | None:
+        """The same offer, of which a unit keeps the list of another route from there: it has mixed them up."""
+        kind, train, run, *_ = message
+        others = sorted(
+            tag_list
+            for route, tag_list in self.layout.tag_list.items()
+            if route != run.route and self.layout.start[route] == self.layout.start[run.route]
+        )
+        return (kind, train, run, others[number % len(others)]) if others else None
+
+    def take(self, board: Board, kind: str, sight: Sight, run: Run, *lists: TagList) -> None:
         if kind == "offer":
-            board.unit = first_loop.take_offer(self.layout, board.unit, run)
+            board.unit = first_loop.take_offer(self.lists, board.unit, run, *lists)
         elif kind == "permit":
             board.unit = first_loop.take_permit(board.unit, run)
         elif kind == "standing run":
@@ -275,7 +291,7 @@ class Calls:
         for run in sorted(wanted, reverse=True):
             if run in board.ends_mm:
                 start_end_mm = board.ends_mm[run][self.layout.start[run.route]]
-                board.unit = first_loop.give_back(self.layout, board.unit, run, board.brake.end_mm, start_end_mm)
+                board.unit = first_loop.give_back(self.lists, board.unit, run, board.brake.end_mm, start_end_mm)
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
@@ -286,7 +302,7 @@ class Calls:
     # ---- what a train reads and notes
 
     def head_reads(self, board: Board, cab: Cab, tag: Tag, in_window: bool, sight: Sight) -> None:
-        board.unit = second_loop.note_head_read(self.layout, board.unit, cab, tag, in_window)
+        board.unit = second_loop.note_head_read(self.plan, self.lists, board.unit, cab, tag, in_window)
         self.follow(board, sight)
 
     def tag_overdue(self, board: Board, sight: Sight) -> None:
@@ -294,7 +310,7 @@ class Calls:
         self.follow(board, sight)
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
-        board.unit = tail_evidence.note_tail_read(self.layout, board.unit, cab, healthy, read)
+        board.unit = tail_evidence.note_tail_read(self.plan, self.lists, board.unit, cab, healthy, read)
         self.follow(board, sight)
 
     def genuine(self, tag: Tag) -> Read:
@@ -322,7 +338,10 @@ class Calls:
         return ("standing", CENTRE, train, board.unit.life, epoch, board.unit.standing_in)
 
     def echo(self, board: Board, run: Run) -> Message | None:
-        return ("echo", CENTRE, run) if first_loop.echoes(board.unit, run) and run.route != STANDING else None
+        tag_list = board.unit.orders[run].tag_list
+        if tag_list is None or not first_loop.echoes(board.unit, run, tag_list):
+            return None
+        return ("echo", CENTRE, run, tag_list)
 
     def given_back(self, board: Board, run: Run) -> Message | None:
         if run.route == STANDING or not first_loop.acknowledges_back(board.unit, run):
@@ -338,7 +357,7 @@ class Calls:
         return [
             ("tail report", CENTRE, run, block, seen.left, seen.entered)
             for block, seen in board.unit.orders[run].left.items()
-            if tail_evidence.reports_left(self.layout, board.unit, run, block, seen.left, seen.entered)
+            if tail_evidence.reports_left(self.lists, board.unit, run, block, seen.left, seen.entered)
         ]
 
     # ---- the brake
@@ -360,8 +379,8 @@ class Calls:
         """The lists of all orders that do not lie behind the train."""
         board.begins_mm, board.ends_mm = {}, {}
         least_mm = sight.front_mm[0] - BEHIND_MM
-        for run in board.unit.orders:
-            found = sight.ends_mm(run.route) if run.route != STANDING else None
+        for run, order in board.unit.orders.items():
+            found = None if order.tag_list is None else sight.ends_mm(self.route_of[order.tag_list])
             if found is not None and any(end_mm >= least_mm for _, end_mm in found[1].items()):
                 board.begins_mm[run], board.ends_mm[run] = found
         places = {end_mm for ends_mm in board.ends_mm.values() for _, end_mm in ends_mm.items()}
@@ -380,7 +399,7 @@ class Calls:
 
     def obeyed(self, board: Board, least_mm: int, most_mm: int, speed_mm_s: int) -> Brake:
         (brake,) = authority_end.obey(
-            self.layout, board.unit, board.begins_mm, board.ends_mm, BOUNDS, board.brake, least_mm, most_mm, speed_mm_s
+            self.lists, board.unit, board.begins_mm, board.ends_mm, BOUNDS, board.brake, least_mm, most_mm, speed_mm_s
         )
         return brake
 

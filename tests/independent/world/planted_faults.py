@@ -14,7 +14,7 @@ from kernel.names import Block, Cab, Epoch, Read, Run, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.unit import Evidence
-from tests.independent.world.kernel_calls import BOUNDS, Board, Calls
+from tests.independent.world.kernel_calls import BOUNDS, Board, Calls, Message
 from tests.independent.world.sight import Sight
 
 
@@ -63,7 +63,7 @@ class BrakeNotHeld(Calls):
         board.unit = replace(board.unit, orders=board.unit.orders | {run: replace(order, given_back=True)})
 
     def obeyed(self, board: Board, least_mm: int, most_mm: int, speed_mm_s: int) -> Brake:
-        ends_mm = authority_end.ends_mm(self.layout, board.unit, board.begins_mm, board.ends_mm, least_mm, most_mm)
+        ends_mm = authority_end.ends_mm(self.lists, board.unit, board.begins_mm, board.ends_mm, least_mm, most_mm)
         brake = board.brake
         for end_mm in ends_mm:
             if end_mm >= brake.end_mm or braking.stops_before(BOUNDS, most_mm, speed_mm_s, end_mm):
@@ -86,7 +86,7 @@ class RunSetAhead(Calls):
         ahead = [
             end_mm
             for block, end_mm in board.ends_mm[run].items()
-            if end_mm >= least_mm and not authority_end.may_be_left(self.layout, board.unit, run, block)
+            if end_mm >= least_mm and not authority_end.may_be_left(self.lists, board.unit, run, block)
         ]
         return [min(ahead)] if ahead else []
 
@@ -102,6 +102,23 @@ class LifeConfirmed(Calls):
         return supervision.note_statement_confirmed(self.layout, centre, train, life, epoch, stated, run)
 
 
-FAULTS: tuple[type[Calls], ...] = (EvidenceAhead, EvidenceAcrossTurns, BrakeNotHeld, RunSetAhead, LifeConfirmed)
+class NothingCompared(Calls):
+    """Hole 5: a run is set whatever the train keeps of its route."""
+
+    def centre_hears(self, centre: Centre, message: Message) -> Centre:
+        kind, to, run, *_ = message
+        if kind == "echo":
+            return super().centre_hears(centre, (kind, to, run, self.layout.tag_list[run.route]))
+        return super().centre_hears(centre, message)
+
+
+FAULTS: tuple[type[Calls], ...] = (
+    EvidenceAhead,
+    EvidenceAcrossTurns,
+    BrakeNotHeld,
+    RunSetAhead,
+    NothingCompared,
+    LifeConfirmed,
+)
 JUDGED: tuple[type[Calls], ...] = (Calls, *FAULTS)
 KERNELS: dict[str, type[Calls]] = {kernel.__name__: kernel for kernel in JUDGED}

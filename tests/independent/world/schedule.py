@@ -15,6 +15,8 @@ from tests.independent.world.world import Event, World
 
 SAYS = ("echo", "given back", "stopped", "tail report")
 TRIES = 6
+MIXED_UP = 0.03
+"""Of lists that arrive so many are mixed up with another by the unit, where things go wrong."""
 """So often another actor is asked before an event that may change nothing is taken."""
 
 
@@ -66,6 +68,7 @@ class Schedule:
         self.halting = dict.fromkeys(world.trains, False)
         self.halts = of["halts"]
         self.repeats = of["repeats"]
+        self.mixed_up = MIXED_UP * of["trouble"]
         self.losses = of["losses"]
         self.shuttles = of["shuttles"]
         self.short_mm = int(of["short_mm"])
@@ -107,6 +110,8 @@ class Schedule:
             message = recalls[-1]
         if chance.random() < self.losses:
             return "lose", message
+        if message[0] == "offer" and chance.random() < self.mixed_up:
+            return "keep_another", message, chance.getrandbits(63)
         return "deliver", message, chance.random() < self.repeats
 
     def a_train(self) -> Event | None:

@@ -18,6 +18,7 @@ from tests.independent.world.planted_faults import (
     EvidenceAcrossTurns,
     EvidenceAhead,
     LifeConfirmed,
+    NothingCompared,
     RunSetAhead,
 )
 from tests.independent.world.schedule import Schedule
@@ -34,8 +35,9 @@ FOUND_WITHIN = 60_000
 FAULTS = [
     (EvidenceAhead, "ring", 13),
     (EvidenceAcrossTurns, "ring", 66),
-    (BrakeNotHeld, "line", 32),
+    (BrakeNotHeld, "line", 170),
     (RunSetAhead, "ring", 1),
+    (NothingCompared, "crossover", 16),
     (LifeConfirmed, "line", 6),
 ]
 """A fault, a layout that shows it, and a seed near to where it does."""

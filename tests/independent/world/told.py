@@ -11,7 +11,6 @@ from itertools import pairwise
 
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Point, Position, Record, Route, Tag, Train
-from kernel.tag_list_text import with_tag_lists
 from tests.independent.raw_graph import Cut, Network, Over, Place, Stop
 from tests.independent.raw_graph import Route as Walked
 
@@ -122,43 +121,41 @@ def layout_of(network: Network, routes: Mapping[str, Walked], fouls: frozenset[t
     points_in = {Block(block): frozenset(map(Point, network.points_in.get(block, ()))) for block in network.blocks}
     stands_in = {point: block for block, points in points_in.items() for point in points}
     claims = {name: frozenset(map(Block, route.claims)) for name, route in by.items()}
-    return with_tag_lists(
-        Layout(
-            fleet=frozenset(Train(f"T{number}") for number in range(1, trains + 1)),
-            blocks=frozenset(map(Block, network.blocks)),
-            routes=frozenset(by),
-            points=frozenset(stands_in),
-            start={name: Block(route.start) for name, route in by.items()},
-            destination={name: Block(route.destination) for name, route in by.items()},
-            covers={name: frozenset(map(Block, route.covers)) for name, route in by.items()},
-            overlap={name: frozenset(map(Block, route.overlap)) for name, route in by.items()},
-            claims=claims,
-            way={name: {Block(a): Block(b) for a, b in pairwise(route.claims)} for name, route in by.items()},
-            needs={name: {Point(p): Position(at) for p, at in route.needs.items()} for name, route in by.items()},
-            released_with={
-                name: {
-                    Point(p): stands_in[Point(p)] if stands_in[Point(p)] in claims[name] else Block(route.destination)
-                    for p in route.needs
-                }
-                for name, route in by.items()
-            },
-            released_after={
-                name: {Block(a): Block(b) for a, b in route.released_after.items()}
-                | {Block(a): Block(a) for a in route.overlap}
-                for name, route in by.items()
-            },
-            fouls={
-                block: frozenset(Block(b) for a, b in sorted(fouls | {(y, x) for x, y in fouls}) if a == block)
-                for block in map(Block, network.blocks)
-            },
-            stands_in=stands_in,
-            points_in=points_in,
-            tag_in=tag_in,
-            partner=partner,
-            first_tag={name: tags[0] for name, tags in lists.items()},
-            tag_list={},
-            tag_after={name: dict(pairwise(tags)) for name, tags in lists.items()},
-        )
+    return Layout(
+        fleet=frozenset(Train(f"T{number}") for number in range(1, trains + 1)),
+        blocks=frozenset(map(Block, network.blocks)),
+        routes=frozenset(by),
+        points=frozenset(stands_in),
+        start={name: Block(route.start) for name, route in by.items()},
+        destination={name: Block(route.destination) for name, route in by.items()},
+        covers={name: frozenset(map(Block, route.covers)) for name, route in by.items()},
+        overlap={name: frozenset(map(Block, route.overlap)) for name, route in by.items()},
+        claims=claims,
+        way={name: {Block(a): Block(b) for a, b in pairwise(route.claims)} for name, route in by.items()},
+        needs={name: {Point(p): Position(at) for p, at in route.needs.items()} for name, route in by.items()},
+        released_with={
+            name: {
+                Point(p): stands_in[Point(p)] if stands_in[Point(p)] in claims[name] else Block(route.destination)
+                for p in route.needs
+            }
+            for name, route in by.items()
+        },
+        released_after={
+            name: {Block(a): Block(b) for a, b in route.released_after.items()}
+            | {Block(a): Block(a) for a in route.overlap}
+            for name, route in by.items()
+        },
+        fouls={
+            block: frozenset(Block(b) for a, b in sorted(fouls | {(y, x) for x, y in fouls}) if a == block)
+            for block in map(Block, network.blocks)
+        },
+        stands_in=stands_in,
+        points_in=points_in,
+        tag_in=tag_in,
+        partner=partner,
+        first_tag={name: tags[0] for name, tags in lists.items()},
+        tag_list={},
+        tag_after={name: dict(pairwise(tags)) for name, tags in lists.items()},
     )
 
 

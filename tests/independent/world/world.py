@@ -475,6 +475,13 @@ class World:
             return self.terminals[to] != before
         return self._board_hears(self.trains[to], message)
 
+    def keep_another(self, message: Message, number: int) -> bool:
+        """A unit to which a list arrives keeps another."""
+        if message not in self.air:
+            return False
+        kept = self.calls.another_list(message, number)
+        return kept is not None and self._board_hears(self.trains[message[1]], kept)
+
     def _board_hears(self, train: OnRails, message: Message) -> bool:
         if train.isolated and message[0] == "challenge":
             return False
