@@ -1,4 +1,4 @@
-"""What a unit works with: the lists that the first loop has carried to it, and its own plan of the line's tags (T2, T4).
+"""What a unit works with: the lists that the first loop has carried to it, and its own plan of tags (T2, T4).
 
 The centre's layout never is on board.  A list is opaque to the machines: two of them are equal or not, and what
 one says is looked up here.  So a unit can use nothing of a route that the centre has not compared.

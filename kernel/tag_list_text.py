@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeVar
 
 from kernel.layout import Layout
@@ -103,7 +104,7 @@ def pairs(read: Iterable[tuple[str, tuple[str, ...]]], what: str) -> Iterator[tu
     """Give each two names that follow each other in a line of one kind."""
     for said, names in read:
         if said == what:
-            yield from zip(names, names[1:], strict=False)
+            yield from pairwise(names)
 
 
 def chains(after: Mapping[Name, Name]) -> Iterator[list[Name]]:

@@ -90,7 +90,7 @@ class Domains:
 def domains(site: Site) -> Domains:
     """Number every identifier that a site names, and a foreign tag, a foreign record and the route of none."""
     found: dict[str, set[str]] = {name: set(extra) for name, extra in EXTRA.items()}
-    for name in ("layout", "records", "ground"):
+    for name in ("layout", "lists", "plan", "records", "ground"):
         value = getattr(site, name)
         _collect(RecordKind(type(value)), value, found)
     for name, values in vars(site.formation).items():

@@ -46,7 +46,7 @@ EVENT_WORDS = 64
 SELDOM_SENT = frozenset(
     (
         *("relayed_orders", "enquiries", "relayed_enquiries", "confirmed", "challenges", "terminal_lives"),
-        *("statements", "confirmed_statements", "recalls", "returns", "stops"),
+        *("statements", "confirmed_statements", "echoes", "recalls", "returns", "stops"),
     )
 )
 """Messages that are one part together."""
@@ -190,7 +190,7 @@ def _system(plan: Planner) -> Place:
 
 
 def _fixed(site: Site, formation: Mapping[str, Any]) -> Iterator[tuple[str, Kind, Any]]:
-    for name in ("layout", "records", "ground"):
+    for name in ("layout", "lists", "plan", "records", "ground"):
         value = getattr(site, name)
         yield name, RecordKind(type(value)), value
     for name, kind in FORMATION.items():

@@ -18,6 +18,7 @@ from kernel.names import (
     Run,
     Serial,
     Tag,
+    TagList,
     TerminalLife,
     Train,
     UnitLife,
@@ -103,6 +104,11 @@ def _tag(site: Site, system: System, pick: Pick) -> Tag:
     return Tag(_one((*sorted(site.layout.tag_in), FOREIGN), pick))
 
 
+def _tag_list(site: Site, system: System, pick: Pick) -> TagList:
+    """The list of any route, or of none."""
+    return TagList(_one((*sorted(tag_list for _, tag_list in site.layout.tag_list.items()), "no list"), pick))
+
+
 def _read(site: Site, system: System, pick: Pick) -> Read:
     """A tag as it is written, or a copy of its UID with another record."""
     tag = _tag(site, system, pick)
@@ -132,6 +138,7 @@ VALUES: Mapping[Any, Value] = {
     Car: _car,
     Cab: _cab,
     Tag: _tag,
+    TagList: _tag_list,
     Read: _read,
     Epoch: _epoch,
     UnitLife: _unit_life,

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from kernel.maps import Map
-from kernel.names import Block, Run, Tag
+from kernel.names import Block, Run, Tag, TagList
 from kernel.onboard import (
     antenna_spacing,
     authority_end,
@@ -27,6 +28,7 @@ from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.way import UNKNOWN, Way, between
+from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
 from models.concrete.rails import ANTENNA_MM
@@ -35,6 +37,12 @@ from models.simulation.ahead import Ahead
 
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
+
+
+@lru_cache(maxsize=4096)
+def _said(tag_lists: frozenset[TagList]) -> TagLists:
+    """What lists say, read once and not in each cycle."""
+    return what_they_say(tag_lists)
 
 
 @dataclass
@@ -142,7 +150,7 @@ class OnBoard:
         ends_mm: dict[Run, Map[Block, int]] = {run: self.lists[run].ends_mm for run in runs}
         motion = self.motion
         (brake,) = authority_end.obey(
-            what_they_say(kept for run in runs if (kept := unit.orders[run].tag_list) is not None),
+            _said(frozenset(kept for run in runs if (kept := unit.orders[run].tag_list) is not None)),
             unit,
             begins_mm,
             ends_mm,

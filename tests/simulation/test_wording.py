@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from kernel.names import Position, Read, Run, Serial, UnitLife
 from kernel.telegram import PAYLOAD_BYTES, Said, content_of, said_in
 from models.simulation.faults import NO_FAULT
+from models.simulation.parts import PART_BYTES
 from models.simulation.simulation import Simulation
 from models.simulation.wording import KINDS, NAMES, Wording, was_sent
 from models.simulator.messages import NO_ROUTE
@@ -42,6 +43,9 @@ FIELDS: dict[str, st.SearchStrategy[Any]] = {
     "entered": READS,
     "life": LIVES,
     "epoch": LIVES,
+    "part": LIVES,
+    "parts": LIVES,
+    "text": st.binary(max_size=PART_BYTES),
     "at_ms": st.integers(0, 2**62),
     "way_mm": st.integers(-(2**40), 2**40),
     "speed_mm_s": st.integers(-100_000, 100_000),
@@ -98,5 +102,8 @@ def test_nothing_was_sent_at_first(kind: str) -> None:
         "entered": Read(*max(SITE.records.record.items())),
         "life": 1,
         "epoch": 1,
+        "part": 0,
+        "parts": 1,
+        "text": b"",
     }
     assert not was_sent(SIM.play.system.radio, kind, {name: values[name] for name in KINDS[kind].fields})
