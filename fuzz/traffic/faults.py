@@ -254,6 +254,22 @@ BEYOND: tuple[Fault, ...] = (
         0.1,
         ("rails_lead",),
     ),
+    Fault(
+        "rolled back",
+        "The last car has left a block, its antenna has read both tags there, and it rolls back into that block.",
+        "boundary",
+        log_uniform(0.02, 0.5),
+        0.1,
+        ("a_train_runs_forward_along_its_run", "rails_lead"),
+    ),
+    Fault(
+        "pair read back to front",
+        "The head reads the pair of a boundary in the order in which it would be read on the way back.",
+        "boundary",
+        log_uniform(0.02, 0.5),
+        0.1,
+        ("a_run_is_led_by_its_front",),
+    ),
 )
 """Beyond them: a trace has at most one of these, and names the assumption that it breaks."""
 

@@ -128,6 +128,8 @@ class Drawing:
             return random.choice(self.runs)
         if kind.source is Read:
             return Read(random.choice(self.names["Tag"]), random.choice(self.names["Record"]))  # type: ignore[arg-type]
+        if kind.source is int:
+            return random.randint(-2, 2)
         if kind.source is bool:
             return random.random() < 0.5
         if kind.is_enum:
