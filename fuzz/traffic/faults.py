@@ -140,7 +140,7 @@ WITHIN: tuple[Fault, ...] = (
     ),
     Fault(
         "wrong statement",
-        "The first person states wrong blocks; the second does not confirm.",
+        "The first person states wrong blocks; the second does not confirm them, or the first corrects himself.",
         "procedure",
         uniform(0.1, 0.9),
         0.3,
@@ -260,7 +260,7 @@ BEYOND: tuple[Fault, ...] = (
         "boundary",
         log_uniform(0.02, 0.5),
         0.1,
-        ("a_train_runs_forward_along_its_run", "rails_lead"),
+        ("a_train_runs_forward_along_its_run", "rails_lead", "a_train_obeys_its_authority"),
     ),
     Fault(
         "pair read back to front",
