@@ -41,8 +41,10 @@ REFUSED: tuple[Refusal, ...] = tuple(Refusal)
 """A refusal's number is its place here."""
 ASSUMED: tuple[str, ...] = (
     "a_train_obeys_its_authority",
+    "a_train_runs_forward_along_its_run",
     "rails_lead",
     "a_tag_is_read_where_it_lies",
+    "a_run_is_led_by_its_front",
     "a_pair_passed_in_order_proves_the_exit",
     "a_missed_tag_is_overdue_before_the_tail_comes",
     "a_healthy_line_reaches_the_tail",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from kernel.cancellation import cancel_refusal
 from kernel.names import Block, Epoch, Point, Read, Run, Train, UnitLife
 from kernel.recovery import recover_point_refusal, standing_refusal
 from kernel.refusal import Refusal
@@ -33,6 +34,11 @@ def retire(site: Site, system: System, run: Run) -> Refusal | None:
     return retire_refusal(system.centre, run)
 
 
+def cancel(site: Site, system: System, run: Run) -> Refusal | None:
+    """Why a run is not wanted back (T9)."""
+    return cancel_refusal(site.layout, system.centre, run)
+
+
 def note_standing(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run) -> Refusal | None:
     """Why a train is not taken at its word (T8)."""
     return standing_refusal(site.layout, system.centre, train, life, epoch, run)
@@ -60,6 +66,7 @@ REFUSALS: Mapping[str, Callable[..., Refusal | None]] = {
         open_first_loop,
         release_block,
         retire,
+        cancel,
         note_standing,
         recover_point,
         note_statement_confirmed,

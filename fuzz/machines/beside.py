@@ -27,6 +27,10 @@ MANY = 10_000
 """So many of the witnesses' steps are told apart in a walk."""
 NEAR = (1, -1, 2, -2, 10, -10, 100, -100, 1_000, -1_000)
 """By so much an integer is changed."""
+SELDOM = 5
+"""One integer in so many is another in what is shaken, and one truth in twice as many."""
+MORE_SELDOM = (SELDOM, SELDOM, 4 * SELDOM, 4 * SELDOM, 16 * SELDOM, 16 * SELDOM, 16 * SELDOM, 16 * SELDOM)
+"""The same in each try of a jolt: the fewer are changed, the likelier all that is claimed still holds."""
 
 
 @dataclass(frozen=True)
@@ -38,13 +42,14 @@ class Told:
 
 
 class BrokenClaim(AssertionError):
-    """A claim of a theory is false, or a step not defined, after these steps."""
+    """A claim of a theory is false, or a step not defined, after these steps; ``run``: what they were taken in."""
 
-    def __init__(self, theory: str, violated: tuple[str, ...], taken: Sequence[Told]) -> None:
-        super().__init__(f"{theory}: {', '.join(violated)} after {len(taken)} steps")
-        self.theory = theory
+    def __init__(self, run: Beside, violated: tuple[str, ...]) -> None:
+        super().__init__(f"{run.theory.name}: {', '.join(violated)} after {len(run.taken)} steps")
+        self.run = run
+        self.theory = run.theory.name
         self.violated = violated
-        self.taken = tuple(taken)
+        self.taken = tuple(run.taken)
 
 
 class Beside:
@@ -55,20 +60,29 @@ class Beside:
         self.sources = sources
         self.calls = calls_of(theory)
         self.at = first % len(self.calls)
-        self.site, self.system = self.calls[self.at].site, self.calls[self.at].before
+        self.begin(self.calls[self.at].site, self.calls[self.at].before)
+
+    def begin(self, site: Any, system: Any) -> None:
+        """Begin here, with nothing taken yet."""
+        self.site = site
+        self.first = self.system = system
         self.taken: list[Told] = []
         self.changed = 0
 
     def jolt(self, random: Random) -> bool:
-        """Change integers of site and state, if all that is claimed and presumed still holds; tell whether it does."""
-        site, system = shaken(self.site, random, ()), shaken(self.system, random, ())
+        """Change integers of site and state, if all that is claimed and presumed still holds; tell whether any are."""
+        for seldom in MORE_SELDOM:
+            site, system = shaken(self.site, random, (), seldom), shaken(self.system, random, (), seldom)
+            if (site, system) != (self.site, self.system) and self._fits(site, system):
+                self.begin(site, system)
+                return True
+        return False
+
+    def _fits(self, site: Any, system: Any) -> bool:
         try:
-            fits = all(claim(site) for claim in self.theory.premises.values()) and not self.false(site, system)
+            return all(claim(site) for claim in self.theory.premises.values()) and not self.false(site, system)
         except ERRORS:
             return False
-        if fits:
-            self.site, self.system = site, system
-        return fits
 
     def goes_on(self, random: Random) -> None:
         """What the witness was told next, or nearly; from its end it goes on with the next witness's."""
@@ -82,40 +96,88 @@ class Beside:
 
     def _take(self, call: Call, random: Random) -> None:
         pool = (*integers(self.site), *integers(self.system))
-        told = Told(call.step, {name: shaken(value, random, pool) for name, value in call.event.items()})
+        self.take(Told(call.step, {name: shaken(value, random, pool) for name, value in call.event.items()}))
+
+    def take(self, told: Told) -> None:
+        """Take a step.
+
+        Raises:
+            BrokenClaim: a claim is false after it, or it is not defined.
+        """
         self.taken.append(told)
         try:
             with running(self.sources):
                 after = self.theory.steps[told.step](self.site, self.system, **told.event)
         except ERRORS as error:
-            raise BrokenClaim(self.theory.name, (UNDEFINED,), self.taken) from error
+            raise BrokenClaim(self, (UNDEFINED,)) from error
         if after != self.system:
             self.system = after
             self.changed += 1
             false = self.false(self.site, self.system)
             if false:
-                raise BrokenClaim(self.theory.name, false, self.taken)
+                raise BrokenClaim(self, false)
 
     def false(self, site: Any, system: Any) -> tuple[str, ...]:
         """The claims that are false of a state."""
         return tuple(name for name, claim in self.theory.invariants.items() if not claim(site, system))
 
 
+# ---- fewer steps
+
+
+def shortened(broken: BrokenClaim) -> BrokenClaim:
+    """Begin where some witness was, if fewer of the last steps will then do; leave out every step that may go.
+
+    The same claim, the first of those that are false, breaks as well.
+    """
+    run, steps = broken.run, broken.taken
+    for many in range(1, len(steps)):
+        begun = (_again(run, call.site, call.before, steps[-many:]) for call in run.calls)
+        fewer = next((each for each in begun if _breaks_the_same(each, broken)), None)
+        if fewer is not None:
+            broken = fewer
+            break
+    at = len(broken.taken) - 1
+    while at > 0:
+        at -= 1
+        fewer = _again(broken.run, broken.run.site, broken.run.first, broken.taken[:at] + broken.taken[at + 1 :])
+        if fewer is not None and _breaks_the_same(fewer, broken):
+            broken, at = fewer, len(fewer.taken) - 1
+    return broken
+
+
+def _breaks_the_same(one: BrokenClaim | None, other: BrokenClaim) -> bool:
+    return one is not None and one.violated[0] == other.violated[0]
+
+
+def _again(run: Beside, site: Any, first: Any, steps: Sequence[Told]) -> BrokenClaim | None:
+    """What these steps break from there; none if nothing."""
+    again = Beside(run.theory.name, run.sources, run.at)
+    again.begin(site, first)
+    try:
+        for told in steps:
+            again.take(told)
+    except BrokenClaim as broken:
+        return broken
+    return None
+
+
 # ---- integers, here and there another
 
 
-def shaken(value: Any, random: Random, pool: Sequence[int]) -> Any:
+def shaken(value: Any, random: Random, pool: Sequence[int], seldom: int = SELDOM) -> Any:
     """A value with few of its integers and truths changed, to near ones or to others of the same run."""
     if isinstance(value, bool):
-        return value ^ (random.randrange(10) == 9)
+        return value ^ (random.randrange(2 * seldom) == 2 * seldom - 1)
     if isinstance(value, int):
-        return _another(value, random, pool) if random.randrange(5) == 4 else value
+        return _another(value, random, pool) if random.randrange(seldom) == seldom - 1 else value
     if isinstance(value, dict):
-        return {key: shaken(each, random, pool) for key, each in value.items()}
+        return {key: shaken(each, random, pool, seldom) for key, each in value.items()}
     if isinstance(value, tuple) and not hasattr(value, "_fields"):
-        return tuple(shaken(each, random, pool) for each in value)
+        return tuple(shaken(each, random, pool, seldom) for each in value)
     if is_dataclass(value) and not isinstance(value, type):
-        return replace(value, **{part.name: shaken(getattr(value, part.name), random, pool) for part in fields(value)})
+        parts = {part.name: shaken(getattr(value, part.name), random, pool, seldom) for part in fields(value)}
+        return replace(value, **parts)
     return value
 
 

@@ -14,7 +14,7 @@ from random import Random
 from typing import Any
 
 from fuzz.failures.replaying import ERRORS
-from fuzz.machines.moves import EVERY, FOCUS, Move, Moves
+from fuzz.machines.moves import EVERY, FOCUS, SERVED, Move, Moves
 from fuzz.machines.plausible import UNREAD
 from fuzz.machines.strange import VALUES, Pick, strange
 from fuzz.machines.watched import Broken, Place, judged
@@ -31,7 +31,7 @@ TRIES = 6
 """So many changes are tried in a jolt; those after which something claimed is false are taken back."""
 MOVES_BETWEEN = 8
 """So many moves between two jolts."""
-MOVED = (Moves.goes_on, Moves.happens, Moves.arrives, Moves.is_strange)
+MOVED = (Moves.goes_on, Moves.happens, Moves.goes_wrong, Moves.arrives, Moves.is_strange)
 OF_LAYOUT = 8
 """One jolt in so many is of the layout and not of the state."""
 
@@ -114,13 +114,17 @@ def _is_surely_legal(site: Site) -> bool:
 
 
 def jolted_walk(place: Place, sources: Sources, random: Random) -> Jolted:
-    """Jolts, and a few moves after each; the same for the same state of ``random``.
+    """Some service, then jolts, and a few moves after each; the same for the same state of ``random``.
+
+    Jolts stop service sooner than it brings a train on its way: what has never begun to roll cannot slip either.
 
     Raises:
         Broken: something claimed is false; its trace does not say what was jolted.
     """
     going = Jolted(place, sources, random.sample(EVERY, random.choice(FOCUS)))
     going.start_service()
+    for _ in range(random.randrange(SERVED)):
+        going.goes_on(random.randrange)
     for _ in range(ROUNDS):
         going.jolt(random.randrange)
         for _ in range(MOVES_BETWEEN):

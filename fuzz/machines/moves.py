@@ -8,6 +8,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+from fuzz.failures.replaying import ERRORS
 from fuzz.machines.places import place_on
 from fuzz.machines.plausible import MESSAGES, plausible
 from fuzz.machines.service import BEGINNING, IN_ORDER, next_steps
@@ -15,7 +16,7 @@ from fuzz.machines.strange import Pick, almost
 from fuzz.machines.watched import Place, WatchedPlay
 from kernel.names import Train
 from proofs.catalogue import STEPS
-from proofs.mutated import Sources
+from proofs.mutated import Sources, running
 
 EVERY = tuple(STEPS)
 ARRIVALS = tuple(sorted(MESSAGES))
@@ -104,14 +105,27 @@ class Moves:
         return self.play.take(step, **almost(self.play.site, self.play.system, step, pick))
 
     def _any_of(self, move: str, steps: tuple[str, ...], pick: Pick) -> bool:
-        """One of these transitions that has plausible events, and one of those."""
+        """One of these transitions that has plausible events, and one of those; every other time one that counts."""
         self.counted[move] += 1
-        first = pick(len(steps))
+        first, counts = pick(len(steps)), pick(2)
         for step in (*steps[first:], *steps[:first]):
             events = plausible(self.play.site, self.play.system, step)
+            if counts:
+                events = self._that_count(step, events)
             if events:
                 return self.play.take(step, **events[pick(len(events))])
         return False
+
+    def _that_count(self, step: str, events: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        """The events that change something in the kernel that runs here, or of which the step is not defined."""
+        with running(self.play.sources):
+            return [event for event in events if self._counts(step, event)]
+
+    def _counts(self, step: str, event: Mapping[str, Any]) -> bool:
+        try:
+            return bool(STEPS[step](self.play.site, self.play.system, **event) != self.play.system)
+        except ERRORS:
+            return True
 
 
 def _first(many: int) -> int:
@@ -122,7 +136,7 @@ Move = Callable[[Moves, Pick], bool]
 WEIGHTS: Mapping[Move, int] = {
     Moves.goes_on: 60,
     Moves.arrives: 8,
-    Moves.goes_wrong: 6,
+    Moves.goes_wrong: 12,
     Moves.restarts: 2,
     Moves.happens: 12,
     Moves.is_strange: 12,

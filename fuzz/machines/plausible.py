@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from kernel.authority import may_overrun
 from kernel.names import Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
 from models.simulator.messages import NO_ROUTE
 from models.world.state import Site, System
@@ -99,6 +100,18 @@ def _granted(site: Site, system: System) -> Events:
         yield {"run": run}
 
 
+def _at(*stages: Stage) -> Source:
+    """The runs that the centre has brought so far; every run of its, if there are none."""
+
+    def runs(site: Site, system: System) -> Events:
+        granted = sorted(system.centre.runs.items())
+        there = [run for run, grant in granted if grant.stage in stages]
+        for run in there or [run for run, _ in granted]:
+            yield {"run": run}
+
+    return runs
+
+
 def _epochs(site: Site, system: System) -> Events:
     yield {"epoch": Epoch(system.centre.epoch + 1)}
 
@@ -171,9 +184,20 @@ def _terminal_lives(site: Site, system: System) -> Events:
 # ---- on board
 
 
-def _ordered(site: Site, system: System) -> Events:
+def _known(system: System) -> list[Run]:
     """The runs that units know, the newest first."""
-    for run in sorted((run for _, unit in system.units.items() for run in unit.orders), reverse=True):
+    return sorted((run for _, unit in system.units.items() for run in unit.orders), reverse=True)
+
+
+def _ordered(site: Site, system: System) -> Events:
+    for run in _known(system):
+        yield {"run": run}
+
+
+def _slips(site: Site, system: System) -> Events:
+    """The runs in which a train may still get into its overlap, the newest first; any that a unit knows, if none."""
+    known = _known(system)
+    for run in [run for run in known if may_overrun(system.units[run.train], run)] or known:
         yield {"run": run}
 
 
@@ -196,8 +220,12 @@ def _statements(site: Site, system: System) -> Events:
 
 
 def _corrections(site: Site, system: System) -> Events:
-    for train, life, epoch in sorted(system.radio.statements):
-        yield {"train": train, "epoch": epoch, "life": life, "blocks": stands_in(site, system, train)}
+    """Where the train stands, unless that is what was stated; then nowhere, and every block but one of its."""
+    for (train, life, epoch), stated in sorted(system.radio.statements.items(), key=lambda said: said[0]):
+        there = stands_in(site, system, train)
+        places = (there, frozenset(), *(there - {block} for block in sorted(there)))
+        for blocks in dict.fromkeys(place for place in places if place != stated):
+            yield {"train": train, "epoch": epoch, "life": life, "blocks": blocks}
 
 
 def stands_in(site: Site, system: System, train: Train) -> frozenset[Any]:
@@ -329,8 +357,8 @@ SOURCES: Mapping[str, Source] = {
     "request": _requests,
     "open_first_loop": _granted,
     "retire": _granted,
-    "withdraw": _granted,
-    "cancel": _granted,
+    "withdraw": _at(Stage.RESERVED),
+    "cancel": _at(Stage.OFFERED, Stage.SET),
     "restart_centre": _epochs,
     "recover_block": _lost_blocks,
     "recover_point": _lost_points,
@@ -360,7 +388,7 @@ SOURCES: Mapping[str, Source] = {
     "send_standing_run": _granted,
     "send_terminal_life": _points,
     "start_rolling": _ordered,
-    "overrun": _ordered,
+    "overrun": _slips,
     "come_to_rest": _rolling,
     "change_ends": _changes_of_ends,
     "head_misses": _head_misses,

@@ -56,6 +56,7 @@ RUNNING = (
     "head_reads",
     "car_moves",
     "come_to_rest",
+    "restart_unit",
     "change_ends",
     "start_rolling",
     "lock",
@@ -223,6 +224,17 @@ def _has_arrived(site: Site, system: System, event: Event) -> bool:
     return all(blocks == {destination} for car, blocks in system.track.at.items() if _is_of(site, car, run))
 
 
+def _has_to_stop(site: Site, system: System, event: Event) -> bool:
+    """It has arrived, or its second loop is open."""
+    return system.units[event["run"].train].loop_open or _has_arrived(site, system, event)
+
+
+def _has_no_way_on(site: Site, system: System, event: Event) -> bool:
+    """A unit brakes for the rest of its life, and its train is at rest: so it begins another one."""
+    train = event["train"]
+    return system.units[train].loop_open and all(run.train != train for run in system.track.rolling)
+
+
 def _arrived_at_rest(site: Site, system: System, event: Event) -> bool:
     return event["run"] not in system.track.rolling and _has_arrived(site, system, event)
 
@@ -259,7 +271,8 @@ ORDINARY: Mapping[str, Callable[[Site, System, Event], bool]] = {
     "car_follows": _is_next_to,
     "car_leaves": _is_behind,
     "tail_reads": _tail_is_past,
-    "come_to_rest": _has_arrived,
+    "come_to_rest": _has_to_stop,
+    "restart_unit": _has_no_way_on,
     "note_stopped": _arrived_at_rest,
     "start_rolling": _has_not_run,
     "drift": _is_wanted,

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule, run_state_machine_as_test
 
-from fuzz.machines.beside import STEPS, Beside, BrokenClaim
+from fuzz.machines.beside import STEPS, Beside, BrokenClaim, shortened
 from fuzz.machines.settled import repeatable
 from fuzz.planted.draw import planted
 from proofs.mutated import Sources
@@ -79,5 +79,5 @@ def hunted(machine: type[OfTheory], examples: int = 200, steps: int = STEPS) -> 
     try:
         run_state_machine_as_test(machine, settings=repeatable(examples, steps))
     except BrokenClaim as broken:
-        return broken
+        return shortened(broken)
     return None

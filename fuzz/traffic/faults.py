@@ -140,7 +140,7 @@ WITHIN: tuple[Fault, ...] = (
     ),
     Fault(
         "wrong statement",
-        "The first person states wrong blocks; the second does not confirm.",
+        "The first person states wrong blocks; the second does not confirm them, or the first corrects himself.",
         "procedure",
         uniform(0.1, 0.9),
         0.3,
@@ -253,6 +253,22 @@ BEYOND: tuple[Fault, ...] = (
         log_uniform(0.01, 0.3),
         0.1,
         ("rails_lead",),
+    ),
+    Fault(
+        "rolled back",
+        "The last car has left a block, its antenna has read both tags there, and it rolls back into that block.",
+        "boundary",
+        log_uniform(0.02, 0.5),
+        0.1,
+        ("a_train_runs_forward_along_its_run", "rails_lead", "a_train_obeys_its_authority"),
+    ),
+    Fault(
+        "pair read back to front",
+        "The head reads the pair of a boundary in the order in which it would be read on the way back.",
+        "boundary",
+        log_uniform(0.02, 0.5),
+        0.1,
+        ("a_run_is_led_by_its_front",),
     ),
 )
 """Beyond them: a trace has at most one of these, and names the assumption that it breaks."""

@@ -72,6 +72,7 @@ CORRUPT, COPIED = number("corrupt record"), number("copied tag")
 EARLY, LATE_TAG = number("early tag"), number("late tag")
 AHEAD_OF_LEAVING, ELSEWHERE = number("read ahead of leaving"), number("led elsewhere")
 HEALED = number("line healed falsely")
+ROLLED_BACK, BACK_TO_FRONT = number("rolled back"), number("pair read back to front")
 OF_ELSEWHERE, TOO_LATE = number("tag of elsewhere at the head"), number("overdue too late")
 TRAIL_TO_SPARE = 4
 HEALTHY = 3
@@ -312,6 +313,28 @@ def in_one_block(memory: Any, desk: Any, train: Any, run: Any, place: Any) -> An
     return train_word(desk, train, LOWEST + car) == train_word(desk, train, HIGHEST + car)
 
 
+@compiled
+def reads_back_to_front(memory: Any, desk: Any, train: Any, last: Any) -> None:
+    """The head reads the pair that it has passed, the farther tag first, whoever leads a run that begins so."""
+    for tag in (last, of(desk, PARTNER, last)):
+        put4(memory, desk, train, front_cab(desk, train), tag, 1)
+        desk[BY] = BACK_TO_FRONT
+        take_beyond(memory, desk, HEAD_READS)
+
+
+@compiled
+def rolls_back(memory: Any, desk: Any, train: Any, run: Any, behind: Any) -> Any:
+    """The last car is back in the block at place ``behind`` of the trail, which it had left; tell whether it is."""
+    car = car_at(desk, train, train_word(desk, train, MOVING) - 1)
+    here, left = train_word(desk, train, TRAIL + behind + 1), train_word(desk, train, TRAIL + behind)
+    put4(memory, desk, run, of2(desk, CAR, train, car), here, left)
+    desk[BY] = ROLLED_BACK
+    if not take_beyond(memory, desk, CAR_MOVES):
+        return False
+    set_train(desk, train, LOWEST + car, behind)
+    return True
+
+
 @entry
 def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
     """The head reads the pair at the end of its block and the front car goes over; tell whether it did."""
@@ -324,8 +347,8 @@ def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
     if tag < 0 or target < 0 or length >= MOST_TRAIL - TRAIL_TO_SPARE:
         return False
     last = of(desk, PARTNER, tag)
-    swapped = strikes(desk, SWAPPED, train)
-    if not swapped:
+    swapped, misread = strikes(desk, SWAPPED, train), strikes(desk, BACK_TO_FRONT, train)
+    if not swapped and not misread:
         head_reads(memory, desk, train, tag)
     name = of2(desk, CAR, train, car)
     if strikes(desk, ELSEWHERE, train):
@@ -339,8 +362,11 @@ def front_passes(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
     set_train(desk, train, JOINTS + length - 1, tag)
     set_train(desk, train, LENGTH, length + 1)
     set_train(desk, train, HIGHEST + car, length)
-    head_reads(memory, desk, train, last)
-    if swapped:
+    if misread:
+        reads_back_to_front(memory, desk, train, last)
+    else:
+        head_reads(memory, desk, train, last)
+    if swapped and not misread:
         head_reads(memory, desk, train, tag)
     if not one_in(desk, 4):
         leaves(memory, desk, train, car)
@@ -365,7 +391,8 @@ def last_leaves(memory_at: Any, desk_at: Any, train: Any, run: Any, behind: Any)
         return 0
     if leaves(memory, desk, train, car):
         tail_passes(memory, desk, train, run, joint)
-        shorten(desk, train)
+        if not strikes(desk, ROLLED_BACK, train) or not rolls_back(memory, desk, train, run, behind):
+            shorten(desk, train)
     return 0
 
 

@@ -58,6 +58,7 @@ from fuzz.traffic.tables import (
     ANSWER,
     ANSWER_ENQUIRY,
     CONFIRM_STATEMENT,
+    CORRECT_STATEMENT,
     NOTE_STANDING,
     NOTE_STATEMENT,
     NOTE_STATEMENT_CONFIRMED,
@@ -134,6 +135,17 @@ def answers(memory_at: Any, desk_at: Any, train: Any) -> Any:
     return take(memory, desk, ANSWER)
 
 
+@compiled
+def corrects(memory: Any, desk: Any, train: Any, epoch: Any, life: Any) -> None:
+    """The first person states where the train is after all; every other time the centre hears no more of it."""
+    put3(memory, desk, train, epoch, life)
+    put_place(memory, desk, train, desk[EVENT] + 3)
+    take(memory, desk, CORRECT_STATEMENT)
+    if one_in(desk, 2):
+        put3(memory, desk, train, life, epoch)
+        arrive(memory, desk, NOTE_STATEMENT, train)
+
+
 @entry
 def two_persons(memory_at: Any, desk_at: Any, train: Any) -> Any:
     """Two persons state where a train stands; tell whether the centre has taken their word."""
@@ -151,6 +163,8 @@ def two_persons(memory_at: Any, desk_at: Any, train: Any) -> Any:
     take(memory, desk, TAKE_OVER)
     put3(memory, desk, train, life, epoch)
     arrive(memory, desk, NOTE_STATEMENT, train)
+    if wrong and not err and one_in(desk, 2):
+        corrects(memory, desk, train, epoch, life)
     put3(memory, desk, train, epoch, life)
     if err:
         desk[BY] = BOTH_ERR

@@ -89,6 +89,7 @@ CAR_LEAVES = NUMBERS["car_leaves"]
 PART = NUMBERS["part"]
 TAKE_OVER = NUMBERS["take_over"]
 CONFIRM_STATEMENT = NUMBERS["confirm_statement"]
+CORRECT_STATEMENT = NUMBERS["correct_statement"]
 
 # ---- what a word of an event is
 

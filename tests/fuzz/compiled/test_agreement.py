@@ -25,6 +25,7 @@ from models.world.state import System
 from proofs.catalogue import INVARIANTS
 from proofs.lift.kinds import Kind, MapKind, OptionKind, RecordKind, Scalar, SetKind, TupleKind, fields_of, kind_of_type
 from proofs.transitions import TRANSITIONS, event_types
+from proofs.witnesses.scenario import WHY_REFUSED
 from tests.layouts.stations import ROOT
 
 STATIONS = {"passing_station": 2, "terminus": 2, "junction": 3}
@@ -128,6 +129,8 @@ class Drawing:
             return random.choice(self.runs)
         if kind.source is Read:
             return Read(random.choice(self.names["Tag"]), random.choice(self.names["Record"]))  # type: ignore[arg-type]
+        if kind.source is int:
+            return random.randint(-2, 2)
         if kind.source is bool:
             return random.random() < 0.5
         if kind.is_enum:
@@ -302,6 +305,10 @@ WORDS = {"is_genuine", "is_last"}
 def test_every_assumption_that_a_transition_asks_is_noted() -> None:
     listed = {name for name in vars(assumptions) if callable(getattr(assumptions, name)) and name in _asked()}
     assert listed - WORDS == set(ASSUMED)
+
+
+def test_every_transition_that_gives_reasons_is_asked_for_them() -> None:
+    assert set(REFUSALS) == set(WHY_REFUSED)
 
 
 def _asked() -> set[str]:
