@@ -115,6 +115,21 @@ def a_broken_line_forgets_the_half_pair(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_direction_chosen_again_forgets_nothing(steps: Steps) -> Scenario:
+    """A driver at rest over a boundary who chooses the direction that he has does not halve the tail's pair (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    for car in running.in_order(scenario, run):
+        running.crosses(scenario, run, car, WEST, THROAT)
+    running.tail_reads_first(scenario, run, running.pair(scenario.site.layout, WEST, THROAT)[0])
+    running.rest(scenario, run)
+    scenario.refuses("change_ends", train=T1, cab=running.head_cab(scenario, run))
+    scenario.must(scenario.system.units[T1].tail_read is not None, "the first tag of the pair is remembered")
+    return scenario
+
+
 def a_copied_first_tag_may_be_read_anywhere(steps: Steps) -> Scenario:
     """Nature puts no bounds on a foreign record; a pair that begins with one is refused by the centre (T6)."""
     return _nothing_is_left_by(steps, first=Record("copied"))
@@ -174,7 +189,7 @@ def a_run_that_has_begun_stays_begun(steps: Steps) -> Scenario:
 
 
 def a_tag_outside_the_plan_names_no_block(steps: Steps) -> Scenario:
-    """A tag that a list names and the plan does not know adds no block to those the train is in (T2)."""
+    """A tag that a list names and the plan does not know adds no block to those the train is in, and is one of the list (T2)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.roll(scenario, run)
@@ -185,6 +200,7 @@ def a_tag_outside_the_plan_names_no_block(steps: Steps) -> Scenario:
     scenario.system = replace(scenario.system, units=scenario.system.units | {T1: unit})
     scenario.does("head_reads", train=T1, cab=running.head_cab(scenario, run), tag=stray, in_window=True)
     scenario.must(scenario.system.units[T1].occupied == {WEST, THROAT}, "the train is in the west and in the throat")
+    scenario.must(scenario.system.units[T1].orders[run].expected != stray, "the next tag is expected")
     return scenario
 
 

@@ -20,11 +20,11 @@ from proofs.witnesses.registry import WITNESSES
 KILLED_IN_A_SMALL_WORLD = [
     "kernel.route_setting.conflict: guard",
     "kernel.release.release_refusal: or-operand records.record.get(left.tag) != left.record",
-    "kernel.tail_evidence.note_tail_read: guard if antenna",
+    "kernel.tail_evidence.note_tail_read: guard if unit.leading is None or unit.leading == cab",
     "kernel.terminal.obey: or-operand terminal.unlocked",
     "kernel.restarts.restart_centre: update lost_blocks",
     "kernel.first_loop.take_offer: or-operand run.life != unit.life",
-    "models.world.assumptions.a_healthy_line_reaches_the_tail: and-operand site.formation.cab.get(",
+    "models.world.assumptions.is_last: and-operand site.formation.last[run] == car",
     "models.world.nature.car_leaves: guard",
     "models.world.on_board.take_permit: or-operand run not in system.radio.permits",
 ]
