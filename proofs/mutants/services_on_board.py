@@ -10,7 +10,7 @@ from dataclasses import replace
 from kernel.names import Read, Record, Tag, UnitLife
 from kernel.refusal import Refusal
 from proofs.mutants.services import standing
-from proofs.witnesses import running, setting, telling
+from proofs.witnesses import restarts, running, setting, telling
 from proofs.witnesses.changes import came
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
@@ -130,6 +130,31 @@ def a_direction_chosen_again_forgets_nothing(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_block_before_one_that_was_left_is_left_no_more(steps: Steps) -> Scenario:
+    """A tail that missed a boundary has left what came before the next one, and no head is let out of it again (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    for car in running.in_order(scenario, run):
+        running.crosses(scenario, run, car, WEST, THROAT)
+    running.pass_boundary(scenario, run, THROAT, ONE)
+    running.rest(scenario, run)
+    running.roll(scenario, run)
+    scenario.must((run, WEST) not in scenario.system.track.leavable, "nobody is let out of the west again")
+    return scenario
+
+
+def an_answer_closes_the_loop(steps: Steps) -> Scenario:
+    """A train that went astray and tells anew where it stands begins a life in which it can be led again (T5, T8)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    scenario.does("window_passes", train=T1)
+    restarts.restart_centre_now(scenario)
+    telling.tell(scenario, T1)
+    scenario.must(not scenario.system.units[T1].loop_open, "the loop is closed")
+    return scenario
+
+
 def a_copied_first_tag_may_be_read_anywhere(steps: Steps) -> Scenario:
     """Nature puts no bounds on a foreign record; a pair that begins with one is refused by the centre (T6)."""
     return _nothing_is_left_by(steps, first=Record("copied"))
@@ -189,7 +214,7 @@ def a_run_that_has_begun_stays_begun(steps: Steps) -> Scenario:
 
 
 def a_tag_outside_the_plan_names_no_block(steps: Steps) -> Scenario:
-    """A tag that a list names and the plan does not know adds no block to those the train is in, and is one of the list (T2)."""
+    """A tag that a list names and the plan does not know adds no block to those the train is in (T2)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.roll(scenario, run)

@@ -24,7 +24,7 @@ KILLED_IN_A_SMALL_WORLD = [
     "kernel.terminal.obey: or-operand terminal.unlocked",
     "kernel.restarts.restart_centre: update lost_blocks",
     "kernel.first_loop.take_offer: or-operand run.life != unit.life",
-    "models.world.assumptions.is_last: and-operand site.formation.last[run] == car",
+    "models.world.on_board.tail_reads: guard if not a_healthy_line_reaches_the_tail(",
     "models.world.nature.car_leaves: guard",
     "models.world.on_board.take_permit: or-operand run not in system.radio.permits",
 ]
