@@ -67,6 +67,16 @@ def test_dropped_guard_is_noticed(beginning: str) -> None:
     assert tried(first(beginning)).outcome in ("counterexample", "witness")
 
 
+def test_a_claim_that_asks_the_kernel_for_its_word_is_broken_by_another_word() -> None:
+    verdict = tried(first("kernel.authority.may_proceed: and-operand not unit.loop_open"))
+    assert (verdict.outcome, verdict.finding) == ("counterexample", "a_train_astray_has_no_authority")
+
+
+def test_what_compares_places_is_decided_in_a_small_world() -> None:
+    verdict = tried(first("kernel.first_loop.give_back: or-operand held_end_mm > start_end_mm"))
+    assert (verdict.outcome, verdict.finding) == ("counterexample", "what_is_given_back_is_not_entered")
+
+
 def test_no_entry_speaks_of_a_mutant_that_is_no_more() -> None:
     assert [name for name in table() if name not in mutants()] == []
 
