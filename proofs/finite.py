@@ -67,8 +67,9 @@ SMALL: Sizes = _sizes(blocks=3, routes=2, points=1, cars=2, tags=2, runs=3, live
 LARGER: Sizes = _sizes(blocks=4, routes=3, points=2, cars=3, tags=4, runs=4, lives=3)
 """A train of two cars, a route with a part, a third life."""
 
-TACTICS = ("simplify", "elim-term-ite", "dt2bv", "simplify", "solve-eqs", "bit-blast", "sat")
-"""Enumerations become bits, and the question goes to the SAT solver."""
+SOLVE = z3.Cond(z3.Probe("is-propositional"), z3.Tactic("sat"), z3.Tactic("smt"))
+TACTICS = ("simplify", "elim-term-ite", "dt2bv", "simplify", "solve-eqs", "bit-blast", SOLVE)
+"""Enumerations become bits, and the question goes to the SAT solver; with an integer left in it, to Z3's own."""
 
 
 @dataclass(frozen=True)

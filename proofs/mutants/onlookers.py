@@ -16,7 +16,7 @@ from unittest.mock import patch
 
 from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
-from proofs.mutants import plays, services, services_on_board
+from proofs.mutants import plays, services, services_of_nature, services_on_board
 from proofs.mutants.edits import Mutant
 from proofs.mutants.targets import called_by, theories_with
 from proofs.mutated import Sources, running, table_running
@@ -27,7 +27,7 @@ ONLOOKERS: Mapping[str, Witness] = {
     **WITNESSES,
     **{
         name: value
-        for module in (services, services_on_board)
+        for module in (services, services_of_nature, services_on_board)
         for name, value in vars(module).items()
         if inspect.isfunction(value) and list(inspect.signature(value).parameters) == ["steps"]
     },

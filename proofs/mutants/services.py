@@ -7,25 +7,33 @@ check, goes with the guard.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from kernel.names import Block, Car, Cause, Stage, TerminalLife, UnitLife
+from kernel.refusal import Refusal
 from kernel.unit import Evidence
-from proofs.witnesses import running, setting, telling
+from proofs.witnesses import restarts, running, setting, telling
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
     EAST,
+    NO_ROUTE,
     NORMAL,
     ONE,
     ONE_TO_EAST,
+    ONE_TO_WEST,
     OUTLET,
     P1,
     P2,
     T1,
+    T2,
     THROAT,
+    TWO,
+    TWO_TO_WEST,
     WEST,
+    WEST_TO_EAST,
     WEST_TO_ONE,
     WEST_TO_TWO,
 )
@@ -96,15 +104,18 @@ def no_permit_for_a_run_that_is_wanted_back(steps: Steps) -> Scenario:
 
 
 def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Scenario:
-    """The tags at the end of the start block are a second check: a begun run is not given back (T9)."""
+    """The tags at the end of the start block are a second check: a begun run is not given back (T9).
+
+    The train comes in under another run of the same route, so that the brake says nothing of this one.
+    """
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    running.roll(scenario, run)
+    again = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     setting.recall(scenario, run)
     scenario.does("recall", run=run)
-    running.head_passes(scenario, run, WEST, THROAT)
+    running.roll(scenario, again)
+    running.head_passes(scenario, again, WEST, THROAT)
     scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
-    running.rest(scenario, run)
     scenario.does("start_rolling", run=run)
     return scenario
 
@@ -141,6 +152,74 @@ def the_first_cause_stays_in_the_journal(steps: Steps) -> Scenario:
         track=replace(track, behind=frozenset({(run, OUTLET)})),
     )
     scenario.refuses("release_overlap", run=run)
+    return scenario
+
+
+def a_run_from_where_the_train_came_from_does_not_lead_on(steps: Steps) -> Scenario:
+    """An earlier run that began where a later one ends keeps nobody from giving that one back (T9)."""
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    out = setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
+    running.run_through(scenario, out, ONE, THROAT, WEST)
+    back = setting.set_route(scenario, T1, WEST_TO_ONE, out)
+    setting.recall(scenario, back)
+    setting.return_it(scenario, back)
+    return scenario
+
+
+def a_run_of_another_train_does_not_lead_on(steps: Steps) -> Scenario:
+    """A later run of another train, from a block that was released, keeps nobody from wanting this one back (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, TWO))
+    run = setting.set_route(scenario, T1, WEST_TO_EAST, runs[T1])
+    running.run_through(scenario, run, WEST, THROAT, ONE, OUTLET, EAST)
+    running.report(scenario, runs[T1], WEST, THROAT)
+    for block, target in pairwise((WEST, THROAT, ONE, OUTLET, EAST)):
+        running.report(scenario, run, block, target)
+    west = setting.set_route(scenario, T2, TWO_TO_WEST, runs[T2])
+    running.run_through(scenario, west, TWO, THROAT, WEST)
+    running.report(scenario, runs[T2], TWO, THROAT)
+    running.report(scenario, west, TWO, THROAT)
+    running.report(scenario, west, THROAT, WEST)
+    east = setting.set_route(scenario, T2, WEST_TO_ONE, west)
+    setting.reserve(scenario, T2, ONE_TO_WEST, east)
+    setting.want_back(scenario, run)
+    return scenario
+
+
+def a_run_that_is_unknown_is_not_wanted_back(steps: Steps) -> Scenario:
+    """Who wants a run back that was never granted is told so (T9)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    nobody = telling.next_run(scenario, T1, WEST_TO_ONE)
+    scenario.refuses("cancel", Refusal.NO_SUCH_RUN, run=nobody)
+    return scenario
+
+
+def a_statement_of_another_epoch_is_not_noted(steps: Steps) -> Scenario:
+    """What was stated to the centre before it restarted is no half of a new procedure (T8)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    word = {"train": T1, "epoch": scenario.system.centre.epoch, "life": UnitLife(scenario.system.units[T1].life + 1)}
+    scenario.does("open_procedure", train=T1)
+    scenario.does("take_over", blocks=frozenset({WEST}), **word)
+    scenario.does("note_statement", **word)
+    restarts.restart_centre_now(scenario)
+    scenario.must(not scenario.system.centre.statements, "nothing that was stated is known")
+    scenario.does("open_procedure", train=T1)
+    scenario.refuses("note_statement", **word)
+    return scenario
+
+
+def both_persons_speak_of_one_life(steps: Steps) -> Scenario:
+    """What the second person confirms of another life of the unit than the first has stated does not count (T8)."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    scenario.does("open_procedure", train=T1)
+    epoch, life = scenario.system.centre.epoch, UnitLife(scenario.system.units[T1].life + 1)
+    again = UnitLife(life + 1)
+    for stated in (life, again):
+        scenario.does("take_over", train=T1, epoch=epoch, life=stated, blocks=frozenset({WEST}))
+    scenario.does("note_statement", train=T1, epoch=epoch, life=life)
+    scenario.does("confirm_statement", train=T1, epoch=epoch, life=again)
+    run = telling.next_run(scenario, T1, NO_ROUTE, again)
+    event = {"train": T1, "epoch": epoch, "life": again, "run": run}
+    scenario.refuses("note_statement_confirmed", Refusal.NO_STATEMENT, **event)
     return scenario
 
 

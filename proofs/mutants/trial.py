@@ -12,16 +12,20 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
-from proofs.catalogue import INTERLOCKING
-from proofs.counterexample import Unfaithful, search
+import z3
+
+from models.world.state import Site, System
+from proofs.catalogue import INTERLOCKING, INVARIANTS
+from proofs.counterexample import Unfaithful, search, unmet
 from proofs.finite import LARGER, SMALL, Sizes, World
-from proofs.lift import Mismatch, OutsideSubset
+from proofs.lift import Lifter, Mismatch, OutsideSubset, concretise
+from proofs.lift.terms import to_z3
 from proofs.mutants import steps
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import calls, failures
 from proofs.mutants.steps import sites
-from proofs.mutants.targets import of_interlocking, rows_of, theories_with
-from proofs.mutated import Sources
+from proofs.mutants.targets import called_by, of_interlocking, rows_of, theories_with
+from proofs.mutated import Sources, running
 
 NOT_LIFTED = (OutsideSubset, Mismatch, AttributeError, TypeError)
 """A mutant that no type checker would pass, such as ``None`` where a value must be: CPython alone judges it."""
@@ -69,7 +73,7 @@ def tried_with(mutant: Mutant, sources: Sources) -> Verdict:
     searched: dict[str, str] = {}
     ready_for(mutant)
     with mutant.planted():
-        for look in (_in("small"), _in_integers, _by_witnesses, _in("larger")):
+        for look in (_in("small"), _in_what_is_said, _in_integers, _by_witnesses, _in("larger")):
             found = look(mutant, sources, searched)
             if found is not None:
                 outcome, by, finding = found
@@ -110,6 +114,35 @@ def _in(size: str) -> Look:
         return None
 
     return look
+
+
+def _in_what_is_said(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:
+    """Look in a small world for a state that is as it should be, and of which the kernel with the drop says otherwise.
+
+    A claim that asks the kernel for its word, as for whether a train may proceed, is a claim about that word.
+    """
+    if mutant.is_of_a_module or not all(function.__module__.startswith("kernel.") for function in mutant.functions):
+        return None
+    for name, claim in INVARIANTS.items():
+        if not any(map(mutant.touches, called_by(claim))):
+            continue
+        small = world("small")
+        solver = small.solver(MILLISECONDS["small"])
+        try:
+            solver.add(z3.Not(to_z3(Lifter(small.scope, sources).formula(claim, small.site, small.before))))
+        except NOT_LIFTED as error:
+            searched[name] = f"not lifted: {error}"
+            continue
+        searched[name] = str(solver.check())
+        if searched[name] == "sat":
+            model = solver.model()
+            site = concretise(model, small.scope, small.site, Site)
+            before = concretise(model, small.scope, small.before, System)
+            with running(sources):
+                holds = claim(site, before)
+            if not holds and not unmet(site, before):
+                return "counterexample", INTERLOCKING.name, name
+    return None
 
 
 def _in_integers(mutant: Mutant, sources: Sources, searched: dict[str, str]) -> Found:

@@ -30,11 +30,24 @@ def pass_through(scenario: Scenario, run: Run, *blocks: Block) -> None:
 def roll(scenario: Scenario, run: Run) -> None:
     """The driver chooses the direction of the run, and the train begins to roll."""
     faces(scenario, run)
-    layout, order = scenario.site.layout, scenario.system.units[run.train].orders[run]
-    way, overlap = layout.way[run.route], layout.overlap[run.route]
-    leavable = [b for b, target in way.items() if target not in overlap and not {b, target} & {*order.left}]
-    effect = {"track": {"rolling": came(run), "leavable": came(*((run, block) for block in leavable))}}
+    overlap = scenario.site.layout.overlap[run.route]
+    leavable = [(run, block) for block, target in _way_on(scenario, run).items() if target not in overlap]
+    effect = {"track": {"rolling": came(run), "leavable": came(*leavable)}}
     scenario.does("start_rolling", effect, run=run)
+
+
+def slip(scenario: Scenario, run: Run) -> None:
+    """The train brakes so late that it will slip: what it may leave for its overlap counts as well."""
+    leavable = [(run, block) for block in _way_on(scenario, run)]
+    effect = {"track": {"rolling": came(run), "slipping": came(run), "leavable": came(*leavable)}}
+    scenario.does("overrun", effect, run=run)
+
+
+def _way_on(scenario: Scenario, run: Run) -> dict[Block, Block]:
+    """What of the way of a run the tail has not left, block by block."""
+    left = scenario.system.units[run.train].orders[run].left
+    way = scenario.site.layout.way[run.route]
+    return {block: target for block, target in way.items() if block not in left and target not in left}
 
 
 def faces(scenario: Scenario, run: Run) -> None:

@@ -20,11 +20,11 @@ from proofs.witnesses.registry import WITNESSES
 KILLED_IN_A_SMALL_WORLD = [
     "kernel.route_setting.conflict: guard",
     "kernel.release.release_refusal: or-operand records.record.get(left.tag) != left.record",
-    "kernel.tail_evidence.note_tail_read: guard if antenna",
+    "kernel.tail_evidence.note_tail_read: guard if unit.leading is None or unit.leading == cab",
     "kernel.terminal.obey: or-operand terminal.unlocked",
     "kernel.restarts.restart_centre: update lost_blocks",
     "kernel.first_loop.take_offer: or-operand run.life != unit.life",
-    "models.world.assumptions.a_healthy_line_reaches_the_tail: and-operand site.formation.cab.get(",
+    "models.world.on_board.tail_reads: guard if not a_healthy_line_reaches_the_tail(",
     "models.world.nature.car_leaves: guard",
     "models.world.on_board.take_permit: or-operand run not in system.radio.permits",
 ]
@@ -65,6 +65,16 @@ def test_every_mutant_takes_part_in_a_transition_or_in_what_is_said_of_a_machine
 @pytest.mark.parametrize("beginning", KILLED_IN_A_SMALL_WORLD)
 def test_dropped_guard_is_noticed(beginning: str) -> None:
     assert tried(first(beginning)).outcome in ("counterexample", "witness")
+
+
+def test_a_claim_that_asks_the_kernel_for_its_word_is_broken_by_another_word() -> None:
+    verdict = tried(first("kernel.authority.may_proceed: and-operand not unit.loop_open"))
+    assert (verdict.outcome, verdict.finding) == ("counterexample", "a_train_astray_has_no_authority")
+
+
+def test_what_compares_places_is_decided_in_a_small_world() -> None:
+    verdict = tried(first("kernel.first_loop.give_back: or-operand held_end_mm > start_end_mm"))
+    assert (verdict.outcome, verdict.finding) == ("counterexample", "what_is_given_back_is_not_entered")
 
 
 def test_no_entry_speaks_of_a_mutant_that_is_no_more() -> None:

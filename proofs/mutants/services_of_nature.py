@@ -1,0 +1,223 @@
+"""What else is lost if a guard goes: witnesses for drops that break no invariant, in what nature does and remembers.
+
+As in :mod:`proofs.mutants.services`, each docstring says what goes.  No theorem can notice where nature is
+allowed less than it does, or where history forgets: these say that it is allowed, and remembered.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+from kernel.names import Block, Car, Read, Record, Run, Tag, UnitLife
+from proofs.mutants.services import standing
+from proofs.witnesses import running, setting, telling
+from proofs.witnesses.changes import came, went
+from proofs.witnesses.scenario import Scenario, Steps
+from proofs.witnesses.stations import (
+    A1,
+    A2,
+    B1,
+    EAST,
+    EAST_TO_ONE,
+    ONE,
+    ONE_TO_EAST,
+    ONE_TO_WEST,
+    OUTLET,
+    PASSING_PLACE,
+    T1,
+    T2,
+    THROAT,
+    TWO,
+    TWO_TO_EAST,
+    WEST,
+    WEST_TO_ONE,
+    site_of,
+    standing_at,
+)
+
+STRAY = Tag("stray")
+
+
+def a_boundary_that_the_head_passes_is_passed_anew(steps: Steps) -> Scenario:
+    """Nature binds no tail by what it read before its head came to a boundary again, and read it or not (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.pass_boundary(scenario, run, WEST, THROAT)
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    before = scenario.system
+    anew = went((T1, first), (T1, second))
+    scenario.does("head_misses", {"track": {"passed": anew, "unread": came(T1)}}, train=T1, tag=first)
+    scenario.system = before
+    event = {"train": T1, "cab": running.head_cab(scenario, run), "tag": second, "in_window": True}
+    scenario.does("head_reads", {"units": {T1: {"tail_read": None}}, "track": {"passed": anew}}, **event)
+    return scenario
+
+
+def what_has_gone_astray_stays_astray(steps: Steps) -> Scenario:
+    """Who goes astray later takes nothing back of it: by an overdue tag, a foreign one, or what a tail reads (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, TWO))
+    life, cab = runs[T1].life, scenario.site.formation.cab
+    scenario.does("change_ends", train=T2, cab=cab[B1])
+    scenario.does("head_reads", train=T2, cab=cab[B1], tag=STRAY, in_window=True)
+    scenario.does("change_ends", train=T1, cab=cab[A1])
+    scenario.does(
+        "window_passes", {"units": {T1: {"loop_open": True}}, "track": {"astray": came((T1, life))}}, train=T1
+    )
+    _begins_anew(scenario)
+    event = {"train": T1, "cab": cab[A1], "tag": STRAY, "in_window": True}
+    astray = {"astray": came((T1, life + 1)), "last_read": {T1: STRAY}}
+    scenario.does("head_reads", {"units": {T1: {"loop_open": True}}, "track": astray}, **event)
+    _begins_anew(scenario)
+    second = running.pair(scenario.site.layout, OUTLET, EAST)[1]
+    running.tail_reads_first(scenario, runs[T1], running.pair(scenario.site.layout, WEST, THROAT)[0])
+    elsewhere = running.tail_read(scenario, runs[T1], second)
+    astray = {"astray": came((T1, life + 2)), "passed": came((T1, second))}
+    opened = {"units": {T1: {"loop_open": True, "tail_read": None}}, "track": astray}
+    scenario.does("tail_reads", opened, **elsewhere)
+    return scenario
+
+
+def _begins_anew(scenario: Scenario) -> None:
+    """The unit of the first train restarts and has a closed loop; its driver chooses, its train is where it was."""
+    unit, cab = scenario.system.units[T1], scenario.site.formation.cab[A1]
+    scenario.does("restart_unit", train=T1, life=UnitLife(unit.life + 1))
+    scenario.must(not scenario.system.units[T1].loop_open, "a new life has a closed loop")
+    scenario.does("change_ends", {"units": {T1: {"leading": cab}}}, train=T1, cab=cab)
+    located = replace(scenario.system.units[T1], occupied=frozenset({WEST}))
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: located})
+
+
+def a_train_whose_loop_is_open_goes_astray_no_more(steps: Steps) -> Scenario:
+    """What a head reads after its loop was opened says nothing of the train: history notes the cause, not all after."""
+    scenario, _ = telling.recovered(steps, standing(WEST))
+    cab = scenario.site.formation.cab[A1]
+    scenario.does("change_ends", train=T1, cab=cab)
+    opened = replace(scenario.system.units[T1], loop_open=True)
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: opened})
+    read = {"track": {"last_read": {T1: STRAY}}}
+    scenario.does("head_reads", read, train=T1, cab=cab, tag=STRAY, in_window=True)
+    return scenario
+
+
+def an_antenna_is_on_its_own_car_of_its_own_train(steps: Steps) -> Scenario:
+    """No train hears a tail antenna of another, or one on a car that does not carry it (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, TWO))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.faces(scenario, run)
+    cab = scenario.site.formation.cab
+    event = running.tail_read(scenario, run, running.pair(scenario.site.layout, WEST, THROAT)[0])
+    scenario.refuses("tail_reads", **event | {"cab": cab[B1]})
+    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "healthy": False, "run": run})
+    scenario.does("tail_reads", **event)
+    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "healthy": False})
+    return scenario
+
+
+def a_head_reads_a_tag_only_where_its_car_is(steps: Steps) -> Scenario:
+    """A tag beyond the boundary is not read before the first car is there (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    running.head_reads(scenario, run, first)
+    event = {"train": T1, "cab": running.head_cab(scenario, run), "tag": second, "in_window": True}
+    scenario.refuses("head_reads", **event)
+    return scenario
+
+
+def a_train_that_faces_the_other_way_may_read_on(steps: Steps) -> Scenario:
+    """Nature forbids the other cab only both tags of a run one after the other, not one of them and another (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    cab = scenario.site.formation.cab[A2]
+    scenario.does("change_ends", train=T1, cab=cab)
+    for tag in (scenario.site.layout.first_tag[WEST_TO_ONE], STRAY):
+        scenario.does("head_reads", train=T1, cab=cab, tag=tag, in_window=True)
+    return scenario
+
+
+def another_train_may_follow_into_a_block_that_was_left(steps: Steps) -> Scenario:
+    """A pair that a tail has read binds the cars of its own train, not those that came into the block since (T2)."""
+    scenario, runs = telling.recovered(steps, {**standing(ONE), B1: frozenset({WEST})})
+    run = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+    running.run_through(scenario, run, ONE, OUTLET, EAST)
+    for block, target in pairwise((ONE, OUTLET, EAST)):
+        running.report(scenario, run, block, target)
+    running.report(scenario, runs[T1], ONE, OUTLET)
+    other = setting.set_route(scenario, T2, WEST_TO_ONE, runs[T2])
+    running.roll(scenario, other)
+    for block, target in pairwise((WEST, THROAT, ONE)):
+        running.head_passes(scenario, other, block, target)
+    again = running.pair(scenario.site.layout, ONE, OUTLET)[1]
+    scenario.does("tail_reads", **running.tail_read(scenario, run, again))
+    return scenario
+
+
+def a_train_runs_where_another_was_let_run(steps: Steps) -> Scenario:
+    """Both tags at the end of a block are read by whoever runs there, though another train was permitted to (T5)."""
+    scenario, runs = telling.recovered(steps, {**standing(TWO), B1: frozenset({ONE})})
+    given_back = setting.set_route(scenario, T2, ONE_TO_EAST, runs[T2])
+    setting.recall(scenario, given_back)
+    setting.return_it(scenario, given_back)
+    _goes(scenario, setting.set_route(scenario, T2, ONE_TO_WEST, runs[T2]), runs[T2], ONE, THROAT, WEST)
+    out = setting.set_route(scenario, T1, TWO_TO_EAST, runs[T1])
+    _goes(scenario, out, runs[T1], TWO, OUTLET, EAST)
+    back = setting.set_route(scenario, T1, EAST_TO_ONE, out)
+    _goes(scenario, back, out, EAST, OUTLET, ONE)
+    run = setting.set_route(scenario, T1, ONE_TO_EAST, back)
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, ONE, OUTLET)
+    return scenario
+
+
+def _goes(scenario: Scenario, run: Run, base: Run, start: Block, *blocks: Block) -> None:
+    """A train runs through, and all that it leaves is released, also of the run that it began from."""
+    running.run_through(scenario, run, start, *blocks)
+    running.report(scenario, base, start, blocks[0])
+    for block, target in pairwise((start, *blocks)):
+        running.report(scenario, run, block, target)
+
+
+def a_train_that_backs_out_leaves_what_it_came_into(steps: Steps) -> Scenario:
+    """A tail that leaves a block with the other cab ahead leaves it also for the run that the train came in by (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.run_through(scenario, run, WEST, THROAT, ONE)
+    back = setting.set_route(scenario, T1, ONE_TO_WEST, run)
+    running.run_through(scenario, back, ONE, THROAT)
+    running.report(scenario, run, ONE, THROAT)
+    return scenario
+
+
+def an_antenna_within_the_train_proves_nothing(steps: Steps) -> Scenario:
+    """Only what the last car's antenna reads, behind the cab at the head, binds the cars behind it (T2, T3)."""
+    middle = Car("a3")
+    site = site_of(PASSING_PLACE, {T1: (A1, middle, A2), T2: (B1,)})
+    at = {A1: WEST, middle: WEST, A2: WEST, B1: TWO}
+    scenario = Scenario(steps, site, standing_at(site, {car: frozenset({block}) for car, block in at.items()}, {}))
+    runs = telling.all_tell(scenario)
+    telling.hear_terminals(scenario)
+    telling.recover(scenario)
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    backward = telling.next_run(scenario, T1, ONE_TO_WEST)
+    before = scenario.system
+    _reads_a_pair_unbound(scenario, run, middle)
+    scenario.system = before
+    running.rest(scenario, run)
+    scenario.does("change_ends", train=T1, cab=site.formation.cab[middle])
+    _reads_a_pair_unbound(scenario, backward, A1)
+    return scenario
+
+
+def _reads_a_pair_unbound(scenario: Scenario, run: Run, car: Car) -> None:
+    """A car's antenna reads both tags behind the west over a line that is not healthy, with cars still in the west."""
+    event = {"run": run, "car": car, "cab": scenario.site.formation.cab[car]}
+    for tag in running.pair(scenario.site.layout, WEST, THROAT):
+        half = replace(scenario.system.units[T1], tail_read=Read(STRAY, Record("foreign")))
+        scenario.system = replace(scenario.system, units=scenario.system.units | {T1: half})
+        read = running.genuine(scenario, tag)
+        scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, healthy=False, read=read, **event)
