@@ -24,6 +24,7 @@ from fuzz.traffic.places import (
     RECORDS,
     ROUTES,
     RUNS_COUNT,
+    TAG_LISTS,
     TAGS,
     TERMINALS_LIFE,
     TRACK_LIES_VALUE,
@@ -33,7 +34,7 @@ from fuzz.traffic.places import (
     WORDS,
 )
 from fuzz.traffic.standing import MOST_LIVES
-from fuzz.traffic.steps import LOG_HEAD, intern, take, take_granting
+from fuzz.traffic.steps import LOG_HEAD, intern, list_of, take, take_granting
 from fuzz.traffic.tables import (
     ANSWER,
     CAR_FOLLOWS,
@@ -49,6 +50,7 @@ from fuzz.traffic.tables import (
     IS_RECORD,
     IS_RUN,
     IS_TAG,
+    IS_TAG_LIST,
     IS_TERMINAL_LIFE,
     IS_TRAIN,
     IS_UNIT_LIFE,
@@ -60,6 +62,7 @@ from fuzz.traffic.tables import (
     RESTART_CENTRE,
     RESTART_TERMINAL,
     RESTART_UNIT,
+    TAKE_OFFER,
     TAKE_OVER,
 )
 from fuzz.traffic.tables import (
@@ -133,6 +136,8 @@ def arrives_stale(memory: Any, desk: Any, kind: Any) -> None:
         return
     if kind == OBEY_ORDER:
         memory[event + 3] = get1(memory, desk, TRACK_LIES_VALUE, memory[event + 1])
+    if kind == TAKE_OFFER:
+        memory[event + 1] = list_of(memory, desk, memory[event])
     take(memory, desk, kind)
 
 
@@ -166,6 +171,8 @@ def some_name(desk: Any, kind: Any) -> Any:
         bound = desk[TAGS]
     elif kind == IS_RECORD:
         bound = desk[RECORDS]
+    elif kind == IS_TAG_LIST:
+        bound = desk[TAG_LISTS]
     elif kind == IS_CAR:
         bound = desk[CARS]
     elif kind == IS_CAB:

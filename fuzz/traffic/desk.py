@@ -121,6 +121,7 @@ def _header(memory: Memory, desk: Desk, block_words: int) -> None:
         places.POINTS: len(names.get("Point", ())),
         places.TAGS: len(names["Tag"]),
         places.RECORDS: len(names["Record"]),
+        places.TAG_LISTS: len(names["TagList"]),
         places.CARS: len(names["Car"]),
         places.CABS: len(names["Cab"]),
         places.POSITIONS: len(names["Position"]),

@@ -51,6 +51,12 @@ WITHIN: tuple[Fault, ...] = (
         "message",
         log_uniform(0.01, 0.5),
     ),
+    Fault(
+        "lists mixed up",
+        "A unit keeps another tag list than it was sent.",
+        "message",
+        log_uniform(0.005, 0.1),
+    ),
     Fault("radio delay", "A telegram arrives only after 10 s to 10 min.", "message", log_uniform(0.01, 0.3)),
     Fault(
         "stale message",

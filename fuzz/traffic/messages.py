@@ -30,6 +30,7 @@ from fuzz.traffic.places import (
     RUNS_COUNT,
     RUNS_TRAIN,
     STUCK_UNTIL,
+    TAG_LISTS,
     TERMINALS_LIFE,
     TERMINALS_UNLOCKED,
     TERMINALS_WANTED,
@@ -42,8 +43,10 @@ from fuzz.traffic.places import (
     UNITS_LEFT_LEFT_TAG,
     UNITS_ORDERS,
     UNITS_PERMITTED,
+    UNITS_TAG_LIST,
 )
 from fuzz.traffic.steps import (
+    list_of,
     put2,
     put3,
     put4,
@@ -90,6 +93,7 @@ from fuzz.traffic.words import below, bit, cell, get, get1, get2, get3, has, has
 RESERVED, OFFERED, SET, STANDS, OVER = range(5)
 """Stages of a run at the centre, in the order of the kernel's ``Stage``."""
 NO_RUN = -1
+MIXED_UP = number("lists mixed up")
 DOUBT = number("place not known")
 STUCK, LATE_CONTACTS = number("point does not move"), number("late point detection")
 FALSE_CONTACTS = number("false point detection")
@@ -224,9 +228,10 @@ def close_loop(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
         take1(memory, desk, OPEN_FIRST_LOOP, run)
     if stage(memory, desk, run) == OFFERED:
         take1(memory, desk, SEND_OFFER, run)
-        memory[desk[EVENT]] = run
+        mixed_up = strikes(desk, MIXED_UP, train)
+        put2(memory, desk, run, below(desk, desk[TAG_LISTS]) if mixed_up else list_of(memory, desk, run))
         arrive(memory, desk, TAKE_OFFER, train)
-        take1(memory, desk, SEND_ECHO, run)
+        take2(memory, desk, SEND_ECHO, run, get2(memory, desk, UNITS_TAG_LIST, train, run))
         memory[desk[EVENT]] = run
         arrive(memory, desk, NOTE_ECHO, train)
     if stage(memory, desk, run) == SET:

@@ -60,6 +60,7 @@ def table(name: str) -> int:
     POINTS,
     TAGS,
     RECORDS,
+    TAG_LISTS,
     CARS,
     CABS,
     POSITIONS,
@@ -78,7 +79,7 @@ def table(name: str) -> int:
     DESK,
     LAST_FINISHED,
     PROGRESS_AT,
-) = range(46)
+) = range(47)
 """Words of the desk's header; ``BY`` is the fault at work or -1, ``TROUBLES`` how many come by the second."""
 ENTRIES, MOST_ENTRIES = 64, 80
 """Addresses of the driver's own functions."""
@@ -190,6 +191,8 @@ RADIO_ENQUIRIES = field("radio_enquiries")
 RADIO_RELAYED_ENQUIRIES = field("radio_relayed_enquiries")
 RADIO_CONFIRMED = field("radio_confirmed")
 RADIO_CONFIRMATIONS = field("radio_confirmations")
+LAYOUT_TAG_LIST_VALUE = field("layout_tag_list_value")
+UNITS_TAG_LIST = field("units_orders_tag_list")
 RADIO_OFFERS = field("radio_offers")
 RADIO_ECHOES = field("radio_echoes")
 RADIO_PERMITS = field("radio_permits")

@@ -19,6 +19,7 @@ from fuzz.traffic.places import (
     EVENT,
     HITS,
     JUDGE,
+    LAYOUT_TAG_LIST_VALUE,
     LOG,
     MEMORY,
     MOST_ACCEPTED,
@@ -297,6 +298,12 @@ def set_train(desk: Any, train: Any, word: Any, value: Any) -> None:
 def route_of(memory: Any, desk: Any, run: Any) -> Any:
     """The route of a run."""
     return get1(memory, desk, RUNS_ROUTE, run)
+
+
+@compiled
+def list_of(memory: Any, desk: Any, run: Any) -> Any:
+    """The tag list that the centre sends for a run."""
+    return get1(memory, desk, LAYOUT_TAG_LIST_VALUE, route_of(memory, desk, run))
 
 
 @compiled

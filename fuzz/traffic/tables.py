@@ -16,6 +16,7 @@ from kernel.names import (
     Record,
     Run,
     Tag,
+    TagList,
     TerminalLife,
     Train,
     UnitLife,
@@ -104,12 +105,13 @@ CORRECT_STATEMENT = NUMBERS["correct_statement"]
     IS_POSITION,
     IS_TAG,
     IS_RECORD,
+    IS_TAG_LIST,
     IS_CAR,
     IS_CAB,
     IS_BOOL,
     IS_MM,
     IS_BLOCKS,
-) = range(15)
+) = range(16)
 _TYPES: Mapping[Any, tuple[int, ...]] = {
     Run: (IS_RUN,),
     Train: (IS_TRAIN,),
@@ -120,6 +122,7 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Point: (IS_POINT,),
     Position: (IS_POSITION,),
     Tag: (IS_TAG,),
+    TagList: (IS_TAG_LIST,),
     Record: (IS_RECORD,),
     Read: (IS_TAG, IS_RECORD),
     Car: (IS_CAR,),
