@@ -33,7 +33,7 @@ ROUNDS = 1_500
 OLD_LIFE = "kernel.standing.answer: or-operand life <= unit.life"
 UNREACHED = {
     OLD_LIFE: "answer",
-    "kernel.supervision.note_statement: or-operand epoch != centre.epoch": "note_statement",
+    "kernel.recovery.asks_how_it_lies: and-operand grant.stage == Stage.STANDING": "send_enquiry",
     "kernel.tail_evidence.reports_left: guard if evidence is None or evidence.left != left"
     " or evidence.entered != entered: False": "send_tail_report",
 }
