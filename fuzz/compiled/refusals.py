@@ -9,7 +9,7 @@ from kernel.names import Block, Epoch, Point, Read, Run, Train, UnitLife
 from kernel.recovery import recover_point_refusal, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal, retire_refusal
-from kernel.route_setting import open_first_loop_refusal, request_refusal
+from kernel.route_setting import echo_refusal, open_first_loop_refusal, request_refusal
 from kernel.supervision import supervised_refusal
 from models.world.state import Site, System
 
@@ -22,6 +22,14 @@ def request(site: Site, system: System, run: Run, base: Run) -> Refusal | None:
 def open_first_loop(site: Site, system: System, run: Run) -> Refusal | None:
     """Why a tag list is not sent (T4)."""
     return open_first_loop_refusal(site.layout, system.centre, run)
+
+
+def note_echo(site: Site, system: System, run: Run) -> Refusal | None:
+    """Why a run is not set though its echo has come, if it has (T4)."""
+    tag_list = system.radio.echoes.get(run)
+    if tag_list is None:
+        return None
+    return echo_refusal(site.layout, system.centre, run, tag_list)
 
 
 def release_block(site: Site, system: System, run: Run, block: Block, left: Read, entered: Read) -> Refusal | None:
@@ -64,6 +72,7 @@ REFUSALS: Mapping[str, Callable[..., Refusal | None]] = {
     for function in (
         request,
         open_first_loop,
+        note_echo,
         release_block,
         retire,
         cancel,

@@ -115,7 +115,9 @@ class Bench:
             return None
         asked = self.reasons[WHY_REFUSED[event.step]]
         layout, records = self.site.layout, self.site.records
-        known = {**event.event, "layout": layout, "records": records, "centre": system.centre}
+        run = event.event.get("run")
+        echoed = None if run is None else system.radio.echoes.get(run)
+        known = {**event.event, "layout": layout, "records": records, "centre": system.centre, "tag_list": echoed}
         try:
             answer = asked(**{name: known[name] for name in inspect.signature(asked).parameters if name in known})
         except ERRORS:

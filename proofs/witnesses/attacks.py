@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kernel.names import Stage
 from kernel.refusal import Refusal
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
@@ -20,7 +21,17 @@ from proofs.witnesses.running import (
     tail_reads_first,
 )
 from proofs.witnesses.scenario import Scenario, Steps
-from proofs.witnesses.setting import holds, set_route
+from proofs.witnesses.setting import (
+    at_stage,
+    holds,
+    keep,
+    open_first_loop,
+    prove_all,
+    recall,
+    reserve,
+    return_it,
+    set_route,
+)
 from proofs.witnesses.stations import (
     A1,
     A2,
@@ -28,6 +39,7 @@ from proofs.witnesses.stations import (
     B2,
     B3,
     B4,
+    EAST,
     HERE,
     MIDDLE,
     MIDDLE_TO_NORTH,
@@ -39,6 +51,9 @@ from proofs.witnesses.stations import (
     ROUND,
     T1,
     T2,
+    WEST,
+    WEST_TO_ONE,
+    WEST_TO_TWO,
     Y_TO_X,
     Y,
 )
@@ -127,4 +142,25 @@ def a_tag_missed_by_the_head_is_overdue_before_the_tail_comes(steps: Steps) -> S
     rest(scenario, out)
     scenario.refuses("start_rolling", run=out)
     scenario.must(head_cab(scenario, out) == scenario.system.units[T1].leading, "the unit still knows its ends")
+    return scenario
+
+
+def a_train_that_keeps_another_list_gets_no_permit(steps: Steps) -> Scenario:
+    """A unit with the tags of another route sends those back; the run is not set, and can be taken back (T4, T9)."""
+    scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
+    run = reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    prove_all(scenario, run)
+    open_first_loop(scenario, run)
+    meant, other = (scenario.site.layout.tag_list[route] for route in (WEST_TO_ONE, WEST_TO_TWO))
+    scenario.does("send_offer", {"radio": {"offers": came(run)}}, run=run)
+    keep(scenario, run, other)
+    scenario.refuses("take_offer", run=run, tag_list=meant)
+    scenario.refuses("send_echo", run=run, tag_list=meant)
+    scenario.does("send_echo", {"radio": {"echoes": {run: other}}}, run=run, tag_list=other)
+    scenario.refuses("note_echo", Refusal.LISTS_DIFFER, run=run)
+    scenario.refuses("send_permit", run=run)
+    scenario.refuses("start_rolling", run=run)
+    recall(scenario, run)
+    return_it(scenario, run)
+    at_stage(scenario, run, Stage.OVER)
     return scenario

@@ -23,6 +23,7 @@ Steps = Mapping[str, Callable[..., Any]]
 WHY_REFUSED: Mapping[str, str] = {
     "request": "request_refusal",
     "open_first_loop": "open_first_loop_refusal",
+    "note_echo": "echo_refusal",
     "cancel": "cancel_refusal",
     "release_block": "release_refusal",
     "retire": "retire_refusal",
@@ -35,6 +36,7 @@ WHY_REFUSED: Mapping[str, str] = {
 REASONS: Steps = {
     "request_refusal": route_setting.request_refusal,
     "open_first_loop_refusal": route_setting.open_first_loop_refusal,
+    "echo_refusal": route_setting.echo_refusal,
     "cancel_refusal": cancellation.cancel_refusal,
     "release_refusal": release.release_refusal,
     "retire_refusal": release.retire_refusal,
@@ -104,6 +106,7 @@ class Scenario:
         told = (event.get("train"), event.get("life"), event.get("epoch"))
         known = {
             "blocks": self.system.radio.confirmed_statements.get(told, frozenset()),  # type: ignore[arg-type]
+            "tag_list": self.system.radio.echoes.get(event.get("run")),  # type: ignore[arg-type]
             **event,
             "layout": self.site.layout,
             "records": self.site.records,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.centre import Grant
-from kernel.names import Block, Cause, Point, Route, Run, Stage, Train
+from kernel.names import Block, Cause, Point, Route, Run, Stage, TagList, Train
 from kernel.unit import Order
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
@@ -105,7 +105,11 @@ def open_first_loop(scenario: Scenario, run: Run) -> None:
 def send_list(scenario: Scenario, run: Run) -> None:
     """The list comes to the train."""
     scenario.does("send_offer", {"radio": {"offers": came(run)}}, run=run)
-    tag_list = scenario.site.layout.tag_list[run.route]
+    keep(scenario, run, scenario.site.layout.tag_list[run.route])
+
+
+def keep(scenario: Scenario, run: Run, tag_list: TagList) -> None:
+    """The unit keeps this list of the route."""
     taken = Order(
         tag_list=tag_list,
         permitted=False,
@@ -113,7 +117,7 @@ def send_list(scenario: Scenario, run: Run) -> None:
         given_back=False,
         begun=False,
         stopped=False,
-        expected=scenario.site.layout.first_tag[run.route],
+        expected=scenario.site.lists.first_tag[tag_list],
         entered=frozenset(),
         led_by=None,
         left={},
