@@ -19,7 +19,7 @@ from kernel.authority import may_proceed
 from kernel.maps import Map
 from kernel.names import Block, Car, Run, Train
 from kernel.onboard import authority_end, braking
-from kernel.onboard.braking import Brake
+from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.unit import Unit
 from models.world.state import Site, System
 
@@ -311,6 +311,40 @@ def ask_for_the_end(
     wanted_mm = authority_end.ends_mm(site.site.lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
     if not the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm):
         return system
+    return with_brake(site, system, train, brake, wanted_mm)
+
+
+def obey_the_orders(
+    site: Survey,
+    system: Joint,
+    train: Train,
+    bounds: BrakeBounds,
+    front_least_mm: int,
+    front_most_mm: int,
+    speed_most_mm_s: int,
+    brake: Brake,
+) -> Joint:
+    """A cycle on board with the brake control that there is: of any brake, at any speed, it takes the end or not (T12).
+
+    What :func:`ask_for_the_end` assumes of a brake control is here what the kernel does.
+    """
+    if train not in system.brake or train not in system.system.units:
+        return system
+    if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
+        return system
+    lists, unit, before = site.site.lists, system.system.units[train], system.brake[train]
+    begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
+    ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
+    if brake not in authority_end.obey(
+        lists, unit, begins_mm, ends_mm, bounds, before, front_least_mm, front_most_mm, speed_most_mm_s
+    ):
+        return system
+    wanted_mm = authority_end.ends_mm(lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
+    return with_brake(site, system, train, brake, wanted_mm)
+
+
+def with_brake(site: Survey, system: Joint, train: Train, brake: Brake, wanted_mm: frozenset[int]) -> Joint:
+    """The brake has become this; what it rests on is noted if it holds the end that was wanted."""
     asked = replace(
         system,
         brake=system.brake | {train: brake},

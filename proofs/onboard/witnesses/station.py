@@ -151,7 +151,11 @@ class Station(Play[Survey, Joint]):
         )
         assert len(asked) == 1
         (brake,) = asked
-        self.step("ask_for_the_end", train=T1, front_least_mm=least_mm, front_most_mm=most_mm, brake=brake)
+        event = {"train": T1, "front_least_mm": least_mm, "front_most_mm": most_mm, "brake": brake}
+        before = self.system
+        self.step("ask_for_the_end", **event)
+        after, self.system = self.system, before
+        assert self.step("obey_the_orders", **event, bounds=BOUNDS, speed_most_mm_s=speed_mm_s) == after
         assert self.system.brake[T1] == brake
         return brake
 
