@@ -39,6 +39,7 @@ NOT_STEPS = frozenset(
         "kernel.maps",
         "kernel.onboard.frames",
         "kernel.persistence",
+        "kernel.tag_list_text",
         "kernel.tags",
         "kernel.telegram",
         "kernel.tram.frames",

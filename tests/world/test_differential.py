@@ -28,6 +28,7 @@ from kernel.names import (
     Run,
     Serial,
     Tag,
+    TagList,
     TerminalLife,
     Train,
     UnitLife,
@@ -39,6 +40,7 @@ from tests.lift.differential import check_function
 
 OUTSIDE = {
     "kernel.tags": "bits and bytes of a tag: integer arithmetic with loops, tested by its own properties",
+    "kernel.tag_list_text": "text: loops over lines, tested by its own properties",
     "kernel.error_correction": "bits of a telegram: tested by its own properties",
     "kernel.telegram": "bytes of a telegram, keyed hash: tested by its own properties",
     "kernel.link": "in its own world: tests/onboard/test_agreement_of_link_and_joint.py",
@@ -57,6 +59,7 @@ UNIVERSE: dict[Any, list[Any]] = {
     Car: [Car("c"), Car("d")],
     Cab: [Cab("f"), Cab("g")],
     Tag: [Tag("1"), Tag("2")],
+    TagList: [TagList("out"), TagList("in")],
     Record: [Record("x"), Record("y")],
     Serial: [Serial(0), Serial(1), Serial(2)],
     UnitLife: [UnitLife(0), UnitLife(1)],
