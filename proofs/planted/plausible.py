@@ -9,14 +9,19 @@ from kernel.claims import end_claims
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Cause, Position, Read, Run, Stage, TerminalLife
 from kernel.refusal import Refusal
+from kernel.tag_list import TagLists
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 
 
-def reports_the_list(layout: Layout, unit: Unit, run: Run, block: Block, left: Read, entered: Read) -> bool:
-    """Report any block whose tags are on the list, read or not."""
-    order = unit.orders.get(run)
-    return order is not None and layout.tag_in.get(left.tag) == block and layout.partner.get(left.tag) == entered.tag
+def reports_the_list(lists: TagLists, unit: Unit, run: Run, block: Block, left: Read, entered: Read) -> bool:
+    """Report any block whose tags are on a list that came, read or not."""
+    return run in unit.orders and any(
+        order.tag_list is not None
+        and order.tag_list in lists.tag_after
+        and lists.tag_after[order.tag_list].get(left.tag) == entered.tag
+        for _, order in unit.orders.items()
+    )
 
 
 def compares_uids_only(

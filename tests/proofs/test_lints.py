@@ -63,7 +63,7 @@ ASSUMED = "from models.world.assumptions import"
 BEHIND = "            behind=behind,\n"
 HISTORY = f"track=replace(\n            system.track,\n{BEHIND}"
 IF_GONE = "    if gone:\n        return system\n"
-ECHO = "    if run not in system.radio.echoes:\n        return system\n"
+ECHO = "    if run not in system.radio.stops:\n        return system\n"
 
 
 @pytest.mark.parametrize(

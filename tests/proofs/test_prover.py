@@ -41,7 +41,7 @@ SAMPLE = (
     ("send_permit", "reach_is_exclusive"),
     ("tail_reads", "a_reported_block_is_left_by_all_cars"),
     ("car_moves", "no_two_trains_in_a_block"),
-    ("start_rolling", EVERY_LOOKUP_IS_DEFINED),
+    ("request", EVERY_LOOKUP_IS_DEFINED),
     ("reading", "no_open_flank"),
 )
 """An obligation of each kind."""

@@ -45,30 +45,28 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
     for (a, b), name in ends.items():
         partner[tag(name, a)], partner[tag(name, b)] = tag(name, b), tag(name, a)
         tag_in[tag(name, a)], tag_in[tag(name, b)] = a, b
-    layout = with_tag_lists(
-        Layout(
-            fleet=frozenset({T1, T2}),
-            blocks=frozenset({W, P, Q, E}),
-            routes=frozenset(routes),
-            points=frozenset({PW, PE}),
-            start={r: a for r, (a, b) in routes.items()},
-            destination={r: b for r, (a, b) in routes.items()},
-            covers={r: frozenset({b}) for r, (a, b) in routes.items()},
-            overlap={r: frozenset() for r in routes},
-            claims={r: frozenset({a, b}) for r, (a, b) in routes.items()},
-            way={r: {a: b} for r, (a, b) in routes.items()},
-            needs=needs,
-            released_with=released_with,
-            released_after={r: {a: a, b: b} for r, (a, b) in routes.items()},
-            fouls={},
-            stands_in={PW: W, PE: E},
-            points_in={W: frozenset({PW}), E: frozenset({PE})},
-            tag_in=tag_in,
-            partner=partner,
-            first_tag={r: tag(boundary[a, b], a) for r, (a, b) in routes.items()},
-            tag_list={},
-            tag_after={r: {tag(boundary[a, b], a): tag(boundary[a, b], b)} for r, (a, b) in routes.items()},
-        )
+    layout = Layout(
+        fleet=frozenset({T1, T2}),
+        blocks=frozenset({W, P, Q, E}),
+        routes=frozenset(routes),
+        points=frozenset({PW, PE}),
+        start={r: a for r, (a, b) in routes.items()},
+        destination={r: b for r, (a, b) in routes.items()},
+        covers={r: frozenset({b}) for r, (a, b) in routes.items()},
+        overlap={r: frozenset() for r in routes},
+        claims={r: frozenset({a, b}) for r, (a, b) in routes.items()},
+        way={r: {a: b} for r, (a, b) in routes.items()},
+        needs=needs,
+        released_with=released_with,
+        released_after={r: {a: a, b: b} for r, (a, b) in routes.items()},
+        fouls={},
+        stands_in={PW: W, PE: E},
+        points_in={W: frozenset({PW}), E: frozenset({PE})},
+        tag_in=tag_in,
+        partner=partner,
+        first_tag={r: tag(boundary[a, b], a) for r, (a, b) in routes.items()},
+        tag_after={r: {tag(boundary[a, b], a): tag(boundary[a, b], b)} for r, (a, b) in routes.items()},
+        tag_list={},
     )
     ground = Ground(
         leads=leads,
@@ -85,7 +83,7 @@ def hand_made_layout() -> tuple[Layout, TagRecords, Ground]:
         laid_in=tag_in,
         laid_leaves={t: {partner[t]: frozenset({tag_in[t]})} for t in tags},
     )
-    return layout, TagRecords(record={t: Record(f"r:{t}") for t in tags}), ground
+    return with_tag_lists(layout), TagRecords(record={t: Record(f"r:{t}") for t in tags}), ground
 
 
 def small_site(serials: int = 8, lives: int = 4) -> Site:

@@ -209,8 +209,7 @@ class Calls:
         if kind == "echo":
             return route_setting.note_echo(self.layout, centre, *told)
         if kind == "confirmation":
-            centre = route_setting.note_confirmation(self.layout, centre, *told)
-            return recovery.adopt_point(self.layout, centre, *told)
+            return recovery.adopt_point(self.layout, route_setting.note_confirmation(self.layout, centre, *told), *told)
         if kind == "tail report":
             return release.release(self.layout, self.records, centre, *told)
         if kind == "stopped":
@@ -263,23 +262,18 @@ class Calls:
     def another_list(self, message: Message, number: int) -> Message | None:
         """The same offer, of which a unit keeps the list of another route from there: it has mixed them up."""
         kind, train, run, *_ = message
-        others = sorted(
-            tag_list
-            for route, tag_list in self.layout.tag_list.items()
-            if route != run.route and self.layout.start[route] == self.layout.start[run.route]
-        )
+        start, lists = self.layout.start, self.layout.tag_list
+        others = sorted(lists[route] for route in lists if route != run.route and start[route] == start[run.route])
         return (kind, train, run, others[number % len(others)]) if others else None
 
     def take(self, board: Board, kind: str, sight: Sight, run: Run, *lists: TagList) -> None:
-        if kind == "offer":
-            board.unit = first_loop.take_offer(self.lists, board.unit, run, *lists)
-        elif kind == "permit":
-            board.unit = first_loop.take_permit(board.unit, run)
-        elif kind == "standing run":
-            board.unit = first_loop.take_standing(board.unit, run)
-        else:
-            assert kind == "recall", kind
+        if kind == "recall":
             self.recall(board, run, sight)
+        elif kind == "offer":
+            board.unit = first_loop.take_offer(self.lists, board.unit, run, *lists)
+        else:
+            takes = {"permit": first_loop.take_permit, "standing run": first_loop.take_standing}
+            board.unit = takes[kind](board.unit, run)
 
     def recall(self, board: Board, run: Run, sight: Sight) -> None:
         """Note that a run is wanted back; it is given back when the brake holds the nearer end."""
@@ -333,25 +327,20 @@ class Calls:
     # ---- what a train sends
 
     def answered(self, board: Board, train: Train, epoch: Epoch) -> Message | None:
-        if not standing.tells_standing(board.unit, epoch):
-            return None
-        return ("standing", CENTRE, train, board.unit.life, epoch, board.unit.standing_in)
+        told = ("standing", CENTRE, train, board.unit.life, epoch, board.unit.standing_in)
+        return told if standing.tells_standing(board.unit, epoch) else None
 
     def echo(self, board: Board, run: Run) -> Message | None:
-        tag_list = board.unit.orders[run].tag_list
-        if tag_list is None or not first_loop.echoes(board.unit, run, tag_list):
-            return None
-        return ("echo", CENTRE, run, tag_list)
+        kept = board.unit.orders[run].tag_list
+        return ("echo", CENTRE, run, kept) if kept is not None and first_loop.echoes(board.unit, run, kept) else None
 
     def given_back(self, board: Board, run: Run) -> Message | None:
-        if run.route == STANDING or not first_loop.acknowledges_back(board.unit, run):
-            return None
-        return ("given back", CENTRE, run)
+        gives_back = run.route != STANDING and first_loop.acknowledges_back(board.unit, run)
+        return ("given back", CENTRE, run) if gives_back else None
 
     def stopped(self, board: Board, run: Run) -> Message | None:
-        if run.route == STANDING or not authority.tells_stopped(board.unit, run):
-            return None
-        return ("stopped", CENTRE, run)
+        tells = run.route != STANDING and authority.tells_stopped(board.unit, run)
+        return ("stopped", CENTRE, run) if tells else None
 
     def tail_reports(self, board: Board, run: Run) -> list[Message]:
         return [
@@ -444,9 +433,8 @@ class Calls:
 
     def confirms(self, machine: Terminal, point: Point, detected: Position) -> Message | None:
         run = machine.holds
-        if run is None or not terminal.confirms(machine, run, detected, detected):
-            return None
-        return ("confirmed", run.train, run, point, detected)
+        holds = run is not None and terminal.confirms(machine, run, detected, detected)
+        return ("confirmed", run.train, run, point, detected) if run is not None and holds else None
 
     # ---- what a schedule may look at, to choose what is likely to change something
 
@@ -501,9 +489,8 @@ class Calls:
     def is_proved(self, centre: Centre, machine: Terminal, point: Point) -> bool:
         """Whether the centre needs no more word of a point's lock."""
         grant = None if machine.holds is None else centre.runs.get(machine.holds)
-        return grant is None or (
-            point not in centre.lost_points if grant.stage == Stage.STANDING else point in grant.proved
-        )
+        stands = grant is not None and grant.stage == Stage.STANDING
+        return grant is None or (point not in centre.lost_points if stands else point in grant.proved)
 
     def held_for(self, centre: Centre, run: Run) -> list[Block]:
         """The blocks that the centre holds for a run."""
