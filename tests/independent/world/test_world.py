@@ -28,6 +28,8 @@ from tests.independent.world.trains import LAID_MM, OVERHANG_MM, WINDOW_MM
 from tests.independent.world.world import World
 
 SHORT_STEPS = 1_500
+SEEDS = range(2, 8)
+"""Not every world gets a train moving: some stand where no route begins."""
 LONG_STEPS = 5_000_000
 MOST_REFUSED = 0.4
 """Of all steps at most so many change nothing."""
@@ -36,7 +38,7 @@ FAULTS = [
     (EvidenceAhead, "ring", 13),
     (EvidenceAcrossTurns, "ring", 66),
     (BrakeNotHeld, "line", 170),
-    (RunSetAhead, "ring", 1),
+    (RunSetAhead, "ring", 204),
     (NothingCompared, "crossover", 16),
     (LifeConfirmed, "line", 6),
 ]
@@ -201,7 +203,7 @@ def test_a_hazard_is_seen_again_and_its_events_are_made_few() -> None:
 @pytest.mark.parametrize("layout", layouts())
 def test_a_layout_is_without_hazard(layout: str) -> None:
     tally = Tally()
-    for seed in (2, 3):
+    for seed in SEEDS:
         found = live(layout, Calls, seed, SHORT_STEPS, tally)
         assert found is None, f"seed {found.seed}: {found.text}"
     assert tally.refused <= MOST_REFUSED * tally.steps
