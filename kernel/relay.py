@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.names import Point, Position, Run
-from kernel.tag_list import TagLists, TagPlan
+from kernel.tag_list import NO_POINTS, TagLists, TagPlan
 from kernel.unit import Unit
 
 
@@ -20,7 +20,6 @@ def relays_order(plan: TagPlan, lists: TagLists, unit: Unit, run: Run, point: Po
     return any(
         order.begun
         and order.tag_list is not None
-        and order.tag_list in lists.needs
-        and lists.needs[order.tag_list].get(point) == position
+        and lists.needs.get(order.tag_list, NO_POINTS).get(point) == position
         for _, order in unit.orders.items()
     )

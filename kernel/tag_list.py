@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from kernel.maps import Map
 from kernel.names import Block, Point, Position, Tag, TagList
 
 
@@ -38,3 +39,7 @@ class TagPlan:
     tag_in: Mapping[Tag, Block]
     partner: Mapping[Tag, Tag]
     stands_in: Mapping[Point, Block]
+
+
+NO_POINTS: Map[Point, Position] = {}
+"""What a list needs of which nothing is known."""

@@ -206,7 +206,9 @@ def a_run_that_has_begun_stays_begun(steps: Steps) -> Scenario:
     again = {**layout.tag_after, WEST_TO_ONE: {**layout.tag_after[WEST_TO_ONE], second: first}}
     order = replace(scenario.system.units[T1].orders[run], expected=first)
     unit = replace(scenario.system.units[T1], orders=scenario.system.units[T1].orders | {run: order})
-    scenario.site = replace(scenario.site, layout=replace(layout, tag_after=again))
+    kept = {**scenario.site.lists.tag_after, layout.tag_list[WEST_TO_ONE]: again[WEST_TO_ONE]}
+    lists = replace(scenario.site.lists, tag_after=kept)
+    scenario.site = replace(scenario.site, layout=replace(layout, tag_after=again), lists=lists)
     scenario.system = replace(scenario.system, units=scenario.system.units | {T1: unit})
     scenario.does("head_reads", train=T1, cab=running.head_cab(scenario, run), tag=first, in_window=True)
     scenario.must(scenario.system.units[T1].orders[run].begun, "the run has begun")
