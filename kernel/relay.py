@@ -18,8 +18,6 @@ def relays_order(plan: TagPlan, lists: TagLists, unit: Unit, run: Run, point: Po
     if point not in plan.stands_in or plan.stands_in[point] not in unit.occupied:
         return True
     return any(
-        order.begun
-        and order.tag_list is not None
-        and lists.needs.get(order.tag_list, NO_POINTS).get(point) == position
+        order.begun and order.tag_list is not None and lists.needs.get(order.tag_list, NO_POINTS).get(point) == position
         for _, order in unit.orders.items()
     )

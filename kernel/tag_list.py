@@ -43,3 +43,5 @@ class TagPlan:
 
 NO_POINTS: Map[Point, Position] = {}
 """What a list needs of which nothing is known."""
+NO_PARTS: Map[Block, Block] = {}
+"""Where nothing is known of it every block is released alone."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.names import Block, Cab, Read, Run
 from kernel.second_loop import open_loop
-from kernel.tag_list import TagLists, TagPlan
+from kernel.tag_list import NO_PARTS, TagLists, TagPlan
 from kernel.unit import Evidence, Order, Unit
 
 
@@ -89,7 +89,6 @@ def reports_left(lists: TagLists, unit: Unit, run: Run, block: Block, left: Read
     evidence = order.left.get(block)
     if evidence is None or evidence.left != left or evidence.entered != entered:
         return False
-    if order.tag_list is None or order.tag_list not in lists.released_after:
+    if order.tag_list is None:
         return True
-    after = lists.released_after[order.tag_list].get(block)
-    return after is None or after in order.left
+    return lists.released_after.get(order.tag_list, NO_PARTS).get(block, block) in order.left
