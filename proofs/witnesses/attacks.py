@@ -40,6 +40,7 @@ from proofs.witnesses.stations import (
     B3,
     B4,
     EAST,
+    EIGHT,
     HERE,
     MIDDLE,
     MIDDLE_TO_NORTH,
@@ -67,8 +68,18 @@ def on_a_ring_the_tail_frees_no_block_ahead(steps: Steps) -> Scenario:
 
     The block too close to it stays closed to the other train, since the first one is still to come there.
     """
+    return _frees_no_block_ahead(steps, RING)
+
+
+def on_a_figure_of_eight_the_tail_frees_no_block_ahead(steps: Steps) -> Scenario:
+    """The same where the loop crosses itself: the train comes over the crossing, and then to its own start (T6, T9)."""
+    return _frees_no_block_ahead(steps, EIGHT)
+
+
+def _frees_no_block_ahead(steps: Steps, station: str) -> Scenario:
+    """A train over the last block of a route round the loop sets out."""
     at = {A1: frozenset({B3}), A2: frozenset({B2}), B1: frozenset({Y})}
-    scenario, runs = recovered(steps, at, station=RING)
+    scenario, runs = recovered(steps, at, station=station)
     run = set_route(scenario, T1, ROUND, runs[T1])
     roll(scenario, run)
     head_passes(scenario, run, B3, B4)

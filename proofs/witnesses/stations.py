@@ -251,6 +251,9 @@ direction = "backward"
 to = "south stop"
 """
 
+EIGHT = RING.replace('"Ring"', '"Figure of eight"').replace('["b2", "x"]', '["b2", "x"], ["b3", "b5"]')
+"""The same loop laid so that it crosses itself on the level, where b3 and b5 are; [x] beside [b2] as before."""
+
 PLAIN_LINE = """
 # north end --[north]--A--[middle]--B--[south]-- south end
 format = "heisoku-layout-1"
@@ -325,6 +328,7 @@ LEADS: Mapping[str, Route] = {
     PASSING_PLACE: WEST_TO_ONE,
     TERMINUS: ARRIVE_1,
     RING: ROUND,
+    EIGHT: ROUND,
     PLAIN_LINE: NORTH_TO_MIDDLE,
 }
 """A route of each station in which a1 leads."""
