@@ -19,18 +19,8 @@ THEIRS = {
 """By machine: what of the others' it may not see."""
 BOTH = {"kernel.restarts", "kernel.persistence", "kernel.tag_list_text"}
 """What speaks of more than one: the table of what survives, and how a list is written at one and read at another."""
-ELSEWHERE = (
-    "error_correction",
-    "layout",
-    "link",
-    "maps",
-    "names",
-    "refusal",
-    "tag_list",
-    "tags",
-    "telegram",
-    "__init__",
-)
+ELSEWHERE = ("__init__", "layout", "maps", "names", "refusal", "tag_list")
+OF_THE_RADIO = ("error_correction", "link", "tags", "telegram")
 
 
 def imported(path: Path) -> set[str]:
