@@ -30,7 +30,6 @@ OTHERS: Mapping[str, Theory] = {name: theory for name, theory in THEORIES.items(
 
 TOLD: Mapping[str, Mapping[str, str]] = {
     "joint": {
-        "block_ends_mm": "the survey is what units are given",
         "head_mm": "lists come for trains that are located; which these are is no more than their names",
     },
     "alarm_tone": {
@@ -43,6 +42,9 @@ TOLD: Mapping[str, Mapping[str, str]] = {
 
 Of a site a field with all that is in it; of a state only which keys there are.
 """
+
+HELD: Mapping[str, frozenset[str]] = {"joint": frozenset({"begins_mm", "block_ends_mm"})}
+"""Fields of a state that a machine holds though they are plain numbers: the lists that a unit was given."""
 
 NOTED: Mapping[str, Mapping[str, str]] = {
     "antenna_spacing": {
@@ -156,7 +158,7 @@ def open_to(theory: Theory) -> Open:
     told = frozenset(TOLD.get(theory.name, {}))
     parameters = told & frozenset(get_type_hints(theory.site))
     return Open(
-        machine_fields(theory.system) | machine_fields(theory.site) | parameters,
+        machine_fields(theory.system) | machine_fields(theory.site) | parameters | HELD.get(theory.name, frozenset()),
         told - parameters,
         frozenset(NOTED.get(theory.name, {})),
         frozenset(assumptions(theory)),

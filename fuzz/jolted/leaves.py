@@ -15,10 +15,10 @@ from proofs.lift.kinds import Scalar
 
 TYPES = (
     *("Run", "Train", "Epoch", "UnitLife", "TerminalLife", "Block", "Point", "Position", "Tag", "Record"),
-    *("Car", "Cab", "bool", "Stage", "Cause", "Serial", "Route", "int"),
+    *("Car", "Cab", "bool", "Stage", "Cause", "Serial", "Route", "int", "TagList"),
 )
 (RUN, TRAIN, EPOCH, UNIT_LIFE, TERMINAL_LIFE, BLOCK, POINT, POSITION, TAG, RECORD) = range(10)
-(CAR, CAB, BOOL, STAGE, CAUSE, SERIAL, ROUTE, NUMBER) = range(10, 18)
+(CAR, CAB, BOOL, STAGE, CAUSE, SERIAL, ROUTE, NUMBER, TAG_LIST) = range(10, 19)
 BLOCKS = len(TYPES)
 """A word of a set of blocks in an event."""
 REPORT_TYPES = (RUN, BLOCK, TAG, RECORD, TAG, RECORD)

@@ -332,11 +332,19 @@ def obey_the_orders(
         return system
     if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
         return system
-    lists, unit, before = site.site.lists, system.system.units[train], system.brake[train]
+    lists, unit = site.site.lists, system.system.units[train]
     begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
     ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
     if brake not in authority_end.obey(
-        lists, unit, begins_mm, ends_mm, bounds, before, front_least_mm, front_most_mm, speed_most_mm_s
+        site.site.lists,
+        system.system.units[train],
+        {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train},
+        {run: ends for run, ends in system.block_ends_mm.items() if run.train == train},
+        bounds,
+        system.brake[train],
+        front_least_mm,
+        front_most_mm,
+        speed_most_mm_s,
     ):
         return system
     wanted_mm = authority_end.ends_mm(lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)

@@ -74,7 +74,7 @@ def test_a_number_of_a_module_is_changed_for_all_who_read_it_and_only_as_long_as
 
 
 def cycle_times() -> list[int]:
-    return [vars(module)["CYCLE_MS"] for module in (arithmetic, odometry, world)]
+    return [vars(module)["CYCLE_MS"] for module in (arithmetic, odometry, braking)]
 
 
 def broken_off(mutant: Mutant) -> None:

@@ -73,7 +73,7 @@ def test_a_refusal_is_told_in_the_words_of_the_kernel() -> None:
         Event("request", {"run": run, "base": run}),
         Event("retire", {"run": run}),
         Event("recover_point", {"point": Point("P1")}),
-        Event("note_echo", {"run": run}),
+        Event("withdraw", {"run": run}),
     )
     again = replay(replace(trace, events=events), imported(PLACE))
     assert [outcome.refusal for outcome in again.outcomes] == [
