@@ -114,15 +114,19 @@ class OnBoard:
 
     # ---- tags
 
-    def head_reads(self, number: int, place_mm: int | None) -> bool:
-        """The head reads a tag: is it in its window; a fix where the list has it (T5, P7, T13)."""
+    def head_reads(self, number: int, tag: Tag, place_mm: int | None) -> bool:
+        """The head reads a tag: is it in its window; a fix where the list has it (T5, P7, T13).
+
+        One that lies beside the awaited one, which was missed, leaves that one's window as it is.
+        """
         fits = tag_window.in_window(PLAN.window, self.window, between(self.from_at, self.place_of_read))
         if place_mm is None or not fits:
             return False
         front_mm = place_mm + ANTENNA_MM
         self.motion = odometry.note_fix(self.motion, front_mm - TAG_ERROR_MM, front_mm + TAG_ERROR_MM + self.run_on_mm)
         self.spacing = antenna_spacing.note_head_read(self.spacing, number, self.place_of_read)
-        self.from_mm, self.from_at = (place_mm, place_mm), self.place_of_read
+        if self.awaited is None or self.awaited == tag:
+            self.from_mm, self.from_at = (place_mm, place_mm), self.place_of_read
         return odometry.is_located(self.motion)
 
     def tail_reads(self, number: int, through: bool) -> bool:

@@ -196,7 +196,7 @@ class Line(Drive):
         self._head_reads(vehicle, what, what.tag, next(places, None))
 
     def _head_reads(self, vehicle: Vehicle, what: Happening, tag: Tag, place_mm: int | None) -> None:
-        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm)
+        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), tag, place_mm)
         self.head_reads(vehicle.on_rails, what, tag, in_window)
         vehicle.demanded(self.play)
 

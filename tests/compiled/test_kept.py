@@ -68,8 +68,11 @@ LOST.__qualname__ = "Elsewhere"
 
 
 def started(script: str, cache: Path, root: Path = ROOT) -> subprocess.Popen[str]:
-    """A process with its cache there, and the sources of that folder."""
-    given = [sys.executable, "-c", script]
+    """A process with its cache there, and the sources of that folder.
+
+    It keeps no bytecode: Python knows bytecode by its source's size and second, and the sources change faster here.
+    """
+    given = [sys.executable, "-B", "-c", script]
     around = {"XDG_CACHE_HOME": str(cache), "PYTHONPATH": str(root), "PATH": ""}
     pipe = subprocess.PIPE
     return subprocess.Popen(given, cwd=root, env=around, stdout=pipe, stderr=pipe, text=True)
