@@ -40,6 +40,7 @@ class Joint:
     ``standing``: trains at rest whose brake has not been free since they were located.
     ``begins_mm``, ``block_ends_mm``: for each listed run where its start block begins, and where its blocks end.
     ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
+    ``does_as_assumed``: history: of each train whether its brake control, asked for an end, did what is assumed of one.
     """
 
     system: System
@@ -51,6 +52,7 @@ class Joint:
     begins_mm: Map[Run, int]
     block_ends_mm: Map[Run, Map[Block, int]]
     asked: frozenset[Run]
+    does_as_assumed: Map[Train, bool]
 
 
 # ---- premises
@@ -305,13 +307,15 @@ def ask_for_the_end(
         return system
     if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
         return system
-    unit, before = system.system.units[train], system.brake[train]
-    begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
-    ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
-    wanted_mm = authority_end.ends_mm(site.site.lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
-    if not the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm):
+    wanted_mm = wanted_ends_mm(site, system, train, front_least_mm, front_most_mm)
+    if not the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm):
         return system
-    return with_brake(site, system, train, brake, wanted_mm)
+    asked = replace(
+        system,
+        brake=system.brake | {train: brake},
+        standing=system.standing if brake.withheld else system.standing - {train},
+    )
+    return with_end(site, asked, train) if brake.end_mm in wanted_mm else asked
 
 
 def obey_the_orders(
@@ -322,43 +326,57 @@ def obey_the_orders(
     front_least_mm: int,
     front_most_mm: int,
     speed_most_mm_s: int,
-    brake: Brake,
 ) -> Joint:
-    """A cycle on board with the brake control that there is: of any brake, at any speed, it takes the end or not (T12).
+    """The brake control that there is, with any brake and at any speed: does it do what is assumed of one (T12)?
 
-    What :func:`ask_for_the_end` assumes of a brake control is here what the kernel does.
+    What becomes of the train by it is :func:`ask_for_the_end`; here it is only written down.  That there is
+    one brake and no more is tested.
     """
     if train not in system.brake or train not in system.system.units:
         return system
     if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
         return system
-    lists, unit = site.site.lists, system.system.units[train]
-    begins_mm = {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train}
-    ends_mm = {run: ends for run, ends in system.block_ends_mm.items() if run.train == train}
-    if brake not in authority_end.obey(
+    made = authority_end.obey(
         site.site.lists,
         system.system.units[train],
-        {run: begin_mm for run, begin_mm in system.begins_mm.items() if run.train == train},
-        {run: ends for run, ends in system.block_ends_mm.items() if run.train == train},
+        list_begins_mm(system.begins_mm, train),
+        list_ends_mm(system.block_ends_mm, train),
         bounds,
         system.brake[train],
         front_least_mm,
         front_most_mm,
         speed_most_mm_s,
-    ):
-        return system
-    wanted_mm = authority_end.ends_mm(lists, unit, begins_mm, ends_mm, front_least_mm, front_most_mm)
-    return with_brake(site, system, train, brake, wanted_mm)
-
-
-def with_brake(site: Survey, system: Joint, train: Train, brake: Brake, wanted_mm: frozenset[int]) -> Joint:
-    """The brake has become this; what it rests on is noted if it holds the end that was wanted."""
-    asked = replace(
-        system,
-        brake=system.brake | {train: brake},
-        standing=system.standing if brake.withheld else system.standing - {train},
     )
-    return with_end(site, asked, train) if brake.end_mm in wanted_mm else asked
+    wanted_mm = wanted_ends_mm(site, system, train, front_least_mm, front_most_mm)
+    does = all(
+        the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm)
+        for brake in made
+    )
+    return replace(system, does_as_assumed=system.does_as_assumed | {train: does})
+
+
+def list_begins_mm(begins_mm: Map[Run, int], train: Train) -> Map[Run, int]:
+    """Where the start blocks of one train's listed runs begin."""
+    return {run: begin_mm for run, begin_mm in begins_mm.items() if run.train == train}
+
+
+def list_ends_mm(block_ends_mm: Map[Run, Map[Block, int]], train: Train) -> Map[Run, Map[Block, int]]:
+    """Where the blocks of one train's listed runs end."""
+    return {run: ends_mm for run, ends_mm in block_ends_mm.items() if run.train == train}
+
+
+def wanted_ends_mm(
+    site: Survey, system: Joint, train: Train, front_least_mm: int, front_most_mm: int
+) -> frozenset[int]:
+    """The end of a train's authority by all that its unit knows: one, or none."""
+    return authority_end.ends_mm(
+        site.site.lists,
+        system.system.units[train],
+        list_begins_mm(system.begins_mm, train),
+        list_ends_mm(system.block_ends_mm, train),
+        front_least_mm,
+        front_most_mm,
+    )
 
 
 def with_end(site: Survey, system: Joint, train: Train) -> Joint:

@@ -8,8 +8,6 @@ from kernel.names import Point, Route, Run, Serial, Stage, Train, UnitLife
 from models.simulator.play import Play
 
 NO_ROUTE = Route("standing")
-ARRIVES = {"offer": "take_offer", "echo": "note_echo", "permit": "take_permit"}
-"""The steps of the first loop, and of the permit, as they arrive."""
 
 
 def next_run(play: Play, train: Train, route: Route) -> Run:
@@ -59,11 +57,15 @@ def close_loop(play: Play, run: Run, random: Random, loss: float) -> bool:
         return False
     if grant.stage == Stage.RESERVED:
         play.take("open_first_loop", run=run)
-    tag_list = {"tag_list": play.site.layout.tag_list[run.route]}
-    for step, event in (("offer", {}), ("echo", tag_list), ("permit", {})):
-        play.take(f"send_{step}", run=run, **event)
+    kept = {"run": run, "tag_list": play.site.layout.tag_list[run.route]}
+    for send, sent, receive, received in (
+        ("send_offer", {"run": run}, "take_offer", kept),
+        ("send_echo", kept, "note_echo", {"run": run}),
+        ("send_permit", {"run": run}, "take_permit", {"run": run}),
+    ):
+        play.take(send, **sent)
         if random.random() >= loss:
-            play.take(ARRIVES[step], run=run, **(tag_list if step == "offer" else {}))
+            play.take(receive, **received)
     order = play.system.units[run.train].orders.get(run)
     return order is not None and order.permitted
 

@@ -37,6 +37,7 @@ def no_train_is_located(site: Survey, system: Joint) -> bool:
         and not any(True for run in system.begins_mm)
         and not any(True for run in system.block_ends_mm)
         and not any(True for run in system.asked)
+        and not any(True for train in system.does_as_assumed)
         and not any(True for run, block in system.system.track.leavable)
         and not any(True for run in system.system.track.rolling)
     )
@@ -79,6 +80,11 @@ def no_head_is_beyond_its_end(site: Survey, system: Joint) -> bool:
     return all(
         train in system.brake and system.head_mm[train] <= system.brake[train].end_mm for train in system.head_mm
     )
+
+
+def a_brake_control_does_what_is_assumed_of_it(site: Survey, system: Joint) -> bool:
+    """The kernel's brake function takes the end that is wanted, or keeps the brake applied (T4, T12)."""
+    return all(does for _train, does in system.does_as_assumed.items())
 
 
 # ---- what they rest on
@@ -203,6 +209,7 @@ SAFETY = (
     a_head_that_can_leave_obeys_its_authority,
     a_train_keeps_out_of_what_its_brake_holds_it_from,
     no_head_is_beyond_its_end,
+    a_brake_control_does_what_is_assumed_of_it,
 )
 INVARIANTS = (
     *SAFETY,

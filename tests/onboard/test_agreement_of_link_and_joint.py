@@ -405,7 +405,7 @@ PLANTED: dict[str, tuple[str, Code, str, str]] = {
     ),
     "the old brake is kept": (
         "joint.ask_for_the_end",
-        models.onboard.joint.with_brake,
+        models.onboard.joint.ask_for_the_end,
         "system.brake | {train: brake}",
         "{train: brake} | system.brake",
     ),

@@ -106,11 +106,14 @@ def events(draw: st.DrawFn) -> tuple[str, dict[str, Any]]:
 
 
 def test_drawn_worlds_keep_what_is_claimed() -> None:
-    """Tags lie 50 m apart, history looks at one; whichever antenna comes to its next one first reads it."""
+    """Tags lie 50 m apart, history looks at one; whichever antenna comes to its next one first reads it.
+
+    So many worlds, as Hypothesis draws other numbers whenever other modules are loaded: a third catches nearly enough.
+    """
     seen = {"healthy": 0, "caught": 0}
 
     @given(st.sampled_from((-150_000, -100_000, -50_000)), st.lists(events(), min_size=10, max_size=40))
-    @settings(max_examples=300, deadline=None, derandomize=True)
+    @settings(max_examples=900, deadline=None, derandomize=True)
     def drawn_worlds(tag: int, drawn: list[tuple[str, dict[str, Any]]]) -> None:
         play = Play(THEORY, replace(SITE, tag=tag), JUST_STARTED)
         play.step("preset", preset_mm=APART_MM)

@@ -19,6 +19,7 @@ from proofs.onboard.witnesses.joint import WITNESSES
 from proofs.onboard.witnesses.station import (
     A_PAIR,
     BEGINS_MM,
+    BOUNDS,
     ENDS_MM,
     ONWARD,
     ONWARD_MM,
@@ -108,6 +109,19 @@ def test_two_runs_end_where_one_of_them_does_and_never_beyond_a_block_of_neither
     found = machine.ends_mm(SITE.lists, unit, {RUN: BEGINS_MM, ONWARD: 550_000}, listed, least_mm, least_mm + range_mm)
     straddles = least_mm < 550_000 and min(least_mm + range_mm, walked) > 750_000
     assert found == (frozenset() if straddles else {walked})
+
+
+@settings(deadline=None)
+@given(ORDERS, LISTS, PLACES, PLACES, st.integers(0, 100_000), st.booleans(), st.booleans())
+def test_whatever_the_unit_knows_there_is_one_brake(
+    order: Order, ends_mm: dict[Block, int], least_mm: int, most_mm: int, speed_mm_s: int, applied: bool, no_list: bool
+) -> None:
+    """Never none and never two: the joint proves only what each of them does."""
+    unit = replace(Station().unit(), orders=kept({RUN: order}))
+    listed: dict[Run, Map[Block, int]] = {} if no_list else {RUN: ends_mm}
+    brake = Brake(applied=applied, end_mm=ENDS_MM[ONE])
+    place = (least_mm, most_mm, speed_mm_s)
+    assert len(machine.obey(SITE.lists, unit, {RUN: BEGINS_MM}, listed, BOUNDS, brake, *place)) == 1
 
 
 @settings(deadline=None)
