@@ -21,13 +21,14 @@ def has_been_in(lists: TagLists, order: Order, block: Block) -> bool:
 
 
 def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
-    """Tell whether the head has gone on out of ``block`` under this run or a later one (T2).
+    """Tell whether the head has gone on out of ``block`` under this run or a later one, led as now (T2).
 
     On a ring the head may have come round into the block that the tail is just leaving.
     """
     return any(
         other.serial >= run.serial
         and order.begun
+        and order.led_by == unit.leading
         and order.tag_list is not None
         and order.tag_list in lists.way
         and lists.way[order.tag_list].get(block) in order.entered
@@ -38,11 +39,9 @@ def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
 def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) -> bool:
     """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
 
-    A train that stood there has told so; one that backs out is led by its other cab.
+    A train that stood there has told so.  One that backs out is led on by its other cab, under a later run.
     """
-    return has_been_in(lists, order, block) and (
-        order.tag_list is None or order.led_by != unit.leading or has_gone_on(lists, unit, run, block)
-    )
+    return has_been_in(lists, order, block) and (order.tag_list is None or has_gone_on(lists, unit, run, block))
 
 
 def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:

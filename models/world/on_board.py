@@ -20,7 +20,7 @@ from models.world.assumptions import (
     is_genuine,
     is_last,
 )
-from models.world.evidence import as_written, unpassed
+from models.world.evidence import as_written, the_head_went_on, unpassed
 from models.world.state import Site, System
 
 
@@ -160,6 +160,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
         for train, tag in system.track.passed
         if train == run.train and tag in site.ground.laid_leaves and read.tag in site.ground.laid_leaves[tag]
         for block in site.ground.laid_leaves[tag][read.tag]
+        if other.route not in site.layout.routes or the_head_went_on(site, system, other, block)
     )
     return replace(
         with_unit(system, run.train, unit),

@@ -39,6 +39,7 @@ from proofs.witnesses.stations import (
     B2,
     B3,
     B4,
+    B5,
     EAST,
     EIGHT,
     HERE,
@@ -91,6 +92,36 @@ def _frees_no_block_ahead(steps: Steps, station: str) -> Scenario:
     holds(scenario, B2, run)
     beside = next_run(scenario, T2, Y_TO_X)
     scenario.refuses("request", Refusal.FOULING_BLOCK_HELD, run=beside, base=runs[T2])
+    return scenario
+
+
+def on_a_ring_a_head_that_has_come_round_keeps_its_block(steps: Steps) -> Scenario:
+    """A train as long as its loop: the tail leaves the block that the head has come round into, for no run of it (T2).
+
+    It is left for the run before, and stays held for the one under which the head is there.
+    """
+    return _keeps_what_it_came_round_into(steps, RING)
+
+
+def on_a_figure_of_eight_a_head_that_has_come_round_keeps_its_block(steps: Steps) -> Scenario:
+    """The same where the loop crosses itself (T2)."""
+    return _keeps_what_it_came_round_into(steps, EIGHT)
+
+
+def _keeps_what_it_came_round_into(steps: Steps, station: str) -> Scenario:
+    """The head goes all the way round before the tail has left the last block of the route."""
+    at = {A1: frozenset({B3}), A2: frozenset({B2}), B1: frozenset({Y})}
+    scenario, runs = recovered(steps, at, station=station)
+    run = set_route(scenario, T1, ROUND, runs[T1])
+    roll(scenario, run)
+    for block, target in ((B3, B4), (B4, B5), (B5, B2)):
+        head_passes(scenario, run, block, target)
+    enters(scenario, run, A2, B2, B3)
+    leaves(scenario, A2, B2)
+    tail_passes(scenario, run, B2, B3)
+    scenario.refuses("send_tail_report", **reported(scenario, run, B2, B3))
+    report(scenario, runs[T1], B2, B3)
+    holds(scenario, B2, run)
     return scenario
 
 

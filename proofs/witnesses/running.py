@@ -88,7 +88,8 @@ def enters(scenario: Scenario, run: Run, car: Car, block: Block, target: Block) 
     """The first axle of a car reaches the next block, unless it is there: the front one leads, the others follow."""
     if target in scenario.system.track.at[car]:
         return
-    there = [other for other in in_order(scenario, run) if target in scenario.system.track.at[other]]
+    cars = in_order(scenario, run)
+    there = [other for other in cars[: cars.index(car)] if target in scenario.system.track.at[other]]
     if there:
         follows(scenario, car, there[0], target)
         return
@@ -168,19 +169,29 @@ def _beyond_start(layout: Layout, route: Route) -> frozenset[Block]:
 
 
 def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
-    """The tail reads both tags of a boundary, in order; the block is noted as left in every run the train was in it."""
+    """The tail reads both tags of a boundary, in order.
+
+    The block is noted as left in every run under which the train was in it, and out of which its head has gone on.
+    """
     layout = scenario.site.layout
     first, second = pair(layout, block, target)
     tail_reads_first(scenario, run, first)
     event = tail_read(scenario, run, second)
     evidence = Evidence(genuine(scenario, first), event["read"])
+    orders = scenario.system.units[run.train].orders
     noted = [
         other
-        for other, order in scenario.system.units[run.train].orders.items()
-        if order.begun and (block in order.entered or layout.start.get(other.route) == block)
+        for other, order in orders.items()
+        if order.begun
+        and (block in order.entered or layout.start.get(other.route) == block)
+        and (other.route not in layout.way or _has_gone_on(scenario, other, block))
     ]
     front = scenario.site.formation.front
-    gone = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
+    led_so = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
+    led_on = [
+        r for r in led_so if layout.way[r.route].get(block) == target and (r, target) in scenario.system.track.entered
+    ]
+    gone = [r for r in led_so if any(r.serial <= later.serial for later in led_on)]
     effect = {
         "units": {
             run.train: {
@@ -196,6 +207,17 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
         },
     }
     scenario.does("tail_reads", effect, **event)
+
+
+def _has_gone_on(scenario: Scenario, run: Run, block: Block) -> bool:
+    """Whether the cab that leads has come into what follows on a run's way, or on a later one's."""
+    unit, way = scenario.system.units[run.train], scenario.site.layout.way
+    return any(
+        later.serial >= run.serial
+        and order.led_by == unit.leading
+        and way.get(later.route, {}).get(block) in order.entered
+        for later, order in unit.orders.items()
+    )
 
 
 def tail_reads_first(scenario: Scenario, run: Run, tag: Tag) -> None:
