@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Block, Run
-from kernel.tag_list import TagLists
+from kernel.names import Block, Run, TagList
+from kernel.tag_list import NO_WAY, TagLists
 from kernel.unit import Unit
 
 
@@ -40,16 +40,19 @@ def may_leave(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     order = unit.orders.get(run)
     if order is None or order.tag_list is None:
         return False
-    if order.tag_list not in lists.way or order.tag_list not in lists.overlap:
-        return False
-    target = lists.way[order.tag_list].get(block)
+    target = lists.way.get(order.tag_list, NO_WAY).get(block)
     return (
         target is not None
         and may_proceed(unit, run)
         and block not in order.left
         and target not in order.left
-        and (target not in lists.overlap[order.tag_list] or may_overrun(unit, run))
+        and (not is_overlap(lists, order.tag_list, target) or may_overrun(unit, run))
     )
+
+
+def is_overlap(lists: TagLists, tag_list: TagList, block: Block) -> bool:
+    """Tell whether a list has ``block`` in its overlap; of a list whose overlap is unknown any block may be (T9)."""
+    return block in lists.overlap.get(tag_list, frozenset({block}))
 
 
 def note_stopped(unit: Unit, run: Run, within_destination: bool) -> Unit:

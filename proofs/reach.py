@@ -14,12 +14,17 @@ from proofs.theories import THEORIES, row_of
 @cache
 def called_by(function: Code) -> frozenset[Code]:
     """Give the functions of the project that this one calls, and those that they call."""
-    found: set[Code] = set()
-    for node in ast.walk(definition_of(function)):
-        target = _resolved(function, node)
-        if isinstance(target, FunctionType) and target.__module__.split(".")[0] in ("kernel", "models", "proofs"):
-            found |= {target, *called_by(target)}
-    return frozenset(found)
+    return frozenset(found for target in calls(function) for found in (target, *called_by(target)))
+
+
+def calls(function: Code) -> frozenset[Code]:
+    """Give the functions of the project that this one calls itself."""
+    found = [_resolved(function, node) for node in ast.walk(definition_of(function))]
+    return frozenset(
+        target
+        for target in found
+        if isinstance(target, FunctionType) and target.__module__.split(".")[0] in ("kernel", "models", "proofs")
+    )
 
 
 def _resolved(function: Code, node: ast.AST) -> Any:

@@ -24,6 +24,7 @@ Trains = Annotated[
     int | None,
     typer.Option(metavar="N", min=1, max=999, help="Trains.", show_default="half of what has room, 8 at most"),
 ]
+Cars = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Cars of 20 m that each train has.")]
 Hours = Annotated[float, typer.Option(metavar="H", min=0.01, max=240.0, help="Simulated hours, at most.")]
 Trips = Annotated[
     int | None,
@@ -46,6 +47,7 @@ Html = Annotated[Path | None, typer.Option("--html", metavar="F", help="Write th
 def simulate(
     layout: Layout,
     trains: Trains = None,
+    cars: Cars = 3,
     hours: Hours = 1.0,
     trips: Trips = None,
     seed: Seed = 1,
@@ -75,7 +77,7 @@ def simulate(
         imported = load(layout)
         chosen = EVERY_FAULT if faults is None else read_faults(faults)
         roads = () if crossings is None else read_roads(crossings, rails_of(imported))
-        plan = Plan(imported, seed, trains or usual_trains(imported), hours, chosen, trips, roads)
+        plan = Plan(imported, seed, trains or usual_trains(imported, cars), hours, chosen, trips, roads, cars)
         if each_fault:
             if html is not None:
                 refuse("--html: --each-fault has no page; leave one of them out")

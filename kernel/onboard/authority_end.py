@@ -9,13 +9,13 @@ beyond the end, and never counted in.
 
 from __future__ import annotations
 
-from kernel.authority import may_leave, may_proceed
+from kernel.authority import is_overlap, may_leave, may_proceed
 from kernel.maps import Map
 from kernel.names import Block, Run
 from kernel.onboard import braking
 from kernel.onboard.arithmetic import smaller
 from kernel.onboard.braking import Brake, BrakeBounds
-from kernel.tag_list import TagLists
+from kernel.tag_list import NO_WAY, TagLists
 from kernel.unit import Unit
 
 
@@ -24,7 +24,8 @@ def may_be_left(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     order = unit.orders.get(run)
     if order is None or order.tag_list is None or not may_leave(lists, unit, run, block):
         return False
-    return lists.way[order.tag_list].get(block) not in lists.overlap[order.tag_list]
+    target = lists.way.get(order.tag_list, NO_WAY).get(block)
+    return target is not None and not is_overlap(lists, order.tag_list, target)
 
 
 def is_open(lists: TagLists, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]], block: Block, end_mm: int) -> bool:

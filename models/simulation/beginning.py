@@ -18,8 +18,9 @@ from models.simulation.timetable import Trip
 from models.simulator.play import berths
 
 CARS = 3
-ROOM_MM = CAR_MM * CARS + 60_000
-"""A block shorter than this holds no train at rest."""
+"""So many cars a train has where nobody says it."""
+STAND_MM = 60_000
+"""So much longer than a train at rest is a block that holds it."""
 DRAWS = 3
 USUAL_TRAINS = 8
 
@@ -28,7 +29,7 @@ USUAL_TRAINS = 8
 class Plan:
     """What a simulation is made of; ``trips``: so many a train, however long that takes, up to ``hours``.
 
-    ``roads``: those that cross the line.
+    ``roads``: those that cross the line.  ``cars``: how many each train has.
     """
 
     imported: Imported
@@ -38,6 +39,7 @@ class Plan:
     chosen: Chosen
     trips: int | None = None
     roads: tuple[Road, ...] = ()
+    cars: int = CARS
 
 
 Begun = tuple[Mapping[Train, Block], Mapping[Train, list[Trip]]]
@@ -56,18 +58,18 @@ def rails_of(imported: Imported) -> Rails:
     return Rails(imported)
 
 
-def room(layout: Layout, rails: Rails, random: Random) -> list[Block]:
-    """Draw blocks in which trains can stand: without points, long enough, none beside another."""
+def room(layout: Layout, rails: Rails, random: Random, cars: int) -> list[Block]:
+    """Draw blocks in which trains can stand: without points, long enough for so many cars, none beside another."""
     longest: dict[Block, int] = {}
     for index, block in enumerate(rails.block):
         longest[block] = max(longest.get(block, 0), rails.length_mm((index, 0)))
     found = berths(layout, random, len(layout.blocks))
-    return [block for block in found if longest[block] > ROOM_MM and not layout.points_in[block]]
+    return [block for block in found if longest[block] > CAR_MM * cars + STAND_MM and not layout.points_in[block]]
 
 
-def usual_trains(imported: Imported) -> int:
+def usual_trains(imported: Imported, cars: int = CARS) -> int:
     """How many trains run where nobody says it: half of what has room, eight at most."""
-    return max(1, min(USUAL_TRAINS, len(room(imported.layout, rails_of(imported), Random(0))) // 2))
+    return max(1, min(USUAL_TRAINS, len(room(imported.layout, rails_of(imported), Random(0), cars)) // 2))
 
 
 def begun(plan: Plan, names: Sequence[Train], rails: Rails, foresight: Foresight) -> Begun:
@@ -78,7 +80,8 @@ def begun(plan: Plan, names: Sequence[Train], rails: Rails, foresight: Foresight
     """
     best: Begun | None = None
     for draw in range(DRAWS):
-        where = dict(zip(names, room(plan.imported.layout, rails, Random(f"{plan.seed} berths {draw}")), strict=False))
+        free = room(plan.imported.layout, rails, Random(f"{plan.seed} berths {draw}"), plan.cars)
+        where = dict(zip(names, free, strict=False))
         if len(where) < len(names):
             what, do = f"only {len(where)} of {len(names)} trains can stand apart", "ask for fewer"
             if not where:

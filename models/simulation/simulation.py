@@ -15,7 +15,7 @@ from models.concrete.rails import Piece
 from models.concrete.train import CAR_MM, OnRails
 from models.simulation.agenda import Agenda
 from models.simulation.air import Air
-from models.simulation.beginning import CARS, Plan, begun, rails_of
+from models.simulation.beginning import Plan, begun, rails_of
 from models.simulation.crossings import Crossings
 from models.simulation.diary import Diary
 from models.simulation.facing import Orders
@@ -55,7 +55,7 @@ class Simulation:
         self.agenda = Agenda()
         self.now_s = 0
         names = [Train(f"T{number:02}") for number in range(1, plan.trains + 1)]
-        cars = {train: tuple(Car(f"{train}.{number}") for number in range(1, CARS + 1)) for train in names}
+        cars = {train: tuple(Car(f"{train}.{number}") for number in range(1, plan.cars + 1)) for train in names}
         orders = Orders(cars)
         made = site_of(plan.imported.layout, plan.imported.ground, plan.imported.records, cars)
         site = replace(made, formation=orders.formation())
@@ -242,7 +242,7 @@ class Simulation:
             return False
         vehicle.advance(self.line)
         self.play.take("part", train=train)
-        vehicle.on_rails.part(self.rails, self.random.randint(1, CARS - 1))
+        vehicle.on_rails.part(self.rails, self.random.randint(1, self.plan.cars - 1))
         vehicle.advance(self.line)
         return True
 

@@ -17,9 +17,10 @@ from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import Code
 from proofs.mutants.edits import Mutant
 from proofs.mutants.onlookers import failures
-from proofs.mutants.sameness import proved, sameness
+from proofs.mutants.sameness import of_the_function, proved, sameness
 from proofs.mutants.targets import called_by, mutants, rows_of
 from proofs.mutants.trial import ready_for, tried_with
+from proofs.reach import calls
 from proofs.theories import THEORIES, theory_of
 from proofs.workbench import Workbench
 
@@ -101,15 +102,31 @@ def not_implied(mutant: Mutant, because: list[str]) -> str:
     if mutant.is_of_a_module and told:
         return f"{told[0]} reads it, and so becomes another with it"
     for transition in rows_of(mutant):
-        theory = theory_of(transition)[0].name
+        home, name = theory_of(transition)
+        theory = home.name
         missed = [each["canary"] for each in canaries.seen(("z3",), theory) if not each["noticed"]]
         if missed:
             return f"z3 does not notice {missed[0]}: nothing that it proves is believed"
         mine = bench(theory)
         known = [name for name in because if name in {**mine.assumed, **mine.invariants}]
+        if same_above(mine, mutant, mutant.function, home.steps[name]):
+            continue
         if not proved(mine, sameness(mine, transition, mutant.sources, mutant.planted()), known):
             return f"not proved to make no difference in {transition}"
     return ""
+
+
+def same_above(mine: Workbench, mutant: Mutant, function: Code, step: Code) -> bool:
+    """Tell whether it is proved that the function, or else each that calls it on the way from the step, is the same.
+
+    What is the same whatever it is handed makes no difference to what calls it.
+    """
+    if mutant.is_of_a_module or function is step:
+        return False
+    if proved(mine, of_the_function(mine, function, mutant.sources), []):
+        return True
+    callers = [each for each in (step, *called_by(step)) if function in calls(each)]
+    return all(same_above(mine, mutant, caller, step) for caller in callers)
 
 
 def asks(claim: Code, mutant: Mutant) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_type_hints
 
 import z3
 
@@ -14,6 +14,7 @@ from proofs.catalogue import INTERLOCKING, STEPS
 from proofs.counterexample import stepped, unmet
 from proofs.finite import World
 from proofs.lift import Lifter, concretise, conjuncts
+from proofs.lift.sources import Code
 from proofs.lift.terms import same, to_z3
 from proofs.mutated import Sources
 from proofs.theories import theory_of
@@ -122,6 +123,16 @@ def sameness(
         return Sameness(row, [])
     equal = is_the_same if theory is INTERLOCKING else are_equal
     return Sameness(row, conjuncts(bench.lifter.formula(equal, one, other)))
+
+
+def of_the_function(bench: Workbench, function: Code, sources: Sources) -> Sameness:
+    """Lay out the claim that both versions of a function give the same, whatever they are handed."""
+    kinds = {name: kind for name, kind in get_type_hints(function).items() if name != "return"}
+    handed = [bench.scope.constant(kind, f"handed.{name}") for name, kind in kinds.items()]
+    one, other = bench.lifter.call(function, *handed), Lifter(bench.scope, sources).call(function, *handed)
+    return Sameness(
+        function.__name__, [] if same(one, other) else conjuncts(bench.lifter.formula(are_equal, one, other))
+    )
 
 
 def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int = 8_000_000) -> bool:

@@ -76,6 +76,15 @@ def under_orders_the_authority_ends_with_the_destination() -> None:
     station.refuses("head_passes", train=T1, to_mm=750_001, block=OUTLET, block_end_mm=860_000)
 
 
+def a_range_that_reaches_beyond_the_end_takes_none_away() -> None:
+    """Near its end the front may, by its range, be beyond the list: the end stays, and the train draws up (T4, P7)."""
+    station = under_way()
+    station.passes(441_000, THROAT, 550_000)
+    station.passes(745_000, ONE, 750_000)
+    brake = station.asks(error_mm=10_000)
+    assert (brake.end_mm, brake.withheld) == (750_000, False)
+
+
 def a_train_that_told_it_stopped_may_draw_up_to_the_end() -> None:
     """Only the overlap is gone: by its range the front may still be in the throat, and ends where it did (T9)."""
     station = permitted()
@@ -330,6 +339,7 @@ WITNESSES = (
     a_train_that_was_told_nothing_stands,
     every_part_of_the_permission_is_needed,
     under_orders_the_authority_ends_with_the_destination,
+    a_range_that_reaches_beyond_the_end_takes_none_away,
     a_train_that_told_it_stopped_may_draw_up_to_the_end,
     two_runs_make_one_end,
     another_trains_end_is_its_own,
