@@ -9,7 +9,7 @@ from pathlib import Path
 from fuzz.simulation.judging import Judge
 from models.layouts import load
 from models.layouts.results import Imported
-from models.simulation.beginning import Plan, rails_of
+from models.simulation.beginning import CARS, Plan, rails_of
 from models.simulation.faults import EVERY_FAULT, FAULTS, Chosen, Setting
 from models.simulation.history import History
 from models.simulation.kilometres import Kilometres
@@ -36,8 +36,9 @@ def plan(
     chosen: Chosen = EVERY_FAULT,
     trips: int | None = None,
     roads: tuple[Road, ...] = (),
+    cars: int = CARS,
 ) -> Plan:
-    return Plan(imported(place), seed, trains, hours, chosen, trips, roads)
+    return Plan(imported(place), seed, trains, hours, chosen, trips, roads, cars)
 
 
 def road(place: str, name: str, *places: tuple[str, float]) -> Road:

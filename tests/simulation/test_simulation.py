@@ -98,6 +98,24 @@ def test_a_train_that_parts_stops_and_is_stated_by_two_persons() -> None:
     assert sim.diary.steps["note_statement_confirmed"] == 1
 
 
+@pytest.mark.parametrize("place", ["ring", "figure_of_eight"])
+def test_long_trains_run_round_and_back_over_three_blocks(place: str) -> None:
+    sim = Simulation(plan(place, seed=4, trains=2, hours=0.5, chosen=HARD, cars=12))
+    most = 0
+
+    def look(now: Simulation) -> None:
+        nonlocal most
+        at = now.play.system.track.at
+        for vehicle in now.vehicles.values():
+            rails = vehicle.on_rails
+            most = max(most, len(frozenset().union(*(at[car] for car in (*rails.cars, *rails.standing)))))
+
+    sim.run(look)
+    assert not sim.oracles.found
+    assert most >= 4
+    assert sum(vehicle.way_mm for vehicle in sim.vehicles.values()) > 5_000_000
+
+
 def test_a_centre_that_restarts_finds_everything_again() -> None:
     sim = Simulation(
         plan("passing_station", trains=2, hours=0.2, chosen={"centre_restart": Setting(0.0, 0, 0, (120.0,))})
