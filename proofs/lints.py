@@ -119,13 +119,17 @@ ASKED: Mapping[str, frozenset[str]] = {
             "a_train_within_its_destination_is_not_beyond",
             "is_genuine",
             "is_last",
+            "the_head_went_on",
         }
     ),
     "models/world/at_a_point.py": frozenset({"detection_is_true"}),
     "models/world/radio.py": frozenset({"detection_is_true"}),
     "models/world/evidence.py": frozenset(),
 }
-"""Which assumptions each of these files may ask: those on its own sensors; the centre has none."""
+"""Which assumptions, and words of the truth, each of these files may ask: on its own sensors; the centre has none."""
+
+ASKED_OF = frozenset({"models.world.assumptions", "models.world.premises", "models.world.truth"})
+"""Where assumptions and words of the truth stand."""
 
 MAY_SEE: Mapping[str, str] = {
     "models/world/assumptions.py": "the named assumptions: nature, brake, sensors, people",
@@ -133,6 +137,7 @@ MAY_SEE: Mapping[str, str] = {
     "models/world/premises.py": "premises on trains and tags",
     "models/world/start.py": "puts the first state together",
     "models/world/state.py": "declares it",
+    "models/world/truth.py": "words in which assumptions, histories and invariants are said",
     "models/world/formations.py": "puts formations together",
 }
 """The other files of the world, which may see what is really there, and what they are."""
@@ -170,7 +175,7 @@ def truth_by_fiat(source: str, leaves: Mapping[str, Leave], asked: Collection[st
     found += [
         f"line {node.lineno}: asks {alias.name}"
         for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom) and node.module in {"models.world.assumptions", "models.world.premises"}
+        if isinstance(node, ast.ImportFrom) and node.module in ASKED_OF
         for alias in node.names
         if alias.name not in asked
     ]

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from kernel.centre import NO_BLOCKS
 from kernel.names import Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Tag, Train, UnitLife
-from models.world.evidence import came_round
 from models.world.state import Site, System
+from models.world.truth import came_round, is_genuine, is_last, stands_exactly
 
 
 def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Block) -> bool:
@@ -43,22 +43,6 @@ def rails_lead(site: Site, system: System, route: Route, block: Block, target: B
             system.track.lies.get(point) == site.ground.leads[route][block][target][point]
             for point in site.ground.leads[route][block][target]
         )
-    )
-
-
-def is_genuine(site: Site, read: Read) -> bool:
-    """The read carries what is written in the tag that it names: not foreign, copied or corrupted."""
-    return site.records.record.get(read.tag) == read.record
-
-
-def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
-    """The car is the last of a whole train that runs as in ``run``."""
-    return (
-        run in site.formation.last
-        and site.formation.last[run] == car
-        and run in site.formation.front
-        and system.track.facing.get(run.train) == site.formation.front[run]
-        and run.train not in system.track.parted
     )
 
 
@@ -157,24 +141,6 @@ def a_located_train_stands_where_it_says(
 ) -> bool:
     """Tags at both ends of an unbroken train at rest say exactly which blocks it is in."""
     return not at_rest or not healthy or stands_exactly(site, system, train, blocks)
-
-
-def stands_exactly(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
-    """No car of ``train`` is outside ``blocks``, none of them is empty of it, and it is at rest."""
-    return (
-        all(
-            block in blocks
-            for car in system.track.at
-            if site.formation.train_of.get(car) == train
-            for block in system.track.at[car]
-        )
-        and all(
-            any(block in system.track.at[car] for car in system.track.at if site.formation.train_of.get(car) == train)
-            for block in blocks
-        )
-        and all(run.train != train for run in system.track.rolling)
-        and all(run.train != train for run in system.track.slipping)
-    )
 
 
 def two_persons_do_not_err_alike(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:

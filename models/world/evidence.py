@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.names import Block, Car, Read, Run, Tag, Train
+from kernel.names import Read, Tag, Train
 from models.world.state import Site, System
 
 
@@ -18,24 +18,3 @@ def unpassed(site: Site, system: System, train: Train, tag: Tag) -> frozenset[tu
         for other, passed in system.track.passed
         if other != train or (passed != tag and site.layout.partner.get(passed) != tag)
     )
-
-
-def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:
-    """The head, led as now, has been in what follows ``block`` on the way of this run or of a later one."""
-    return any(
-        other.train == run.train
-        and other.serial >= run.serial
-        and other in site.formation.front
-        and system.track.facing.get(run.train) == site.formation.front[other]
-        and other.route in site.layout.way
-        and site.layout.way[other.route].get(block) == beyond
-        for other, beyond in system.track.entered
-    )
-
-
-def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
-    """The car came into ``block`` under a run of a route under which, or a later one, the head has not gone on."""
-    if car not in system.track.under or block not in system.track.under[car]:
-        return False
-    run = system.track.under[car][block]
-    return run.route in site.layout.routes and not the_head_went_on(site, system, run, block)

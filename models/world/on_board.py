@@ -17,11 +17,10 @@ from models.world.assumptions import (
     a_run_is_led_by_its_front,
     a_tag_is_read_where_it_lies,
     a_train_within_its_destination_is_not_beyond,
-    is_genuine,
-    is_last,
 )
-from models.world.evidence import as_written, the_head_went_on, unpassed
+from models.world.evidence import as_written, unpassed
 from models.world.state import Site, System
+from models.world.truth import is_genuine, is_last, the_head_went_on
 
 
 def with_unit(system: System, train: Train, unit: Unit) -> System:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from kernel.names import Stage
-from models.world.assumptions import stands_exactly
 from models.world.evidence import as_written
 from models.world.state import Site, System
+from models.world.truth import stands_exactly
 from proofs.invariants.vocabulary import genuine, reaches, told
 
 

@@ -109,9 +109,9 @@ def not_implied(mutant: Mutant, because: list[str]) -> str:
             return f"z3 does not notice {missed[0]}: nothing that it proves is believed"
         mine = bench(theory)
         known = [name for name in because if name in {**mine.assumed, **mine.invariants}]
-        if same_above(mine, mutant, mutant.function, home.steps[name]):
+        if proved(mine, sameness(mine, transition, mutant.sources, mutant.planted()), known):
             continue
-        if not proved(mine, sameness(mine, transition, mutant.sources, mutant.planted()), known):
+        if not same_above(mine, mutant, mutant.function, home.steps[name]):
             return f"not proved to make no difference in {transition}"
     return ""
 

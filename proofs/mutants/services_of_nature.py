@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
-from kernel.names import Block, Car, Read, Record, Run, Tag, UnitLife
+from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLife
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import came, went
@@ -30,8 +30,11 @@ from proofs.witnesses.stations import (
     THROAT,
     TWO,
     TWO_TO_EAST,
+    TWO_TO_WEST,
     WEST,
+    WEST_TO_EAST,
     WEST_TO_ONE,
+    WEST_TO_TWO,
     site_of,
     standing_at,
 )
@@ -150,9 +153,65 @@ def another_train_may_follow_into_a_block_that_was_left(steps: Steps) -> Scenari
     running.roll(scenario, other)
     for block, target in pairwise((WEST, THROAT, ONE)):
         running.head_passes(scenario, other, block, target)
+    _has_gone_on(
+        scenario, Run(Serial(other.serial + 1), T2, other.life, ONE_TO_EAST), scenario.system.track.facing[T2], OUTLET
+    )
     again = running.pair(scenario.site.layout, ONE, OUTLET)[1]
     scenario.does("tail_reads", **running.tail_read(scenario, run, again))
     return scenario
+
+
+def a_tag_that_another_train_passed_pairs_with_nothing(steps: Steps) -> Scenario:
+    """One train has passed both tags of a boundary, the next one's tail reads the second alone: no pair (T2)."""
+    scenario, runs = telling.recovered(steps, {**standing(TWO), B1: frozenset({WEST})})
+    east = setting.set_route(scenario, T2, WEST_TO_EAST, runs[T2])
+    _goes(scenario, east, runs[T2], WEST, THROAT, ONE, OUTLET, EAST)
+    west = setting.set_route(scenario, T1, TWO_TO_WEST, runs[T1])
+    _goes(scenario, west, runs[T1], TWO, THROAT, WEST)
+    out = setting.set_route(scenario, T1, WEST_TO_ONE, west)
+    running.roll(scenario, out)
+    running.head_passes(scenario, out, WEST, THROAT)
+    running.tail_reads_first(scenario, out, running.pair(scenario.site.layout, WEST, THROAT)[1])
+    return scenario
+
+
+def a_false_record_is_no_way_out(steps: Steps) -> Scenario:
+    """A tail that reads the second tag with another record has gone out of no block by it (T2, T6)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    running.tail_reads_first(scenario, run, first)
+    event = running.tail_read(scenario, run, second) | {"read": Read(second, Record("another"))}
+    scenario.does("tail_reads", **event)
+    scenario.must((run, WEST) not in scenario.system.track.gone, "the train is still there")
+    return scenario
+
+
+def what_the_other_cab_led_is_no_way_on(steps: Steps) -> Scenario:
+    """The head has gone on only under a run that the leading cab led, though a later one was led by the other (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    ahead = setting.set_route(scenario, T1, ONE_TO_EAST, run)
+    running.roll(scenario, run)
+    running.pass_boundary(scenario, run, WEST, THROAT)
+    _has_gone_on(
+        scenario, Run(Serial(ahead.serial + 1), T1, ahead.life, WEST_TO_TWO), scenario.site.formation.cab[A2], THROAT
+    )
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    for tag in (first, second):
+        scenario.does("tail_reads", **running.tail_read(scenario, run, tag))
+    scenario.must((ahead, WEST) not in scenario.system.track.gone, "nobody has led it on from there")
+    return scenario
+
+
+def _has_gone_on(scenario: Scenario, run: Run, leads: Cab, block: Block) -> None:
+    """History is given: under such a run, led by that cab, a head has been in a block."""
+    formation, track = scenario.site.formation, scenario.system.track
+    front = {each: formation.front[each] for each in scenario.system.centre.runs} | {run: leads}
+    scenario.site = replace(scenario.site, formation=replace(formation, front=front))
+    scenario.system = replace(scenario.system, track=replace(track, entered=track.entered | {(run, block)}))
 
 
 def a_train_runs_where_another_was_let_run(steps: Steps) -> Scenario:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from kernel.names import Block, Epoch, Point, Run, Train, UnitLife
 from kernel.recovery import train_missing
 from models.world import at_the_centre, on_board, radio
-from models.world.assumptions import stands_exactly
 from models.world.state import Site, System
+from models.world.truth import stands_exactly
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import lives
 

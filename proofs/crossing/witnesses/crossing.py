@@ -205,6 +205,7 @@ def who_asked_goes_on_asking() -> None:
         day.cycle((ONE, FAR))
         assert day.warns()
     assert day.system.crossing.asks[ONE]
+    assert day.system.bodies[ONE].has_asked
 
 
 # ---- the end of a warning

@@ -1,0 +1,60 @@
+"""Words for what is really there, in which assumptions, histories and invariants are said; they assume nothing."""
+
+from __future__ import annotations
+
+from kernel.names import Block, Car, Read, Run, Train
+from models.world.state import Site, System
+
+
+def is_genuine(site: Site, read: Read) -> bool:
+    """The read carries what is written in the tag that it names: not foreign, copied or corrupted."""
+    return site.records.record.get(read.tag) == read.record
+
+
+def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
+    """The car is the last of a whole train that runs as in ``run``."""
+    return (
+        run in site.formation.last
+        and site.formation.last[run] == car
+        and run in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[run]
+        and run.train not in system.track.parted
+    )
+
+
+def stands_exactly(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
+    """No car of ``train`` is outside ``blocks``, none of them is empty of it, and it is at rest."""
+    return (
+        all(
+            block in blocks
+            for car in system.track.at
+            if site.formation.train_of.get(car) == train
+            for block in system.track.at[car]
+        )
+        and all(
+            any(block in system.track.at[car] for car in system.track.at if site.formation.train_of.get(car) == train)
+            for block in blocks
+        )
+        and all(run.train != train for run in system.track.rolling)
+        and all(run.train != train for run in system.track.slipping)
+    )
+
+
+def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The cab that leads has been in what follows ``block`` on the way of this run, or of a later one that it led."""
+    return any(
+        other.serial >= run.serial
+        and other in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[other]
+        and other.route in site.layout.way
+        and site.layout.way[other.route].get(block) == beyond
+        for other, beyond in system.track.entered
+    )
+
+
+def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
+    """The car came into ``block`` under a run of a route under which, or a later one, the head has not gone on."""
+    if car not in system.track.under or block not in system.track.under[car]:
+        return False
+    run = system.track.under[car][block]
+    return run.route in site.layout.routes and not the_head_went_on(site, system, run, block)
