@@ -94,6 +94,7 @@ class Station(Play[Survey, Joint]):
             block_ends_mm={},
             asked=frozenset(),
             does_as_assumed={},
+            brakes_at_a_stop={},
         )
         super().__init__(THEORY, site, start)
 
