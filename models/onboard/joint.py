@@ -42,6 +42,7 @@ class Joint:
     ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
     ``does_as_assumed``: history: of each train whether its brake control, asked for an end, did what is assumed of one.
     ``brakes_at_a_stop``: history: and whether it applied the brake then, if no run lets the train move.
+    ``is_told_without_an_end``: history: and whether the brake was told anything, if there was no end for it.
     """
 
     system: System
@@ -55,6 +56,7 @@ class Joint:
     asked: frozenset[Run]
     does_as_assumed: Map[Train, bool]
     brakes_at_a_stop: Map[Train, bool]
+    is_told_without_an_end: Map[Train, bool]
 
 
 # ---- premises
@@ -355,10 +357,12 @@ def obey_the_orders(
         for brake in made
     )
     brakes = may_move(system, train) or all(brake.applied for brake in made)
+    has_end = any(True for _ in wanted_mm)
     return replace(
         system,
         does_as_assumed=system.does_as_assumed | {train: does},
         brakes_at_a_stop=system.brakes_at_a_stop | {train: brakes},
+        is_told_without_an_end=system.is_told_without_an_end | {train: has_end or any(True for _ in made)},
     )
 
 

@@ -83,31 +83,31 @@ def what_the_worker_hears_goes_into_history() -> None:
     day.come(FIRST, WORKER_MM - 1_400_000)
     day.tell(FIRST, DOWN)
     assert day.tone() == ALARM
-    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False)
+    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False, False)
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 2_900_000)
     day.tell(FIRST)
     assert day.tone() == CAUTION
-    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False)
+    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False)
+    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False, False)
     day = Day(worker_mm=40 * KM)
     day.hear()
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True)
+    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True, False)
     day.come(FIRST, 40 * KM)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False, False)
     day = Day()
     day.hear()
     day.step("look_at_the_battery", battery_well=False)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False)
+    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False, False)
 
 
 def a_tunnel_goes_into_history_by_its_outer_end() -> None:
@@ -119,7 +119,7 @@ def a_tunnel_goes_into_history_by_its_outer_end() -> None:
             day.come(FIRST, entry_mm, way)
             day.tell(FIRST, way)
             assert day.tone() == (NORMAL if far else ALARM)
-            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False)
+            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False, False)
         day = Day(worker_mm=worker_mm)
         day.hear()
         day.come(FIRST, entry_mm, way)

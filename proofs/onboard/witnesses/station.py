@@ -95,6 +95,7 @@ class Station(Play[Survey, Joint]):
             asked=frozenset(),
             does_as_assumed={},
             brakes_at_a_stop={},
+            is_told_without_an_end={},
         )
         super().__init__(THEORY, site, start)
 
