@@ -40,16 +40,20 @@ def bench(theory: str = "interlocking") -> Workbench:
     return Workbench(THEORIES[theory], named=THEORIES[theory].quantified)
 
 
-def laid_out(row: str, column: str, names: list[str] | None) -> list[Part]:
-    """Lay out one obligation with these hypotheses; ``None`` means every one there is."""
+def laid_out(row: str, column: str, names: list[str] | None, on: Workbench | None = None) -> list[Part]:
+    """Lay out one obligation with these hypotheses; ``None`` means every one there is.
+
+    ``on``: the workbench of its theory to lay it out on, if not this process's.
+    """
     theory, name = theory_of(row)
+    here = bench(theory.name) if on is None else on
     if name == READING:
-        return lookups.parts(bench(theory.name), column, names)
+        return lookups.parts(here, column, names)
     if column == EVERY_LOOKUP_IS_DEFINED:
-        return lookups.parts(bench(theory.name), name, names)
+        return lookups.parts(here, name, names)
     if column in theory.promises:
-        return promised.parts(bench(theory.name), name, column, names)
-    return bench(theory.name).parts(name, column, names)
+        return promised.parts(here, name, column, names)
+    return here.parts(name, column, names)
 
 
 def parts(row: str, column: str) -> list[Part]:

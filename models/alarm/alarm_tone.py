@@ -45,6 +45,7 @@ from models.alarm.worksite import (
     is_listed,
     is_report,
     is_told_alike,
+    may_be_within,
     may_come_out_at,
     told_after,
     with_battery,
@@ -239,6 +240,11 @@ def listen(site: Railway, system: Worksite) -> Worksite:
             and any(
                 UM_A_MM * section.from_mm <= worker_um <= UM_A_MM * section.to_mm
                 for _name, section in site.register.sections.items()
+            ),
+            jumped_within_1500=has_fix
+            and any(
+                of.jumped and may_be_within(site, of.newest, told.worker, 1_500_000)
+                for _train, of in told.trains.items()
             ),
         ),
     )

@@ -40,18 +40,20 @@ class Body:
 class OfTrain:
     """What was told of a train since the list named it, as old as it truly is by the ages told (A1, A2).
 
-    ``fix``: the last of its fixes that fitted the one before.  ``jumped``: the last one of all did not.
+    ``fix``: the last of its fixes that fitted the one before.  ``jumped``: the last one of all, ``newest``, did not.
     """
 
     fix: TrainFix
     display: Display
     jumped: bool
+    newest: TrainFix
 
 
 NOTHING_TOLD = OfTrain(
     fix=TrainFix(place_mm=0, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
     display=Display(from_mm=0, to_mm=0, age_ms=3_600_001),
     jumped=False,
+    newest=TrainFix(place_mm=0, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
 )
 """Of a train that the list has just named."""
 
@@ -79,6 +81,8 @@ class Heard:
     ``beyond_a_tunnel``: one was on its way through a section without GPS, as far as the handset knew, and the worker,
     who had a fix, less than 1500 m beyond the end by which it would come out.
     ``not_to_be_used``: the worker was in a section that is not to be used, and had a fix.
+    ``jumped_within_1500``: of some train on the list the last fix jumped, and the train may be within 1500 m of the
+    worker, who had a fix, by that one.
     """
 
     tone: Tone
@@ -89,6 +93,7 @@ class Heard:
     astray: bool
     beyond_a_tunnel: bool
     not_to_be_used: bool
+    jumped_within_1500: bool
 
 
 @dataclass(frozen=True)
@@ -139,6 +144,7 @@ def of_train_after(of: OfTrain, elapsed_ms: int) -> OfTrain:
         of,
         fix=replace(of.fix, age_ms=age_after_ms(of.fix.age_ms, elapsed_ms)),
         display=replace(of.display, age_ms=age_after_ms(of.display.age_ms, elapsed_ms)),
+        newest=replace(of.newest, age_ms=age_after_ms(of.newest.age_ms, elapsed_ms)),
     )
 
 
@@ -161,6 +167,16 @@ def fits(site: Railway, before: TrainFix, fix: TrainFix) -> bool:
     return UM_A_MM * apart(fix.place_mm, before.place_mm) <= run_um + 2 * UM_A_MM * bounds.train_error_mm
 
 
+def may_be_within(site: Railway, fix: TrainFix, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether two reports, as old as they are, leave it open that a train is that near the worker (A1)."""
+    bounds = site.register.bounds
+    train_um = UM_A_MM * (bounds.train_error_mm + bounds.length_mm) + bounds.train_mm_s * fix.age_ms
+    worker_um = UM_A_MM * bounds.worker_error_mm + bounds.worker_mm_s * worker.age_ms
+    return is_report(fix.place_mm, fix.age_ms) and (
+        UM_A_MM * apart(fix.place_mm, worker.place_mm) <= UM_A_MM * limit_mm + train_um + worker_um
+    )
+
+
 def with_list(told: Told, age_ms: int, servers_well: bool) -> Told:
     """Give what was told after a list of the server (A1)."""
     return replace(told, list_age_ms=age_ms, servers_well=servers_well)
@@ -173,7 +189,8 @@ def with_battery(told: Told, battery_well: bool) -> Told:
 
 def with_fix(site: Railway, of: OfTrain, fix: TrainFix) -> OfTrain:
     """Give what was told of a train after one more fix (A1, A2)."""
-    return replace(of, fix=fix, jumped=False) if fits(site, of.fix, fix) else replace(of, jumped=True)
+    told = replace(of, newest=fix)
+    return replace(told, fix=fix, jumped=False) if fits(site, of.fix, fix) else replace(told, jumped=True)
 
 
 def has_fresh_fix(site: Railway, of: OfTrain) -> bool:

@@ -43,6 +43,7 @@ class Trailing:
     ``spacing``: what the machine knows.
     ``head_mm``: the head antenna; ``apart_mm``: how far behind it is the antenna that speaks for the tail.
     The rest is history, since the distance was preset or the unit restarted.
+    ``is_preset``: staff has preset it since the unit started.
     ``whole``: it was preset, and the antenna for the tail is still the same, and where it was.
     ``head_newest``: the tag that the head has read last, of any number before the first.
     ``head_has_read``: the head has read the one tag; ``since``: as many others since, not counting the same
@@ -56,6 +57,7 @@ class Trailing:
     spacing: Spacing
     head_mm: int
     apart_mm: int
+    is_preset: bool
     whole: bool
     head_newest: int
     head_has_read: bool
@@ -189,7 +191,7 @@ def preset(site: Track, system: Trailing, preset_mm: int) -> Trailing:
         return system
     if not the_antennas_lie_apart(site, system.apart_mm):
         return system
-    return replace(begun(system), spacing=machine.preset(preset_mm), whole=True)
+    return replace(begun(system), spacing=machine.preset(preset_mm), is_preset=True, whole=True)
 
 
 def turn(site: Track, system: Trailing, head_mm: int, apart_mm: int) -> Trailing:
@@ -206,6 +208,7 @@ def begun(system: Trailing) -> Trailing:
     """Begin the history anew."""
     return replace(
         system,
+        is_preset=False,
         whole=False,
         head_newest=0,
         head_has_read=False,

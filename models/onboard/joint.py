@@ -41,6 +41,8 @@ class Joint:
     ``begins_mm``, ``block_ends_mm``: for each listed run where its start block begins, and where its blocks end.
     ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
     ``does_as_assumed``: history: of each train whether its brake control, asked for an end, did what is assumed of one.
+    ``brakes_at_a_stop``: history: and whether it applied the brake then, if no run lets the train move.
+    ``is_told_without_an_end``: history: and whether the brake was told anything, if there was no end for it.
     """
 
     system: System
@@ -53,6 +55,8 @@ class Joint:
     block_ends_mm: Map[Run, Map[Block, int]]
     asked: frozenset[Run]
     does_as_assumed: Map[Train, bool]
+    brakes_at_a_stop: Map[Train, bool]
+    is_told_without_an_end: Map[Train, bool]
 
 
 # ---- premises
@@ -352,7 +356,30 @@ def obey_the_orders(
         the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm)
         for brake in made
     )
-    return replace(system, does_as_assumed=system.does_as_assumed | {train: does})
+    brakes = may_move(system, train) or all(brake.applied for brake in made)
+    has_end = any(True for _ in wanted_mm)
+    return replace(
+        system,
+        does_as_assumed=system.does_as_assumed | {train: does},
+        brakes_at_a_stop=system.brakes_at_a_stop | {train: brakes},
+        is_told_without_an_end=system.is_told_without_an_end | {train: has_end or any(True for _ in made)},
+    )
+
+
+def may_move(system: Joint, train: Train) -> bool:
+    """Tell whether a listed run lets a train move: permitted, neither wanted nor given back, and no loop open (T5).
+
+    One that its head has begun stays the train's, though it is wanted back (T9).
+    """
+    unit = system.system.units[train]
+    return not unit.loop_open and any(
+        run.train == train
+        and run in unit.orders
+        and unit.orders[run].permitted
+        and not unit.orders[run].given_back
+        and (unit.orders[run].begun or not unit.orders[run].recalled)
+        for run in system.block_ends_mm
+    )
 
 
 def list_begins_mm(begins_mm: Map[Run, int], train: Train) -> Map[Run, int]:

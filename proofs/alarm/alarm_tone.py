@@ -26,6 +26,7 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
         and not system.heard.beyond_a_tunnel
         and all(False for _train in system.handset.trains)
         and not system.heard.astray
+        and not system.heard.jumped_within_1500
         and all(False for _train in system.told.trains)
         and system.handset.server_age_ms > 3_600_000
         and system.handset.worker.age_ms > 3_600_000
@@ -64,6 +65,11 @@ def a_stale_or_jumping_fix_sounds_the_fault_tone(site: Railway, system: Worksite
     return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.astray
 
 
+def a_fix_that_jumps_near_sounds_the_alarm(site: Railway, system: Worksite) -> bool:
+    """A fix out of reach of the one before that puts a train within 1500 m is obeyed, right or not (A1, A2)."""
+    return system.heard.tone == Tone.ALARM or not system.heard.jumped_within_1500
+
+
 def a_departing_train_never_masks_an_approaching_one(site: Railway, system: Worksite) -> bool:
     """If a matched train is within 1500 m and has not departed, the alarm sounds, whatever the others do (A3)."""
     return system.heard.tone == Tone.ALARM or not system.heard.matched_within_1500
@@ -96,6 +102,7 @@ def the_handset_has_what_was_told(site: Railway, system: Worksite) -> bool:
             and handset.trains[train].fix == of.fix
             and handset.trains[train].display == of.display
             and handset.trains[train].jumped == of.jumped
+            and handset.trains[train].newest == of.newest
             for train, of in told.trains.items()
         )
     )
@@ -168,6 +175,7 @@ SAFETY = (
     caution_means_no_train_within_1500_m,
     unknown_is_never_normal,
     a_stale_or_jumping_fix_sounds_the_fault_tone,
+    a_fix_that_jumps_near_sounds_the_alarm,
     a_departing_train_never_masks_an_approaching_one,
     a_train_in_a_tunnel_counts_at_its_outer_end,
     in_a_section_not_to_be_used_no_tone_is_normal,

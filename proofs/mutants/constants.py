@@ -68,13 +68,20 @@ class Constant(Mutant):
     @contextmanager
     def planted(self) -> Iterator[None]:
         """Let the constant have its other value until the block ends, wherever it is read."""
-        before: list[tuple[ModuleType, str, Any]] = []
-        try:
-            _plant(self.module, self.constant, self.value, before)
+        with everywhere(self.module, self.constant, self.value):
             yield
-        finally:
-            for module, name, value in reversed(before):
-                setattr(module, name, value)
+
+
+@contextmanager
+def everywhere(module: str, name: str, value: Any) -> Iterator[None]:
+    """Let a constant have another value until the block ends, in every module that reads it."""
+    before: list[tuple[ModuleType, str, Any]] = []
+    try:
+        _plant(module, name, value, before)
+        yield
+    finally:
+        for owner, known, kept in reversed(before):
+            setattr(owner, known, kept)
 
 
 def _plant(module: str, name: str, value: Any, before: list[tuple[ModuleType, str, Any]]) -> None:

@@ -26,6 +26,7 @@ def the_unit_has_just_started(site: Track, system: Trailing) -> bool:
     """At the start the antenna distance has yet to be preset (T3, T8)."""
     return (
         system.spacing == machine.restarted()
+        and not system.is_preset
         and not system.whole
         and not system.head_has_read
         and not system.tail_has_read
@@ -60,6 +61,11 @@ def healthy_only_after_a_check(site: Track, system: Trailing) -> bool:
     )
 
 
+def healthy_only_after_a_preset(site: Track, system: Trailing) -> bool:
+    """Healthy: staff has preset the distance since the unit started; a restart forgets that it fitted (T3, T8)."""
+    return system.is_preset or not machine.is_healthy(system.spacing)
+
+
 # ---- service: without it the rest would be claimed of a machine that always refuses
 
 
@@ -69,6 +75,11 @@ def a_whole_train_is_never_accused(site: Track, system: Trailing) -> bool:
 
 
 # ---- what they rest on
+
+
+def what_is_not_preset_is_broken(site: Track, system: Trailing) -> bool:
+    """Until staff presets the distance no read puts right what a restart has latched (T8, T13)."""
+    return system.is_preset or system.spacing.broken
 
 
 def what_is_caught_is_broken(site: Track, system: Trailing) -> bool:
@@ -175,10 +186,12 @@ SAFETY = (
     a_false_tail_is_found,
     unhealthy_is_latched,
     healthy_only_after_a_check,
+    healthy_only_after_a_preset,
     a_whole_train_is_never_accused,
 )
 INVARIANTS = (
     *SAFETY,
+    what_is_not_preset_is_broken,
     what_is_caught_is_broken,
     a_whole_train_is_near_its_preset,
     a_whole_train_has_passed_what_its_tail_read,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kernel.onboard import braking
 from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows, withhold_end
 from models.onboard.units import MS_A_CYCLE, NM_A_MM, larger
 from proofs.theory import Theory, by_name
@@ -10,9 +11,9 @@ from proofs.theory import Theory, by_name
 
 
 def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bool:
-    """At the start the train stands with its brake on, before the end of its authority (T12)."""
+    """At the start the train stands, and the brake control begins where its front may be at the farthest (T12)."""
     return (
-        system.brake.applied
+        system.brake == braking.stand_still(system.brake.end_mm)
         and system.head_nm <= NM_A_MM * system.brake.end_mm
         and system.speed_um_s == 0
         and system.response_cycles == 0
@@ -21,7 +22,6 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and system.left_nm == 0
         and not system.demanded
         and not system.released_amiss
-        and system.brake.withheld
         and not system.wanted
     )
 

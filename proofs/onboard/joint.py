@@ -38,6 +38,8 @@ def no_train_is_located(site: Survey, system: Joint) -> bool:
         and not any(True for run in system.block_ends_mm)
         and not any(True for run in system.asked)
         and not any(True for train in system.does_as_assumed)
+        and not any(True for train in system.brakes_at_a_stop)
+        and not any(True for train in system.is_told_without_an_end)
         and not any(True for run, block in system.system.track.leavable)
         and not any(True for run in system.system.track.rolling)
     )
@@ -85,6 +87,16 @@ def no_head_is_beyond_its_end(site: Survey, system: Joint) -> bool:
 def a_brake_control_does_what_is_assumed_of_it(site: Survey, system: Joint) -> bool:
     """The kernel's brake function takes the end that is wanted, or keeps the brake applied (T4, T12)."""
     return all(does for _train, does in system.does_as_assumed.items())
+
+
+def a_train_that_no_run_lets_move_is_braked(site: Survey, system: Joint) -> bool:
+    """With an open loop, or no run that it may move under, the brake is applied wherever its authority ends (T5)."""
+    return all(brakes for _train, brakes in system.brakes_at_a_stop.items())
+
+
+def a_brake_is_told_without_an_end(site: Survey, system: Joint) -> bool:
+    """Where the train has no end of authority the brake is told something, and so is not left as it was (T12)."""
+    return all(is_told for _train, is_told in system.is_told_without_an_end.items())
 
 
 # ---- what they rest on
@@ -210,6 +222,8 @@ SAFETY = (
     a_train_keeps_out_of_what_its_brake_holds_it_from,
     no_head_is_beyond_its_end,
     a_brake_control_does_what_is_assumed_of_it,
+    a_train_that_no_run_lets_move_is_braked,
+    a_brake_is_told_without_an_end,
 )
 INVARIANTS = (
     *SAFETY,

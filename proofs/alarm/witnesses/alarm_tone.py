@@ -20,7 +20,7 @@ from kernel.alarm.tone import (
     Tone,
 )
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed
+from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed, may_be_within
 from proofs.alarm.witnesses import one_decision
 from proofs.alarm.witnesses.worksite import (
     ALARM,
@@ -30,8 +30,10 @@ from proofs.alarm.witnesses.worksite import (
     FIRST,
     KM,
     NORMAL,
+    OFF_MM,
     OTHER,
     REGISTER,
+    SITE,
     UNKNOWN,
     UP,
     WORKER_MM,
@@ -83,31 +85,31 @@ def what_the_worker_hears_goes_into_history() -> None:
     day.come(FIRST, WORKER_MM - 1_400_000)
     day.tell(FIRST, DOWN)
     assert day.tone() == ALARM
-    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False)
+    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False, False)
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 2_900_000)
     day.tell(FIRST)
     assert day.tone() == CAUTION
-    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False)
+    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False)
+    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False, False)
     day = Day(worker_mm=40 * KM)
     day.hear()
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True)
+    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True, False)
     day.come(FIRST, 40 * KM)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True, False)
     day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False)
+    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False, False)
     day = Day()
     day.hear()
     day.step("look_at_the_battery", battery_well=False)
     assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False)
+    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False, False)
 
 
 def a_tunnel_goes_into_history_by_its_outer_end() -> None:
@@ -119,7 +121,7 @@ def a_tunnel_goes_into_history_by_its_outer_end() -> None:
             day.come(FIRST, entry_mm, way)
             day.tell(FIRST, way)
             assert day.tone() == (NORMAL if far else ALARM)
-            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False)
+            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False, False)
         day = Day(worker_mm=worker_mm)
         day.hear()
         day.come(FIRST, entry_mm, way)
@@ -182,11 +184,25 @@ def a_fix_that_jumps_is_a_fault_until_one_fits() -> None:
             assert (told.fix, told.jumped, told.newest) == (held, True, fix)
             assert day.tone() == tone
             assert day.system.heard.astray
+            assert day.system.heard.jumped_within_1500 == (tone == ALARM)
     day.run(1_000, (FIRST, DOWN))
     assert day.system.handset.trains[FIRST].newest.age_ms == 1_000
     day.tell(FIRST, DOWN)
     assert not day.system.handset.trains[FIRST].jumped
     assert day.tone() == NORMAL
+
+
+def a_report_leaves_open_how_near_a_train_is() -> None:
+    """By length, both errors, and both ages at the greatest speeds: to the millimetre, either way (A1)."""
+    for train_ms, worker_ms, off_mm in ((0, 0, 0), (1_000, 0, BOUNDS.train_mm_s), (0, 1_000, BOUNDS.worker_mm_s)):
+        worker = WorkerFix(place_mm=WORKER_MM, age_ms=worker_ms)
+        for side in (-1, 1):
+            for beyond_mm in (0, 1):
+                place_mm = WORKER_MM + side * (1_500_000 + OFF_MM + off_mm + beyond_mm)
+                fix = known(place_mm, age_ms=train_ms).fix
+                assert may_be_within(SITE, fix, worker, 1_500_000) == (beyond_mm == 0)
+    nowhere = known(WORKER_MM, age_ms=GREATEST_AGE_MS + 1).fix
+    assert not may_be_within(SITE, nowhere, WorkerFix(place_mm=WORKER_MM, age_ms=0), 1_500_000)
 
 
 def a_right_fix_after_a_wrong_one_still_alarms() -> None:
@@ -430,6 +446,7 @@ WITNESSES = (
     a_train_reaches_from_end_to_end,
     a_wrong_fix_is_found,
     a_fix_that_jumps_is_a_fault_until_one_fits,
+    a_report_leaves_open_how_near_a_train_is,
     a_right_fix_after_a_wrong_one_still_alarms,
     a_fix_too_old_is_a_fault,
     a_list_that_is_not_heard_is_the_fault_tone,

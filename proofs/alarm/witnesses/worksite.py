@@ -52,7 +52,7 @@ WORKER_MM = 10 * KM
 OFF_MM = 60_000 + 20_000 + 15_000
 """Taken off with new fixes: length and both errors."""
 HUGE = 2**62
-SILENT = Heard(FAULT, False, False, False, False, False, False, False)
+SILENT = Heard(FAULT, False, False, False, False, False, False, False, False)
 FIRST, OTHER, STABLED = Train("1D"), Train("2U"), Train("9D")
 
 

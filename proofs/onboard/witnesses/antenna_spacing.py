@@ -19,6 +19,7 @@ JUST_STARTED = Trailing(
     spacing=machine.restarted(),
     head_mm=-200_000,
     apart_mm=APART_MM,
+    is_preset=False,
     whole=False,
     head_newest=0,
     head_has_read=False,

@@ -7,9 +7,11 @@ from dataclasses import replace
 from kernel import first_loop
 from kernel.names import Route, Run, Serial, Train, UnitLife
 from kernel.onboard.braking import Brake
+from models.onboard.joint import may_move
 from proofs.onboard.witnesses.station import (
     A_PAIR,
     BEGINS_MM,
+    BOUNDS,
     ENDS_MM,
     GIVEN_BACK,
     ONWARD,
@@ -59,6 +61,7 @@ def every_part_of_the_permission_is_needed() -> None:
         if opens:
             station.loop_opens()
         assert station.ends(399_000, 401_000) == {440_000}
+        assert not may_move(station.system, T1)
         station.holds(440_000, withheld=True)
         assert not station.rolling()
         station.refuses("head_runs", train=T1, to_mm=400_001)
@@ -118,6 +121,40 @@ def another_trains_end_is_its_own() -> None:
     station.step("ask_for_the_end", **event, brake=Brake(applied=True, end_mm=300_000))
     assert station.rolling() == {RUN, OTHER}
     assert station.system.standing == frozenset()
+
+
+def by_these_runs_a_train_may_move() -> None:
+    """Its own, listed and permitted; wanted back only once begun, and given back never (T4, T5, T9)."""
+    station = permitted()
+    for order, moves in (
+        (PERMITTED, True),
+        (GIVEN_BACK, False),
+        (RECALLED, False),
+        (replace(PERMITTED, begun=True), True),
+        (replace(RECALLED, begun=True), True),
+        (replace(PERMITTED, given_back=True), False),
+    ):
+        station.told({RUN: order})
+        assert may_move(station.system, T1) == moves
+    station.told({})
+    assert not may_move(station.system, T1)
+    station.step("locate", train=T2, head_mm=10_000, block=EAST, block_end_mm=100_000, front_most_mm=10_500)
+    station.listed(OTHER, 0, {EAST: 100_000, OUTLET: 200_000, ONE: 300_000})
+    station.told({OTHER: PERMITTED})
+    assert not may_move(station.system, T1)
+
+
+def what_each_brake_did_is_written_down() -> None:
+    """Of the one train and of the other, that has no end of authority; none is forgotten for the next (T12)."""
+    station = under_way()
+    station.step("locate", train=T2, head_mm=0, block=EAST, block_end_mm=100_000, front_most_mm=1_000)
+    station.step(
+        "obey_the_orders", train=T2, bounds=BOUNDS, front_least_mm=-1_000, front_most_mm=1_000, speed_most_mm_s=0
+    )
+    written = {T1: True, T2: True}
+    assert station.system.does_as_assumed == written
+    assert station.system.brakes_at_a_stop == written
+    assert station.system.is_told_without_an_end == written
 
 
 def what_ends_behind_the_train_does_not_count() -> None:
@@ -343,6 +380,8 @@ WITNESSES = (
     a_train_that_told_it_stopped_may_draw_up_to_the_end,
     two_runs_make_one_end,
     another_trains_end_is_its_own,
+    by_these_runs_a_train_may_move,
+    what_each_brake_did_is_written_down,
     what_ends_behind_the_train_does_not_count,
     a_change_of_ends_begins_a_new_kilometrage,
     authority_lost_while_rolling_is_not_taken_back_from_below_the_wheels,

@@ -94,6 +94,8 @@ class Station(Play[Survey, Joint]):
             block_ends_mm={},
             asked=frozenset(),
             does_as_assumed={},
+            brakes_at_a_stop={},
+            is_told_without_an_end={},
         )
         super().__init__(THEORY, site, start)
 
@@ -156,6 +158,8 @@ class Station(Play[Survey, Joint]):
         place = {name: event[name] for name in ("train", "front_least_mm", "front_most_mm")}
         self.step("obey_the_orders", **place, bounds=BOUNDS, speed_most_mm_s=speed_mm_s)
         assert self.system.does_as_assumed[T1]
+        assert self.system.brakes_at_a_stop[T1]
+        assert self.system.is_told_without_an_end[T1]
         self.step("ask_for_the_end", **event)
         assert self.system.brake[T1] == brake
         return brake
