@@ -119,45 +119,55 @@ def as_html(name: str, story: str, found: Found) -> str:
     body = [f"<p>{escape(story)}</p>"]
     body += [f"<div class=claim><b>{escape(c)}</b> does not hold<br>{escape(says)}</div>" for c, says in claims(found)]
     body.append(f"<h2>Step</h2><p>{escape(event_in_words(found))}</p>")
-    for when, moment in moments(found).items():
-        body += [f"<h2>{when.capitalize()}: brake {escape(moment.brake)}</h2>", as_svg(moment)]
+    shown = moments(found)
+    places = sorted({mm for moment in shown.values() for mm in moment.places})
+    for when, moment in shown.items():
+        body += [f"<h2>{when.capitalize()}: brake {escape(moment.brake)}</h2>", as_svg(moment, places)]
     return page(name, body)
 
 
-def as_svg(moment: Strip) -> str:
+def as_svg(moment: Strip, places: Sequence[int]) -> str:
     """One moment, places from left to right in their order."""
-    places = moment.places
     x = {mm: LEFT + STEP // 2 + at * STEP for at, mm in enumerate(places)}
     width, height = LEFT + STEP * len(places), TOP + ROW * len(moment.bars) + 40
+    below = height - 34
     parts = [f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}" font-family="sans-serif">']
-    for mm in places:
-        parts.append(f'<line x1="{x[mm]}" x2="{x[mm]}" y1="{TOP - 8}" y2="{height - 34}" stroke="#ddd"/>')
-        parts.append(_words(x[mm], height - 18, f"{mm} mm", "#666", "middle"))
+    parts += [_line(x[mm], below, "#ddd", 1) for mm in places]
+    words = [_words(x[mm], height - 18, f"{mm} mm", "#666", "middle") for mm in places]
     for row, bar in enumerate(moment.bars):
         y = TOP + row * ROW
-        for line, words in enumerate(bar.words):
-            parts.append(_words(8, y + 15 + 16 * line, words, "#222", "start"))
+        words += [_words(8, y + 15 + 16 * line, each, "#222", "start") for line, each in enumerate(bar.words)]
         for low, high, text in bar.stretches:
-            parts += _stretch(x[low], x[high], y, text)
-    parts += _mark(x[moment.head_mm], height, "head", "#1f77b4", TOP - 40)
-    parts += _mark(x[moment.end_mm], height, "end of authority", DANGER, TOP - 20)
-    return "".join(parts) + "</svg>"
+            parts.append(_box(x[low], x[high], y))
+            words.append(_name(x[low], x[high], y, text))
+    for mm, text, colour, y in (
+        (moment.head_mm, "head", "#1f77b4", TOP - 40),
+        (moment.end_mm, "end of authority", DANGER, TOP - 20),
+    ):
+        parts.append(_line(x[mm], below, colour, 2.5))
+        words.append(_words(x[mm], y, text, colour, "middle"))
+    return "".join([*parts, *words]) + "</svg>"
 
 
-def _stretch(low: int, high: int, y: int, text: str) -> list[str]:
-    """A piece of track, with its block's name below the line where there is room."""
-    box = f'<rect x="{low}" y="{y}" width="{max(high - low, 2)}" height="34" fill="#f3f6fa" stroke="#888"/>'
+def _box(low: int, high: int, y: int) -> str:
+    """A stretch of track."""
+    return f'<rect x="{low}" y="{y}" width="{max(high - low, 2)}" height="34" fill="#f3f6fa" stroke="#888"/>'
+
+
+def _name(low: int, high: int, y: int, text: str) -> str:
+    """The name of a block in its stretch, cut to the room there, or beside a stretch of no length."""
+    if high <= low:
+        return _words(low + 6, y + 22, f"{text} (0 mm)", "#222", "start")
     room = max(4, (high - low) // 8)
-    short = text if len(text) <= room else f"{text[: room - 1]}…"
-    return [box, _words((low + high) / 2, y + 22, short, "#222", "middle")] if high > low else [box]
+    return _words((low + high) / 2, y + 22, text if len(text) <= room else f"{text[: room - 1]}…", "#222", "middle")
 
 
-def _mark(x: int, height: int, text: str, colour: str, y: int) -> list[str]:
-    """A place of the train, through all rows."""
-    line = f'<line x1="{x}" x2="{x}" y1="{y + 4}" y2="{height - 34}" stroke="{colour}" stroke-width="2.5"/>'
-    return [line, _words(x, y, text, colour, "middle")]
+def _line(x: int, below: int, colour: str, width: float) -> str:
+    """A place, through all rows."""
+    return f'<line x1="{x}" x2="{x}" y1="{TOP - 12}" y2="{below}" stroke="{colour}" stroke-width="{width}"/>'
 
 
 def _words(x: float, y: float, text: str, colour: str, anchor: str) -> str:
-    """Some words."""
-    return f'<text x="{x}" y="{y}" font-size="13" fill="{colour}" text-anchor="{anchor}">{escape(text)}</text>'
+    """Some words, in front of lines."""
+    halo = 'paint-order="stroke" stroke="#fff" stroke-width="4"'
+    return f'<text x="{x}" y="{y}" font-size="13" fill="{colour}" {halo} text-anchor="{anchor}">{escape(text)}</text>'
