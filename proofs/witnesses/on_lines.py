@@ -168,7 +168,8 @@ def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line
     enters(scenario, runs[-2], rear, before, end)
     leaves(scenario, front, before)
     tail_reads_first(scenario, runs[-1], pair(scenario.site.layout, before, end)[0])
-    claims_nothing_of(scenario, end, before, *runs)
+    first, second, last, onward = runs
+    claims_nothing_of(scenario, end, before, first, second, onward, last)
     holds(scenario, end, *runs)
     leaves(scenario, rear, before)
 
@@ -201,7 +202,7 @@ def a_read_from_before_two_turns_pairs_with_nothing(scenario: Scenario, line: Li
     on = set_route(scenario, T1, line.on, back)
     roll(scenario, on)
     tail_reads_first(scenario, on, pair(scenario.site.layout, before, end)[0])
-    claims_nothing_of(scenario, end, before, out, back, on)
+    claims_nothing_of(scenario, end, before, back, on, out)
     holds(scenario, end, out, back, on)
     leaves(scenario, in_order(scenario, on)[-1], before)
 

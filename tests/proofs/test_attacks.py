@@ -14,6 +14,7 @@ import pytest
 
 from models.layouts import load
 from models.simulator.play import site_of
+from proofs.drawing import fitting
 from proofs.mutants.edits import named
 from proofs.mutants.steps import stepped
 from proofs.mutated import running, table_running
@@ -143,6 +144,12 @@ def test_a_drawing_in_millimetres_shows_claim_head_and_end(where: str) -> None:
         assert f"{found.before.head_mm['T1']} mm" in shown
         assert f"{found.after.brake['T1'].end_mm} mm" in shown
     assert page.count("<svg") == 2
+
+
+def test_a_box_says_how_many_notes_it_has_no_room_for() -> None:
+    notes = [f"held for run {number}" for number in range(9)]
+    assert fitting(notes[:7]) == notes[:7]
+    assert fitting(notes) == [*notes[:6], "and 3 more"]
 
 
 @needs_shared
