@@ -44,6 +44,15 @@ def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) 
     return has_been_in(lists, order, block) and (order.tag_list is None or has_gone_on(lists, unit, run, block))
 
 
+def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
+    """Tell whether the head may be in the ``block`` that the tail leaves: it came there, and has not gone on (T2)."""
+    return any(
+        order.begun and block in order.entered and not has_gone_on(lists, unit, run, block)
+        for run, order in unit.orders.items()
+        if order.tag_list is not None
+    )
+
+
 def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
@@ -67,7 +76,7 @@ def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy
     return replace(
         unit,
         tail_read=read,
-        occupied=unit.occupied - {block},
+        occupied=unit.occupied if has_come_round(lists, unit, block) else unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
             if has_left(lists, unit, run, order, block)

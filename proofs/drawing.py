@@ -18,7 +18,7 @@ from proofs.planted.trace import Trace
 from proofs.sketch import Plan, Sign, in_words, plan, signs
 from proofs.witnesses.changes import GONE, Came, Went, changes
 
-CELL, HEIGHT, GAP = 250, 124, 34
+CELL, HEIGHT, GAP = 250, 154, 34
 """Pixels: a block's width and height, and the room between two."""
 COLUMNS = 34
 """Characters: a block's width on a terminal."""
@@ -307,10 +307,16 @@ def _block_svg(sign: Sign, placed: Plan, colours: Mapping[Train, str]) -> str:
         at = x + CELL - 62 - 62 * index
         parts.append(f'<rect x="{at}" y="{y + 20}" width="56" height="19" rx="3" fill="{colour}"/>')
         parts.append(f'<text x="{at + 28}" y="{y + 34}" text-anchor="middle" style="fill:#fff">{escape(car)}</text>')
-    for index, line in enumerate(sign.notes[:5]):
+    for index, line in enumerate(fitting(sign.notes)):
         kind = "bad" if "UNLOCKED" in line or (sign.in_danger and line == "held for nobody") else "note"
         parts.append(_text(x + 6, y + 56 + 15 * index, line if len(line) < 44 else line[:43] + "…", kind))
     return "".join(parts)
+
+
+def fitting(notes: Sequence[str], most: int = 7) -> list[str]:
+    """The notes that a box has room for; the last line says how many more there are."""
+    shown = list(notes[:most])
+    return shown if len(notes) <= most else [*shown[:-1], f"and {len(notes) - most + 1} more"]
 
 
 def _text(x: float, y: float, text: str, kind: str) -> str:

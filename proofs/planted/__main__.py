@@ -8,6 +8,8 @@ from pathlib import Path
 from proofs import drawing
 from proofs.counterexample import search
 from proofs.finite import SMALL, World
+from proofs.planted import carried, kilometrage
+from proofs.planted.attacked import UNGUARDED
 from proofs.planted.protocols import PROTOCOLS
 from proofs.planted.weakenings import WEAKENINGS
 
@@ -29,7 +31,23 @@ def main(folder: Path = FOLDER) -> int:
         if found is not None:
             write(folder, fault.name, drawing.as_text, drawing.as_html, (found,))
         print(f"{fault.name}: {found.finding if found else 'not refuted'}")
+    missed += draw_attacks(folder)
     return 1 if missed else 0
+
+
+def draw_attacks(folder: Path) -> int:
+    """Draw each attack without its guard, on every station made for it, and count those that come to nothing."""
+    missed = 0
+    for attack in UNGUARDED:
+        for name, trace in attack.drawn().items():
+            missed += attack.broken not in trace.broken
+            write(folder, name, drawing.trace_as_text, drawing.trace_as_html, (name, attack.fault.story, trace))
+            print(f"{name}: {trace.label}, {', '.join(trace.broken) or 'comes to nothing'}")
+    in_mm = carried.drawn()
+    for name, found in in_mm.items():
+        write(folder, name, kilometrage.as_text, kilometrage.as_html, (name, carried.CARRIED.story, found))
+        print(f"{name}: {found.finding}")
+    return missed + (carried.CARRIED.name not in in_mm)
 
 
 def write(folder: Path, name: str, as_text: object, as_html: object, given: tuple[object, ...]) -> None:

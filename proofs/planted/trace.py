@@ -8,7 +8,7 @@ from typing import Any
 
 from kernel.refusal import Refusal
 from models.world.state import Site, System
-from proofs.catalogue import SAFETY
+from proofs.catalogue import INVARIANTS, SAFETY
 from proofs.mutated import Sources, table_running
 from proofs.witnesses.changes import Changes, changes
 from proofs.witnesses.scenario import STEPS, WHY_REFUSED, Scenario
@@ -16,7 +16,7 @@ from proofs.witnesses.scenario import STEPS, WHY_REFUSED, Scenario
 
 @dataclass(frozen=True)
 class Move:
-    """One step of a trace; ``broken`` are the safety claims that are false after it."""
+    """One step of a trace; ``broken`` are the claims that are false after it, of those that are watched."""
 
     transition: str
     event: Mapping[str, Any]
@@ -49,7 +49,7 @@ class Trace:
 
     @property
     def broken(self) -> tuple[str, ...]:
-        """The safety claims that are false at the end."""
+        """The claims that are false at the end."""
         return self.moves[-1].broken if self.moves else ()
 
     @property
@@ -65,6 +65,7 @@ class Player(Scenario):
         """Prepare to play; ``until`` is the claim that is to break."""
         self.trace = Trace(site)
         self.until = until
+        self.claims = {**SAFETY, until: INVARIANTS[until]}
         super().__init__(table_running(STEPS, sources), site, system)
 
     def does(self, step: str, effect: Changes | None = None, /, **event: Any) -> None:
@@ -72,7 +73,7 @@ class Player(Scenario):
         after = self.steps[step](self.site, self.system, **event)
         if not changes(self.system, after):
             raise Stopped(step, self.why_refused(step, event) if step in WHY_REFUSED else None)
-        broken = tuple(name for name, claim in SAFETY.items() if not claim(self.site, after))
+        broken = tuple(name for name, claim in self.claims.items() if not claim(self.site, after))
         self.trace.moves.append(Move(step, event, self.system, after, broken))
         self.system = after
         if self.until in broken:
@@ -86,7 +87,7 @@ class Player(Scenario):
             return
 
     def _watch(self, step: str, event: Mapping[str, Any]) -> None:
-        """Only safety claims are watched, and that in :meth:`does`."""
+        """What is watched is watched in :meth:`does`: the safety claims, and the claim that is to break."""
 
 
 def play(script: Callable[[Player], None], player: Player) -> Trace:

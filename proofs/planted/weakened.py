@@ -7,7 +7,8 @@ from dataclasses import replace
 from kernel.centre import NO_LOCKS, NO_RUNS, Centre
 from kernel.claims import end_claims
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, Tag, TagList, TerminalLife, UnitLife
+from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, TagList, TerminalLife, Train, UnitLife
+from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
 from kernel.route_setting import conflict
@@ -129,23 +130,6 @@ def tail_over_a_broken_line(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab
     )
 
 
-def ends_changed_and_read_kept(unit: Unit, cab: Cab) -> Unit:
-    """Change ends and keep what the tail read before, on the way in the other direction."""
-    if unit.leading == cab:
-        return unit
-    return replace(unit, leading=cab, head_tag=None)
-
-
-def tail_read_always_good(plan: TagPlan, unit: Unit, tag: Tag) -> Read | None:
-    """Keep the tail's last read though the head passes that boundary again."""
-    return unit.tail_read
-
-
-def begun_is_been_in(lists: TagLists, order: Order, block: Block) -> bool:
-    """Take a run that has begun for one under which the train has been in any block."""
-    return order.begun
-
-
 def all_free_again(layout: Layout, centre: Centre, epoch: Epoch) -> Centre:
     """Begin a new epoch with every block unoccupied."""
     return Centre(
@@ -210,3 +194,25 @@ def conflict_without_fouling(layout: Layout, centre: Centre, run: Run) -> Refusa
     if any(lies != needs[point] for point in needs for _, lies in centre.locked.get(point, NO_LOCKS).items()):
         return Refusal.POINT_LOCKED_OTHERWISE
     return None
+
+
+def confirms_a_life(
+    layout: Layout,
+    centre: Centre,
+    train: Train,
+    life: UnitLife,
+    epoch: Epoch,
+    blocks: frozenset[Block],
+    run: Run,
+) -> Centre:
+    """Let the second person confirm that the unit is isolated, and hold what the first has stated."""
+    said = centre.statements.get(train)
+    if train not in centre.supervised or said is None or said.life != life:
+        return centre
+    if standing_refusal(layout, centre, train, life, epoch, run) is not None:
+        return centre
+    return replace(
+        account_for(layout, centre, said.blocks, run, Cause.SUPERVISED),
+        supervised=centre.supervised - {train},
+        statements={other: words for other, words in centre.statements.items() if other != train},
+    )

@@ -1,20 +1,71 @@
-"""Sixteen weakenings of the protocol, each with the one-line story of what goes wrong."""
+"""Weakenings of the protocol, each with the one-line story of what goes wrong."""
 
 from __future__ import annotations
 
 from kernel import (
     authority,
-    change_of_ends,
     first_loop,
     recovery,
     release,
     restarts,
     route_setting,
-    second_loop,
+    supervision,
     tail_evidence,
 )
 from proofs.planted import weakened
 from proofs.planted.fault import Fault
+
+READ_FORGOTTEN = "kernel.change_of_ends.change_ends: update tail_read=None"
+STILL_GOOD = (
+    "kernel.second_loop.tail_read_still_good: guard if before is None or before.tag == tag or "
+    "plan.partner.get(before.tag) == tag: None"
+)
+"""The guard by which the head, passing a boundary, makes what the tail read there before worth nothing."""
+HAS_LEFT = (
+    "kernel.tail_evidence.has_left: condition has_been_in(lists, order, block) and (order.tag_list is None "
+    "or order.led_by != unit.leading or has_gone_on(lists, unit, run, block))"
+)
+"""The guard by which a tail leaves a block only for the runs under which the head was there and has gone on."""
+
+TURNED_ASTRIDE = Fault(
+    "the tail's last read is good after two changes of ends",
+    "The train turns twice astride a boundary, and what its tail read before pairs with what it reads after.",
+    "change_ends",
+    dropped=(READ_FORGOTTEN, STILL_GOOD),
+)
+"""Two guards: the head passes that boundary between the changes of ends, and either guard alone stops the attack."""
+LAP_BEFORE = Fault(
+    "a pair of reads may be of two passages",
+    "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
+    "head_reads",
+    dropped=(STILL_GOOD,),
+)
+BLOCK_AHEAD = Fault(
+    "a block ahead counts as left",
+    "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",
+    "tail_reads",
+    dropped=(HAS_LEFT,),
+)
+GIVEN_BACK_TOO_EARLY = Fault(
+    "a run is given back that the brake lets the train into",
+    "The centre frees it, and the train, which cannot stop before it any more, comes into it.",
+    "give_back",
+    dropped=("kernel.first_loop.give_back: or-operand held_end_mm > start_end_mm",),
+)
+NOTHING_COMPARED = Fault(
+    "the first loop compares nothing",
+    "The unit keeps the tags of another route and sends those back; the run is set all the same.",
+    "note_echo",
+    dropped=(
+        "kernel.route_setting.echo_refusal: guard if layout.tag_list.get(run.route) != tag_list: Refusal.LISTS_DIFFER",
+    ),
+)
+LIFE_CONFIRMED = Fault(
+    "two persons confirm a life, not a place",
+    "The centre holds what the first has stated; the second has seen the train somewhere else.",
+    "note_statement_confirmed",
+    {supervision.note_statement_confirmed: weakened.confirms_a_life},
+)
 
 WEAKENINGS: tuple[Fault, ...] = (
     Fault(
@@ -99,18 +150,11 @@ WEAKENINGS: tuple[Fault, ...] = (
         "a pair of reads may be two cabs' reads",
         "The train goes back between the two reads, and once more: the tail's last read is kept at a change of ends.",
         "change_ends",
-        {change_of_ends.change_ends: weakened.ends_changed_and_read_kept},
+        dropped=(READ_FORGOTTEN,),
     ),
-    Fault(
-        "a pair of reads may be of two passages",
-        "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
-        "head_reads",
-        {second_loop.tail_read_still_good: weakened.tail_read_always_good},
-    ),
-    Fault(
-        "a block ahead counts as left",
-        "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",
-        "tail_reads",
-        {tail_evidence.has_been_in: weakened.begun_is_been_in},
-    ),
+    LAP_BEFORE,
+    BLOCK_AHEAD,
+    GIVEN_BACK_TOO_EARLY,
+    NOTHING_COMPARED,
+    LIFE_CONFIRMED,
 )

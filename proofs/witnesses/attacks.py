@@ -1,4 +1,7 @@
-"""Witnesses of attacks: what once freed a block around a train, or led it nowhere, ends in a refusal (T2, T5, T6)."""
+"""Witnesses of attacks on one station: what once freed a block around a train ends in a refusal (T2, T4, T5).
+
+:mod:`proofs.witnesses.on_lines` has those that are played on every layout.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,6 @@ from proofs.witnesses.running import (
     reported,
     rest,
     roll,
-    tail_passes,
     tail_read,
     tail_reads_first,
 )
@@ -36,12 +38,7 @@ from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
-    B2,
-    B3,
-    B4,
-    B5,
     EAST,
-    EIGHT,
     HERE,
     MIDDLE,
     MIDDLE_TO_NORTH,
@@ -49,80 +46,14 @@ from proofs.witnesses.stations import (
     NORTH,
     NORTH_TO_MIDDLE,
     PLAIN_LINE,
-    RING,
-    ROUND,
     T1,
-    T2,
     WEST,
     WEST_TO_ONE,
     WEST_TO_TWO,
-    Y_TO_X,
-    Y,
 )
-from proofs.witnesses.telling import next_run, recovered
+from proofs.witnesses.telling import recovered
 
 IN_THE_NORTH = {A1: frozenset({NORTH}), A2: frozenset({NORTH}), B1: frozenset({HERE})}
-
-
-def on_a_ring_the_tail_frees_no_block_ahead(steps: Steps) -> Scenario:
-    """A tail that leaves the block in which its own run will end frees it for the run before, not for this one (T6).
-
-    The block too close to it stays closed to the other train, since the first one is still to come there.
-    """
-    return _frees_no_block_ahead(steps, RING)
-
-
-def on_a_figure_of_eight_the_tail_frees_no_block_ahead(steps: Steps) -> Scenario:
-    """The same where the loop crosses itself: the train comes over the crossing, and then to its own start (T6, T9)."""
-    return _frees_no_block_ahead(steps, EIGHT)
-
-
-def _frees_no_block_ahead(steps: Steps, station: str) -> Scenario:
-    """A train over the last block of a route round the loop sets out."""
-    at = {A1: frozenset({B3}), A2: frozenset({B2}), B1: frozenset({Y})}
-    scenario, runs = recovered(steps, at, station=station)
-    run = set_route(scenario, T1, ROUND, runs[T1])
-    roll(scenario, run)
-    head_passes(scenario, run, B3, B4)
-    enters(scenario, run, A2, B2, B3)
-    leaves(scenario, A2, B2)
-    tail_passes(scenario, run, B2, B3)
-    scenario.refuses("send_tail_report", **reported(scenario, run, B2, B3))
-    report(scenario, runs[T1], B2, B3)
-    holds(scenario, B2, run)
-    beside = next_run(scenario, T2, Y_TO_X)
-    scenario.refuses("request", Refusal.FOULING_BLOCK_HELD, run=beside, base=runs[T2])
-    return scenario
-
-
-def on_a_ring_a_head_that_has_come_round_keeps_its_block(steps: Steps) -> Scenario:
-    """A train as long as its loop: the tail leaves the block that the head has come round into, for no run of it (T2).
-
-    It is left for the run before, and stays held for the one under which the head is there.
-    """
-    return _keeps_what_it_came_round_into(steps, RING)
-
-
-def on_a_figure_of_eight_a_head_that_has_come_round_keeps_its_block(steps: Steps) -> Scenario:
-    """The same where the loop crosses itself (T2)."""
-    return _keeps_what_it_came_round_into(steps, EIGHT)
-
-
-def _keeps_what_it_came_round_into(steps: Steps, station: str) -> Scenario:
-    """The head goes all the way round before the tail has left the last block of the route."""
-    at = {A1: frozenset({B3}), A2: frozenset({B2}), B1: frozenset({Y})}
-    scenario, runs = recovered(steps, at, station=station)
-    run = set_route(scenario, T1, ROUND, runs[T1])
-    roll(scenario, run)
-    for block, target in ((B3, B4), (B4, B5), (B5, B2)):
-        head_passes(scenario, run, block, target)
-    enters(scenario, run, A2, B2, B3)
-    leaves(scenario, A2, B2)
-    tail_passes(scenario, run, B2, B3)
-    scenario.refuses("send_tail_report", **reported(scenario, run, B2, B3))
-    report(scenario, runs[T1], B2, B3)
-    holds(scenario, B2, run)
-    return scenario
 
 
 def a_read_from_before_two_changes_of_ends_pairs_with_nothing(steps: Steps) -> Scenario:

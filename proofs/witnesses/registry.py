@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from types import ModuleType
 
 from kernel.refusal import Refusal
-from proofs.witnesses import attacks, long_day, refusals, restarts, routes, trains
+from proofs.witnesses import attacks, long_day, on_lines, refusals, restarts, routes, trains
 from proofs.witnesses.scenario import STEPS, Scenario, Steps
 
 Witness = Callable[[Steps], Scenario]
@@ -27,7 +27,10 @@ def _witnesses(*modules: ModuleType) -> Mapping[str, Witness]:
     }
 
 
-WITNESSES: Mapping[str, Witness] = _witnesses(routes, trains, attacks, restarts, refusals, long_day)
+WITNESSES: Mapping[str, Witness] = {
+    **_witnesses(routes, trains, attacks, restarts, refusals, long_day),
+    **on_lines.WITNESSES,
+}
 """By name, in order; the docstring of each says what it shows and which requirements that serves."""
 
 

@@ -192,11 +192,10 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
         r for r in led_so if layout.way[r.route].get(block) == target and (r, target) in scenario.system.track.entered
     ]
     gone = [r for r in led_so if any(r.serial <= later.serial for later in led_on)]
-    effect = {
+    effect: dict[str, Any] = {
         "units": {
             run.train: {
                 "tail_read": event["read"],
-                "occupied": went(block),
                 "orders": {other: {"left": {block: evidence}} for other in noted},
             }
         },
@@ -206,6 +205,11 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
             "passed": came((run.train, second)),
         },
     }
+    if all(
+        other.route not in layout.way or block not in order.entered or _has_gone_on(scenario, other, block)
+        for other, order in orders.items()
+    ):
+        effect["units"][run.train]["occupied"] = went(block)
     scenario.does("tail_reads", effect, **event)
 
 

@@ -241,6 +241,10 @@ release_at = ["b45", "b52"]
 from = "b23"
 direction = "forward"
 to = "b34"
+[routes."back"]
+from = "b23"
+direction = "backward"
+to = "b52"
 [routes."y to x"]
 from = "yx"
 direction = "forward"
@@ -301,7 +305,6 @@ WEST, THROAT, ONE, TWO = Block("west"), Block("throat"), Block("one"), Block("tw
 OUTLET, EAST = Block("outlet"), Block("east")
 YARD_WEST, YARD_GATE, YARD_EAST = Block("yard west"), Block("yard gate"), Block("yard east")
 P1, P2 = Point("P1"), Point("P2")
-B2, B3, B4, B5, X, Y = map(Block, ("b2", "b3", "b4", "b5", "x", "y"))
 NORTH, MIDDLE, SOUTH, HERE = map(Block, ("north", "middle", "south", "here"))
 LINE, PLATFORM_1, PLATFORM_2 = Block("line"), Block("platform 1"), Block("platform 2")
 K = Point("K")
@@ -321,7 +324,7 @@ WEST_TO_ONE_ON, TWO_TO_WEST_ON = Route("west to one from throat"), Route("two to
 WEST_TO_EAST = Route("west to east")
 YARD_OUT = Route("yard out")
 ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depart 2")
-ROUND, ROUND_ON, Y_TO_X = Route("round"), Route("on"), Route("y to x")
+ROUND = Route("round")
 NORTH_TO_MIDDLE, MIDDLE_TO_SOUTH = Route("north to middle"), Route("middle to south")
 MIDDLE_TO_NORTH = Route("middle to north")
 LEADS: Mapping[str, Route] = {

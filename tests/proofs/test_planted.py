@@ -12,9 +12,9 @@ from proofs.counterexample import Answer, search
 from proofs.finite import SMALL, World
 from proofs.planted.fault import Fault
 from proofs.planted.protocols import PROTOCOLS, Protocol
-from proofs.planted.weakenings import WEAKENINGS
+from proofs.planted.weakenings import TURNED_ASTRIDE, WEAKENINGS
 
-FAULTS = [*WEAKENINGS, *(protocol.fault for protocol in PROTOCOLS)]
+FAULTS = [*WEAKENINGS, TURNED_ASTRIDE, *(protocol.fault for protocol in PROTOCOLS)]
 
 
 @cache
@@ -77,6 +77,6 @@ def test_drawing_shows_the_claim_its_place_and_the_last_step(protocol: Protocol)
     assert page.count("<svg") == 3
 
 
-def test_there_are_sixteen_weakenings_and_five_protocols() -> None:
-    assert (len(WEAKENINGS), len(PROTOCOLS)) == (16, 5)
+def test_there_are_nineteen_weakenings_and_five_protocols() -> None:
+    assert (len(WEAKENINGS), len(PROTOCOLS)) == (19, 5)
     assert len({fault.name for fault in FAULTS}) == len(FAULTS)

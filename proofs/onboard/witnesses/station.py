@@ -9,7 +9,7 @@ from functools import cache
 from kernel import first_loop
 from kernel.layout import Layout
 from kernel.maps import Map
-from kernel.names import Block, Read, Record, Route, Run, Serial, Tag, UnitLife
+from kernel.names import Block, Car, Read, Record, Route, Run, Serial, Tag, UnitLife
 from kernel.onboard import authority_end as machine
 from kernel.onboard.braking import Brake, BrakeBounds, supervise
 from kernel.unit import Evidence, Order, Unit
@@ -76,13 +76,16 @@ def surveyed() -> Survey:
     return Survey(site=site_of(PASSING_PLACE))
 
 
-class Station(Play[Survey, Joint]):
-    """The passing place with a train in the west and one in the east, nothing told to them yet."""
+AT: Mapping[Car, frozenset[Block]] = {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})}
+"""Where the cars stand."""
 
-    def __init__(self) -> None:
-        """Begin."""
-        site = surveyed()
-        at = {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})}
+
+class Station(Play[Survey, Joint]):
+    """The passing place with a train in the west and one in the east, nothing told to them yet; or another layout."""
+
+    def __init__(self, site: Survey | None = None, at: Mapping[Car, frozenset[Block]] = AT) -> None:
+        """Begin; on another layout, if one is given."""
+        site = surveyed() if site is None else site
         start = Joint(
             system=standing_at(site.site, at, {}),
             head_mm={},
