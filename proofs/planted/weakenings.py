@@ -23,7 +23,7 @@ STILL_GOOD = (
 """The guard by which the head, passing a boundary, makes what the tail read there before worth nothing."""
 HAS_LEFT = (
     "kernel.tail_evidence.has_left: condition has_been_in(lists, order, block) and (order.tag_list is None "
-    "or order.led_by != unit.leading or has_gone_on(lists, unit, run, block))"
+    "or has_gone_on(lists, unit, run, block))"
 )
 """The guard by which a tail leaves a block only for the runs under which the head was there and has gone on."""
 
@@ -31,9 +31,12 @@ TURNED_ASTRIDE = Fault(
     "the tail's last read is good after two changes of ends",
     "The train turns twice astride a boundary, and what its tail read before pairs with what it reads after.",
     "change_ends",
-    dropped=(READ_FORGOTTEN, STILL_GOOD),
+    dropped=(READ_FORGOTTEN, STILL_GOOD, HAS_LEFT),
 )
-"""Two guards: the head passes that boundary between the changes of ends, and either guard alone stops the attack."""
+"""Three guards: the head passes that boundary between the changes of ends, and has not gone on as it leads now.
+
+Each of them alone stops the attack.
+"""
 LAP_BEFORE = Fault(
     "a pair of reads may be of two passages",
     "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",

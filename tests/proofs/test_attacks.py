@@ -21,7 +21,7 @@ from proofs.mutated import running, table_running
 from proofs.onboard.witnesses import on_lines as in_mm
 from proofs.planted import carried, kilometrage
 from proofs.planted.attacked import UNGUARDED
-from proofs.planted.weakenings import GIVEN_BACK_TOO_EARLY, READ_FORGOTTEN, STILL_GOOD, TURNED_ASTRIDE, WEAKENINGS
+from proofs.planted.weakenings import GIVEN_BACK_TOO_EARLY, TURNED_ASTRIDE, WEAKENINGS
 from proofs.witnesses.lines import LINES, Line, line_of, line_on
 from proofs.witnesses.on_lines import ATTACKS
 from proofs.witnesses.registry import WITNESSES
@@ -164,11 +164,13 @@ def test_a_real_layout_has_a_loop_or_has_none(name: str) -> None:
     assert (real(name).loop is not None) == (name in WITH_A_LOOP)
 
 
-@pytest.mark.parametrize("guard", [READ_FORGOTTEN, STILL_GOOD])
+@pytest.mark.parametrize("kept", TURNED_ASTRIDE.dropped)
 @pytest.mark.parametrize("where", LINES)
-def test_of_two_guards_against_turning_astride_either_stops_it(guard: str, where: str) -> None:
-    attack = BY_NAME[TURNED_ASTRIDE.name]
-    assert not attack.trace(line_on(where), named(guard).sources).broken
+def test_each_guard_against_turning_astride_stops_it_alone(kept: str, where: str) -> None:
+    sources = {
+        name: tree for each in TURNED_ASTRIDE.dropped if each != kept for name, tree in named(each).sources.items()
+    }
+    assert not BY_NAME[TURNED_ASTRIDE.name].trace(line_on(where), sources).broken
 
 
 def test_each_attack_stands_among_the_witnesses_on_each_station() -> None:
