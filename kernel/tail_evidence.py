@@ -47,7 +47,7 @@ def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) 
 def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
     """Tell whether the head may be in the ``block`` that the tail leaves: it came there, and has not gone on (T2)."""
     return any(
-        order.begun and block in order.entered and not has_gone_on(lists, unit, run, block)
+        block in order.entered and not has_gone_on(lists, unit, run, block)
         for run, order in unit.orders.items()
         if order.tag_list is not None
     )

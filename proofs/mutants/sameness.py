@@ -10,6 +10,7 @@ import z3
 
 from kernel.centre import Centre
 from models.world.state import Site, System
+from proofs import solvers
 from proofs.catalogue import INTERLOCKING, STEPS
 from proofs.counterexample import stepped, unmet
 from proofs.finite import World
@@ -19,7 +20,7 @@ from proofs.lift.terms import same, to_z3
 from proofs.mutated import Sources
 from proofs.theories import theory_of
 from proofs.transitions import event_types
-from proofs.workbench import Workbench
+from proofs.workbench import Part, Workbench
 
 
 def is_the_same(one: System, other: System) -> bool:
@@ -136,7 +137,7 @@ def of_the_function(bench: Workbench, function: Code, sources: Sources) -> Samen
 
 
 def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int = 8_000_000) -> bool:
-    """Prove it from the axioms and invariants named."""
+    """Prove it from the axioms and invariants named, by Z3, or where Z3 is at a loss by cvc5."""
     available = {**bench.assumed, **bench.invariants}
     order = [formula for formulas in bench.always().values() for formula in formulas]
     given = [available[name] for name in hypotheses]
@@ -144,6 +145,10 @@ def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int
         solver = z3.Solver()
         solver.set("rlimit", rlimit)
         solver.add(*order, *given, z3.Not(goal))
-        if solver.check() != z3.unsat:
+        answer = solver.check()
+        if answer == z3.sat:
+            return False
+        part = Part({"named": given}, order, goal)
+        if answer != z3.unsat and solvers.ask("cvc5", part, 0).answer != "unsat":
             return False
     return True
