@@ -73,7 +73,7 @@ def checked() -> dict[str, Any]:
             "remarks": [],
         }
 
-    return {"verdict": "holds", "layouts": [entry(f"{n}.toml") for n in ("junction", "passing_station", "terminus")]}
+    return {"verdict": "holds", "layouts": [entry(f"{n}.toml") for n in ("figure_of_eight", "junction", "passing_station", "ring", "terminus")]}
 
 
 def ridden(beyond: str | None) -> dict[str, Any]:
