@@ -73,7 +73,8 @@ def checked() -> dict[str, Any]:
             "remarks": [],
         }
 
-    return {"verdict": "holds", "layouts": [entry(f"{n}.toml") for n in ("figure_of_eight", "junction", "passing_station", "ring", "terminus")]}
+    names = ("figure_of_eight", "junction", "passing_station", "ring", "terminus")
+    return {"verdict": "holds", "layouts": [entry(f"{name}.toml") for name in names]}
 
 
 def ridden(beyond: str | None) -> dict[str, Any]:

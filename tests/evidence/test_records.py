@@ -101,8 +101,8 @@ def test_nothing_is_proved_by_solvers_that_noticed_no_canary(noticed: list[bool]
         ("certify", ("controls", 0), {"refused": False}, "not shown"),
         ("certify", (), {"controls": []}, "not shown"),
         ("certify", (), {"of": 2}, "not shown"),
-        ("check:terminus.toml", ("layouts", 2), {"verdict": "does not hold"}, "does not hold"),
-        ("check:terminus.toml", ("layouts", 2), {"checked": {}}, "not shown"),
+        ("check:terminus.toml", ("layouts", 4), {"verdict": "does not hold"}, "does not hold"),
+        ("check:terminus.toml", ("layouts", 4), {"checked": {}}, "not shown"),
     ],
 )
 def test_what_does_not_hold_is_told_from_what_is_not_shown(

@@ -71,7 +71,7 @@ def unknown_position(data: Data, chance: random.Random) -> Corruption | None:
 
 def stray_position(data: Data, chance: random.Random) -> Corruption | None:
     name, route = chance.choice(sorted(data["routes"].items()))
-    stray = sorted(set(data["points"]) - set(route.get("points", {})) - set(route.get("flank", {})))
+    stray = sorted(set(data.get("points", ())) - set(route.get("points", {})) - set(route.get("flank", {})))
     if not stray:
         return None
     point = chance.choice(stray)
@@ -188,7 +188,7 @@ def nowhere(data: Data, chance: random.Random) -> Corruption | None:
 
 def unjoin(data: Data, chance: random.Random) -> Corruption | None:
     """A leg of a point left without track."""
-    if not data["points"]:
+    if not data.get("points"):
         return None
     point = chance.choice(sorted(data["points"]))
     for track, entries in data["tracks"].items():

@@ -35,7 +35,7 @@ def railjson_of(native: Data, later: bool = False) -> Data:
     for node, ends in nodes.items():
         point, _, leg = node.rpartition(".")
         ports = [{"track": track, "endpoint": side} for track, side in ends]
-        if point in native["points"]:
+        if point in native.get("points", {}):
             switch = switches.setdefault(point, {"id": point, "switch_type": "point_switch", "ports": {}})
             switch["ports"][LEGS[leg]] = ports[0]
         elif len(ends) == 2:

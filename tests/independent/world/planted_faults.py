@@ -13,6 +13,7 @@ from kernel.centre import Centre
 from kernel.names import Block, Cab, Epoch, Read, Run, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
+from kernel.tail_evidence import has_been_in
 from kernel.unit import Evidence
 from tests.independent.world.kernel_calls import BOUNDS, Board, Calls, Message
 from tests.independent.world.sight import Sight
@@ -37,14 +38,30 @@ class EvidenceAhead(Calls):
 
 
 class EvidenceAcrossTurns(Calls):
-    """Hole 2: two reads of one cab make a pair whatever lies between them."""
+    """Hole 2: two reads of one cab make a pair whatever lies between them, of whichever end led there."""
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
         if board.kept is not None and board.kept[0] == cab:
             board.unit = replace(board.unit, tail_read=board.kept[1])
+        before = board.unit
         super().tail_reads(board, cab, healthy, read, sight)
+        was = before.tail_read
+        if was is not None and board.unit.occupied != before.occupied:
+            self._left_as_once(board, self.layout.tag_in[was.tag], Evidence(left=was, entered=read))
+            self.follow(board, sight)
         if board.unit.tail_read is not None:
             board.kept = cab, board.unit.tail_read
+
+    def _left_as_once(self, board: Board, block: Block, evidence: Evidence) -> None:
+        """Once a run that the other cab had led was left without a look at where the head is."""
+        unit = board.unit
+        orders = {
+            run: replace(order, left=order.left | {block: evidence})
+            if has_been_in(self.lists, order, block) and order.led_by != unit.leading
+            else order
+            for run, order in unit.orders.items()
+        }
+        board.unit = replace(unit, orders=orders)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
         if not any(True for _ in board.unit.orders):
