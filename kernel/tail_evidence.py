@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.names import Block, Cab, Read, Run
 from kernel.second_loop import open_loop
-from kernel.tag_list import NO_PARTS, TagLists, TagPlan
+from kernel.tag_list import NO_PARTS, NO_WAY, TagLists, TagPlan
 from kernel.unit import Evidence, Order, Unit
 
 
@@ -36,20 +36,31 @@ def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     )
 
 
+def backs_out(lists: TagLists, unit: Unit, order: Order, block: Block) -> bool:
+    """Tell whether the train backs out of ``block`` as the farthest that it is still in of a run's way (T2).
+
+    What led it there is its tail now: where its head had gone on, the tail comes back from there first.
+    """
+    if order.tag_list is None or order.led_by == unit.leading:
+        return False
+    beyond = lists.way.get(order.tag_list, NO_WAY).get(block)
+    return beyond not in order.entered or beyond in order.left
+
+
 def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) -> bool:
     """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
 
-    A train that stood there has told so.  One that backs out is led on by its other cab, under a later run.
+    A train that stood there has told so.
     """
-    return has_been_in(lists, order, block) and (order.tag_list is None or has_gone_on(lists, unit, run, block))
+    return has_been_in(lists, order, block) and (
+        order.tag_list is None or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block)
+    )
 
 
 def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
     """Tell whether the head may be in the ``block`` that the tail leaves: it came there, and has not gone on (T2)."""
     return any(
-        block in order.entered and not has_gone_on(lists, unit, run, block)
-        for run, order in unit.orders.items()
-        if order.tag_list is not None
+        block in order.entered and not has_left(lists, unit, run, order, block) for run, order in unit.orders.items()
     )
 
 

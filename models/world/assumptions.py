@@ -73,8 +73,8 @@ def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run,
     A tag lies at least rear overhang, read window and error beyond the boundary, and cars keep
     their order.  It holds while the train runs in one direction, and while its head does not pass
     the same boundary in between, as on a loop.  On a loop the head may have come round into that
-    block, and other cars after it: they came under a run under which it has not yet gone on.  Only
-    genuine records are bound by it.
+    block, and other cars after it: they came under a run that it leads and under which it has not yet
+    gone on.  Only genuine records are bound by it.
     """
     if not is_last(site, system, run, car) or not is_genuine(site, read):
         return True

@@ -53,8 +53,13 @@ def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool
 
 
 def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
-    """The car came into ``block`` under a run of a route under which, or a later one, the head has not gone on."""
+    """The car came into ``block`` under a run of the leading cab, which has not gone on under it or a later one."""
     if car not in system.track.under or block not in system.track.under[car]:
         return False
     run = system.track.under[car][block]
-    return run.route in site.layout.routes and not the_head_went_on(site, system, run, block)
+    return (
+        run.route in site.layout.routes
+        and run in site.formation.front
+        and system.track.facing.get(run.train) == site.formation.front[run]
+        and not the_head_went_on(site, system, run, block)
+    )

@@ -171,7 +171,8 @@ def _beyond_start(layout: Layout, route: Route) -> frozenset[Block]:
 def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
     """The tail reads both tags of a boundary, in order.
 
-    The block is noted as left in every run under which the train was in it, and out of which its head has gone on.
+    The block is noted as left in every run under which the train was in it, and out of which its head has gone on or
+    the train backs.
     """
     layout = scenario.site.layout
     first, second = pair(layout, block, target)
@@ -184,7 +185,7 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
         for other, order in orders.items()
         if order.begun
         and (block in order.entered or layout.start.get(other.route) == block)
-        and (other.route not in layout.way or _has_gone_on(scenario, other, block))
+        and (other.route not in layout.way or _has_gone_on(scenario, other, block) or _is_back(scenario, other, block))
     ]
     front = scenario.site.formation.front
     led_so = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
@@ -200,14 +201,13 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
             }
         },
         "track": {
-            "behind": came(*((other, block) for other in noted)),
-            "gone": came(*((other, block) for other in gone)),
+            **({"behind": came(*((other, block) for other in noted))} if noted else {}),
+            **({"gone": came(*((other, block) for other in gone))} if gone else {}),
             "passed": came((run.train, second)),
         },
     }
     if all(
-        other.route not in layout.way or block not in order.entered or _has_gone_on(scenario, other, block)
-        for other, order in orders.items()
+        other in noted or other.route not in layout.way or block not in order.entered for other, order in orders.items()
     ):
         effect["units"][run.train]["occupied"] = went(block)
     scenario.does("tail_reads", effect, **event)
@@ -222,6 +222,13 @@ def _has_gone_on(scenario: Scenario, run: Run, block: Block) -> bool:
         and way.get(later.route, {}).get(block) in order.entered
         for later, order in unit.orders.items()
     )
+
+
+def _is_back(scenario: Scenario, run: Run, block: Block) -> bool:
+    """Whether the train backs out of the block, and has backed out of what follows on the run's way."""
+    unit, beyond = scenario.system.units[run.train], scenario.site.layout.way[run.route].get(block)
+    order = unit.orders[run]
+    return order.led_by != unit.leading and (beyond not in order.entered or beyond in order.left)
 
 
 def tail_reads_first(scenario: Scenario, run: Run, tag: Tag) -> None:

@@ -400,8 +400,8 @@ PLANTED: dict[str, tuple[str, Code, str, str]] = {
     "into the overlap": (
         "joint.may_be_left",
         kernel.onboard.authority_end.may_be_left,
-        "lists.way[order.tag_list].get(block) not in lists.overlap[order.tag_list]",
-        "True",
+        "target is not None and not is_overlap(lists, order.tag_list, target)",
+        "target is not None",
     ),
     "the old brake is kept": (
         "joint.ask_for_the_end",

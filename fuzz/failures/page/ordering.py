@@ -47,13 +47,20 @@ def _line(site: Site) -> nx.DiGraph[Block]:
 
 
 def _ranks(line: nx.DiGraph[Block]) -> dict[Block, int]:
-    """Ranks in one part; blocks that lie on a ring are ranked as one, and told apart by their names."""
+    """Ranks in one part; a ring is gone round once from the first of its blocks by name, and closes behind its last."""
     rings = nx.condensation(line)
     order = list(nx.topological_sort(rings))
+    round_it = {ring: _round(line.subgraph(rings.nodes[ring]["members"])) for ring in order}
     rank = dict.fromkeys(order, 0)
     for ring in order:
         for follower in rings.successors(ring):
-            rank[follower] = max(rank[follower], rank[ring] + 1)
+            rank[follower] = max(rank[follower], rank[ring] + len(round_it[ring]))
     for ring in reversed(order):
-        rank[ring] = min((rank[follower] - 1 for follower in rings.successors(ring)), default=rank[ring])
-    return {block: rank[ring] for ring in order for block in rings.nodes[ring]["members"]}
+        least = min((rank[follower] for follower in rings.successors(ring)), default=None)
+        rank[ring] = rank[ring] if least is None else least - len(round_it[ring])
+    return {block: rank[ring] + place for ring in order for place, block in enumerate(round_it[ring])}
+
+
+def _round(ring: nx.DiGraph[Block]) -> list[Block]:
+    """The blocks of a ring in the order in which they follow each other; of a line each is one."""
+    return list(nx.dfs_preorder_nodes(ring, min(ring), sort_neighbors=sorted))

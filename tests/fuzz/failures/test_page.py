@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,8 @@ from tests.fuzz.failures.samples import LAYOUTS, failing, imported, traffic
 
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium: apt-get install chromium")
 PLACE = "passing_station"
+CLOSES = {"ring": 1, "figure_of_eight": 2}
+"""How often a train on a loop comes from the last row to an earlier one: where it closes, and over the diamond."""
 SIZES = ((1280, 900), (390, 780))
 
 
@@ -199,5 +202,6 @@ def test_a_train_that_runs_goes_steadily_along_the_rows(place: str) -> None:
         while block is not None:
             way.append(rank[block][1])
             block = site.layout.way[route].get(block)
-        assert way in (sorted(way), sorted(way, reverse=True))
+        falls = sum(before > after for before, after in pairwise(way))
+        assert min(falls, len(way) - 1 - falls) <= CLOSES.get(place, 0), way
         assert len(set(way)) == len(way)
