@@ -216,7 +216,8 @@ def _has_gone_on(scenario: Scenario, run: Run, leads: Cab, block: Block) -> None
 
 def a_train_backs_out_of_three_blocks(steps: Steps) -> Scenario:
     """A train that turns astride leaves the blocks of the way in one after the other, the farthest first (T2, T6)."""
-    scenario, runs, back = _turned_astride(steps)
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    out, back = _turned_astride(scenario, runs[T1])
     running.head_passes(scenario, back, ONE, THROAT)
     for block, target in pairwise((EAST, OUTLET, ONE)):
         for car in (A2, A1):
@@ -224,13 +225,14 @@ def a_train_backs_out_of_three_blocks(steps: Steps) -> Scenario:
                 running.enters(scenario, back, car, block, target)
                 running.leaves(scenario, car, block)
         running.tail_passes(scenario, back, block, target)
-        running.report(scenario, runs[1], block, target)
+        running.report(scenario, out, block, target)
     return scenario
 
 
 def a_farther_block_that_was_not_seen_left_keeps_the_nearer(steps: Steps) -> Scenario:
     """A tail that comes back and misses the tags of the farthest block leaves none before it: it may be there (T2)."""
-    scenario, runs, back = _turned_astride(steps)
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    out, back = _turned_astride(scenario, runs[T1])
     running.head_passes(scenario, back, ONE, THROAT)
     for car in (A2, A1):
         for block, target in pairwise((EAST, OUTLET, ONE)):
@@ -238,23 +240,22 @@ def a_farther_block_that_was_not_seen_left_keeps_the_nearer(steps: Steps) -> Sce
                 running.enters(scenario, back, car, block, target)
                 running.leaves(scenario, car, block)
     running.tail_passes(scenario, back, OUTLET, ONE)
-    scenario.refuses("send_tail_report", **running.reported(scenario, runs[1], OUTLET, ONE))
+    scenario.refuses("send_tail_report", **running.reported(scenario, out, OUTLET, ONE))
     return scenario
 
 
-def _turned_astride(steps: Steps) -> tuple[Scenario, tuple[Run, Run], Run]:
-    """A train over track one, the outlet and the east has turned; the runs that it came under, and the way back."""
-    scenario, runs = telling.recovered(steps, standing(ONE))
-    out = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+def _turned_astride(scenario: Scenario, stands: Run) -> tuple[Run, Run]:
+    """A train over track one, the outlet and the east has turned; the run that it came under, and the way back."""
+    out = setting.set_route(scenario, T1, ONE_TO_EAST, stands)
     running.roll(scenario, out)
     for block, target in pairwise((ONE, OUTLET, EAST)):
         running.head_passes(scenario, out, block, target)
     running.leaves(scenario, A1, ONE)
     running.enters(scenario, out, A2, ONE, OUTLET)
     running.rest(scenario, out)
-    back = setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
+    back = setting.set_route(scenario, T1, ONE_TO_WEST, stands)
     running.roll(scenario, back)
-    return scenario, (runs[T1], out), back
+    return out, back
 
 
 def a_train_runs_where_another_was_let_run(steps: Steps) -> Scenario:
