@@ -7,7 +7,7 @@ and is played on until a safety claim breaks (:mod:`proofs.planted.attacked`).
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from kernel.names import Block, Run, Stage, UnitLife
@@ -98,17 +98,9 @@ def the_tail_frees_no_block_ahead(scenario: Scenario, line: Line) -> None:
     """
     loop = _loop_of(line)
     standing, other = ready(scenario)
-    run = set_route(scenario, T1, loop.round, standing)
-    roll(scenario, run)
     way, behind = line.blocks(loop.round), line.blocks(loop.home)
+    run = _frees_nothing_under_its_own_run(scenario, line, standing, way[:2])
     _, rear = in_order(scenario, run)
-    head_passes(scenario, run, way[0], way[1])
-    enters(scenario, run, rear, behind[0], behind[1])
-    leaves(scenario, rear, behind[0])
-    tail_passes(scenario, run, behind[0], behind[1])
-    claims_nothing_of(scenario, way[-1], behind[1], run)
-    report(scenario, standing, behind[0], behind[1])
-    holds(scenario, way[-1], run)
     for block, target in boundaries(behind[1:]):
         enters(scenario, run, rear, block, target)
         leaves(scenario, rear, block)
@@ -145,21 +137,28 @@ def a_head_that_has_come_round_keeps_its_block(scenario: Scenario, line: Line) -
 
     It is left for the run before, and stays held for the one under which the head is there.
     """
-    loop = _loop_of(line)
     standing, _ = ready(scenario)
+    way = line.blocks(_loop_of(line).round)
+    _frees_nothing_under_its_own_run(scenario, line, standing, way)
+    scenario.must(way[-1] in scenario.system.units[T1].occupied, "the unit knows that its head is there")
+
+
+def _frees_nothing_under_its_own_run(scenario: Scenario, line: Line, standing: Run, ahead: Sequence[Block]) -> Run:
+    """The head goes through the blocks ahead; the tail leaves the last of the way round, for the run before alone."""
+    loop = _loop_of(line)
     run = set_route(scenario, T1, loop.round, standing)
     roll(scenario, run)
-    way, behind = line.blocks(loop.round), line.blocks(loop.home)
+    end, target = line.blocks(loop.home)[:2]
     _, rear = in_order(scenario, run)
-    for block, target in boundaries(way):
-        head_passes(scenario, run, block, target)
-    enters(scenario, run, rear, behind[0], behind[1])
-    leaves(scenario, rear, behind[0])
-    tail_passes(scenario, run, behind[0], behind[1])
-    scenario.must(way[-1] in scenario.system.units[T1].occupied, "the unit knows that its head is there")
-    claims_nothing_of(scenario, way[-1], behind[1], run)
-    report(scenario, standing, behind[0], behind[1])
-    holds(scenario, way[-1], run)
+    for block, beyond in boundaries(ahead):
+        head_passes(scenario, run, block, beyond)
+    enters(scenario, run, rear, end, target)
+    leaves(scenario, rear, end)
+    tail_passes(scenario, run, end, target)
+    claims_nothing_of(scenario, end, target, run)
+    report(scenario, standing, end, target)
+    holds(scenario, end, run)
+    return run
 
 
 def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line) -> None:
