@@ -30,8 +30,7 @@ def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
         and order.begun
         and order.led_by == unit.leading
         and order.tag_list is not None
-        and order.tag_list in lists.way
-        and lists.way[order.tag_list].get(block) in order.entered
+        and lists.way.get(order.tag_list, NO_WAY).get(block) in order.entered
         for other, order in unit.orders.items()
     )
 
