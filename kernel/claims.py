@@ -1,12 +1,27 @@
-"""How claims end: block by block, points with their blocks, each by one cause (T7, T8)."""
+"""How claims of trains exclude each other, and how they end: block by block, each by one cause (T7, T8, T9)."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.centre import NO_LOCKS, NO_RUNS, Centre, Grant
+from kernel.centre import NO_BLOCKS, NO_LOCKS, NO_RUNS, Centre, Grant
 from kernel.layout import Layout
-from kernel.names import Block, Cause, Point, Run, Stage
+from kernel.names import Block, Cause, Point, Run, Stage, Train
+from kernel.refusal import Refusal
+
+
+def held_refusal(layout: Layout, centre: Centre, train: Train, blocks: frozenset[Block]) -> Refusal | None:
+    """Say whether one of ``blocks``, or a block that fouls one of them, is held for another train (T9)."""
+    if any(other.train != train for block in blocks for other in centre.claimed.get(block, NO_RUNS)):
+        return Refusal.BLOCK_HELD_FOR_ANOTHER
+    if any(
+        other.train != train
+        for block in blocks
+        for beside in layout.fouls.get(block, NO_BLOCKS)
+        for other in centre.claimed.get(beside, NO_RUNS)
+    ):
+        return Refusal.FOULING_BLOCK_HELD
+    return None
 
 
 def end_claims(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.centre import NO_LOCKS, NO_POINTS, NO_RUNS, NOTHING_ENDED, Centre, Grant
+from kernel.claims import held_refusal
 from kernel.layout import Layout
 from kernel.names import Block, Cause, Epoch, Point, Position, Run, Stage, TerminalLife, Train, UnitLife
 from kernel.refusal import Refusal
@@ -16,7 +17,7 @@ def challenges(centre: Centre, epoch: Epoch) -> bool:
 
 
 def standing_refusal(
-    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, run: Run
+    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
 ) -> Refusal | None:
     """Say why the word of ``train`` that it stands still is not taken; ``run`` will stand for it (T8)."""
     if train not in layout.fleet:
@@ -34,7 +35,28 @@ def standing_refusal(
         return Refusal.SERIAL_NOT_NEW
     if run.serial >= layout.last_serial:
         return Refusal.SERIALS_EXHAUSTED
-    return None
+    return place_refusal(layout, centre, train, blocks)
+
+
+def place_refusal(layout: Layout, centre: Centre, train: Train, blocks: frozenset[Block]) -> Refusal | None:
+    """Say why ``blocks`` are not held for ``train`` on its word: it may name more than it is in, but none of another's.
+
+    A point in them that is being laid for another train, as its flank, may yet move (T8, T9, T10).
+    """
+    if any(
+        other.train != train and not is_proved(centre, other, point)
+        for block in blocks
+        for point in layout.points_in.get(block, NO_POINTS)
+        for other in centre.locked.get(point, NO_LOCKS)
+    ):
+        return Refusal.POINT_BEING_LAID
+    return held_refusal(layout, centre, train, blocks)
+
+
+def is_proved(centre: Centre, run: Run, point: Point) -> bool:
+    """Tell whether ``point`` has been proved for ``run`` (T10)."""
+    grant = centre.runs.get(run)
+    return grant is not None and point in grant.proved
 
 
 def account_for(layout: Layout, centre: Centre, blocks: frozenset[Block], run: Run, cause: Cause) -> Centre:
@@ -79,7 +101,7 @@ def note_standing(
     layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
 ) -> Centre:
     """Take a train's word where it stands, given with its old authority dropped (T8)."""
-    if standing_refusal(layout, centre, train, life, epoch, run) is not None:
+    if standing_refusal(layout, centre, train, life, epoch, blocks, run) is not None:
         return centre
     return account_for(layout, centre, blocks, run, Cause.RECOVERED)
 

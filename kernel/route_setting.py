@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.centre import NO_BLOCKS, NO_LOCKS, NO_RUNS, NOTHING_ENDED, Centre, Grant
+from kernel.claims import held_refusal
 from kernel.layout import Layout
 from kernel.names import Point, Position, Run, Stage, TagList, TerminalLife
 from kernel.refusal import Refusal
@@ -39,17 +40,11 @@ def conflict(layout: Layout, centre: Centre, run: Run) -> Refusal | None:
     blocks = layout.claims[run.route]
     if any(block in centre.lost_blocks for block in blocks):
         return Refusal.BLOCK_LOST
-    if any(other.train != run.train for block in blocks for other in centre.claimed.get(block, NO_RUNS)):
-        return Refusal.BLOCK_HELD_FOR_ANOTHER
     if any(beside in centre.lost_blocks for block in blocks for beside in layout.fouls.get(block, NO_BLOCKS)):
         return Refusal.FOULING_BLOCK_LOST
-    if any(
-        other.train != run.train
-        for block in blocks
-        for beside in layout.fouls.get(block, NO_BLOCKS)
-        for other in centre.claimed.get(beside, NO_RUNS)
-    ):
-        return Refusal.FOULING_BLOCK_HELD
+    held = held_refusal(layout, centre, run.train, blocks)
+    if held is not None:
+        return held
     needs = layout.needs[run.route]
     if any(point in centre.lost_points for point in needs):
         return Refusal.POINT_LOST

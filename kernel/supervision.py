@@ -54,7 +54,7 @@ def supervised_refusal(
         return Refusal.NO_STATEMENT
     if said.blocks != blocks:
         return Refusal.STATEMENTS_DIFFER
-    return standing_refusal(layout, centre, train, life, epoch, run)
+    return standing_refusal(layout, centre, train, life, epoch, blocks, run)
 
 
 def note_statement_confirmed(

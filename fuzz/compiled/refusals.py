@@ -48,8 +48,11 @@ def cancel(site: Site, system: System, run: Run) -> Refusal | None:
 
 
 def note_standing(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run) -> Refusal | None:
-    """Why a train is not taken at its word (T8)."""
-    return standing_refusal(site.layout, system.centre, train, life, epoch, run)
+    """Why a train is not taken at its word, if it gave one (T8)."""
+    blocks = system.radio.standings.get((train, life, epoch))
+    if blocks is None:
+        return None
+    return standing_refusal(site.layout, system.centre, train, life, epoch, blocks, run)
 
 
 def recover_point(site: Site, system: System, point: Point) -> Refusal | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from kernel.centre import NO_BLOCKS
 from kernel.names import Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Tag, Train, UnitLife
 from models.world.state import Site, System
-from models.world.truth import came_round, is_genuine, is_last, stands_exactly
+from models.world.truth import came_round, is_genuine, is_last, stands_within
 
 
 def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Block) -> bool:
@@ -139,13 +139,13 @@ def a_train_within_its_destination_is_not_beyond(
 def a_located_train_stands_where_it_says(
     site: Site, system: System, train: Train, blocks: frozenset[Block], at_rest: bool, healthy: bool
 ) -> bool:
-    """Tags at both ends of an unbroken train at rest say exactly which blocks it is in."""
-    return not at_rest or not healthy or stands_exactly(site, system, train, blocks)
+    """No car of an unbroken train at rest is outside the blocks that the tags at both its ends say."""
+    return not at_rest or not healthy or stands_within(site, system, train, blocks)
 
 
 def two_persons_do_not_err_alike(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
-    """The second person confirms a statement only if the train stands exactly so."""
-    return (train, life, epoch) in system.radio.statements and stands_exactly(
+    """The second person confirms a statement only if no car is outside it and the train is at rest."""
+    return (train, life, epoch) in system.radio.statements and stands_within(
         site, system, train, system.radio.statements[train, life, epoch]
     )
 

@@ -139,12 +139,10 @@ def car_moves(site: Site, system: System, run: Run, car: Car, block: Block, targ
 def car_follows(site: Site, system: System, car: Car, other: Car, target: Block) -> System:
     """A car comes into a block that another car of its train is in, by whatever rails lead there.
 
-    It is pulled or pushed by a train that rolls, and comes under the run of the car it follows.
+    It is pulled or pushed, up to the end that the brake holds, and comes under the run of the car it follows.
     """
     train = site.formation.train_of.get(car)
     if train is None or site.formation.train_of.get(other) != train:
-        return system
-    if all(run.train != train for run in system.track.rolling):
         return system
     if target not in system.track.at.get(other, frozenset()):
         return system
@@ -162,15 +160,12 @@ def car_follows(site: Site, system: System, car: Car, other: Car, target: Block)
 
 
 def car_leaves(site: Site, system: System, car: Car, block: Block) -> System:
-    """A car's last axle leaves a block; whether any antenna reads anything there is another matter.
-
-    A train at rest leaves nothing, and parts of it that were left behind have their brakes on.
-    """
-    if all(run.train != site.formation.train_of.get(car) for run in system.track.rolling):
+    """A car's last axle leaves a block; whether any antenna reads anything there is another matter."""
+    if car not in system.track.at:
         return system
     return replace(
         system,
-        track=replace(system.track, at=system.track.at | {car: system.track.at.get(car, frozenset()) - {block}}),
+        track=replace(system.track, at=system.track.at | {car: system.track.at[car] - {block}}),
     )
 
 

@@ -22,18 +22,14 @@ def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
     )
 
 
-def stands_exactly(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
-    """No car of ``train`` is outside ``blocks``, none of them is empty of it, and it is at rest."""
+def stands_within(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
+    """No car of ``train`` is outside ``blocks``, and it is at rest."""
     return (
         all(
             block in blocks
             for car in system.track.at
             if site.formation.train_of.get(car) == train
             for block in system.track.at[car]
-        )
-        and all(
-            any(block in system.track.at[car] for car in system.track.at if site.formation.train_of.get(car) == train)
-            for block in blocks
         )
         and all(run.train != train for run in system.track.rolling)
         and all(run.train != train for run in system.track.slipping)

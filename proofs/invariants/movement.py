@@ -5,7 +5,7 @@ from __future__ import annotations
 from kernel.names import Stage
 from models.world.evidence import as_written
 from models.world.state import Site, System
-from models.world.truth import stands_exactly
+from models.world.truth import stands_within
 from proofs.invariants.vocabulary import genuine, reaches, told
 
 
@@ -94,17 +94,19 @@ def reach_is_clear_of_fouling(site: Site, system: System) -> bool:
 
 
 def a_held_block_is_closed_to_others(site: Site, system: System) -> bool:
-    """What the centre holds for a train, nobody else can be led into, or is in (T9)."""
+    """What the centre holds for a train, no other that is accounted for can be led into, or is in (T9)."""
     return all(
         not reaches(site, system, other, block) or run.train == other.train
         for block in system.centre.claimed
         for run in system.centre.claimed[block]
         for other in system.radio.permits
+        if other.train in system.centre.accounted
     ) and all(
         block not in system.track.at[car] or run.train == site.formation.train_of.get(car)
         for block in system.centre.claimed
         for run in system.centre.claimed[block]
         for car in system.track.at
+        if site.formation.train_of.get(car) in system.centre.accounted
     )
 
 
@@ -116,12 +118,14 @@ def a_held_block_is_clear_of_fouling(site: Site, system: System) -> bool:
         for run in system.centre.claimed[block]
         for beside in site.layout.fouls.get(block, frozenset())
         for other in system.radio.permits
+        if other.train in system.centre.accounted
     ) and all(
         beside not in system.track.at[car] or run.train == site.formation.train_of.get(car)
         for block in system.centre.claimed
         for run in system.centre.claimed[block]
         for beside in site.layout.fouls.get(block, frozenset())
         for car in system.track.at
+        if site.formation.train_of.get(car) in system.centre.accounted
     )
 
 
@@ -290,25 +294,25 @@ def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
 
 
 def a_train_that_told_stands_there(site: Site, system: System) -> bool:
-    """While the word of a standing train is in the air, it stands exactly there (T8)."""
+    """While the word of a standing train is in the air, it is at rest, and nowhere else than it said (T8)."""
     return all(
-        stands_exactly(site, system, train, blocks)
+        stands_within(site, system, train, blocks)
         for (train, life, epoch), blocks in system.radio.standings.items()
         if told(system, train, life, epoch)
     ) and all(
-        stands_exactly(site, system, train, blocks)
+        stands_within(site, system, train, blocks)
         for (train, life, epoch), blocks in system.radio.confirmed_statements.items()
         if told(system, train, life, epoch)
     )
 
 
 def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
-    """A unit that answered this epoch and was not yet taken at its word stands exactly there, offered nothing (T8)."""
+    """A unit that answered this epoch and was not yet taken at its word is at rest where it said, offered nothing (T8)."""
     return all(
         unit.answered != system.centre.epoch
         or (train in system.centre.accounted and unit.life <= system.centre.accounted[train])
         or (
-            stands_exactly(site, system, train, unit.standing_in)
+            stands_within(site, system, train, unit.standing_in)
             and all(run.train != train or run.life < unit.life for run in system.radio.offers)
         )
         for train, unit in system.units.items()

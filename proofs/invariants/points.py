@@ -65,16 +65,16 @@ def no_newer_order_for_a_lost_point_below(site: Site, system: System) -> bool:
     )
 
 
-def a_lost_point_below_is_frozen(site: Site, system: System) -> bool:
-    """A lost point under a train that stands is frozen, and every lock on it agrees with how it lies (T8, T10)."""
+def a_lock_on_a_lost_point_below_is_proved(site: Site, system: System) -> bool:
+    """A lost point that a train is held over is locked for nobody for whom it has yet to be laid (T9, T10)."""
     return all(
-        frozen(site, system, point)
-        and all(lies == system.track.lies.get(point) for _run, lies in system.centre.locked.get(point, {}).items())
+        run in system.centre.runs and point in system.centre.runs[run].proved
         for block in system.centre.claimed
         for holder in system.centre.claimed[block]
         if holder.route not in site.layout.routes
         for point in site.layout.points_in.get(block, frozenset())
         if point in system.centre.lost_points
+        for run in system.centre.locked.get(point, {})
     )
 
 

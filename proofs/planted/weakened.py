@@ -209,7 +209,7 @@ def confirms_a_life(
     said = centre.statements.get(train)
     if train not in centre.supervised or said is None or said.life != life:
         return centre
-    if standing_refusal(layout, centre, train, life, epoch, run) is not None:
+    if standing_refusal(layout, centre, train, life, epoch, blocks, run) is not None:
         return centre
     return replace(
         account_for(layout, centre, said.blocks, run, Cause.SUPERVISED),

@@ -6,7 +6,7 @@ from kernel.names import Block, Epoch, Point, Run, Train, UnitLife
 from kernel.recovery import train_missing
 from models.world import at_the_centre, on_board, radio
 from models.world.state import Site, System
-from models.world.truth import stands_exactly
+from models.world.truth import stands_within
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import lives
 
@@ -38,7 +38,7 @@ def it_can_answer(
 ) -> bool:
     """The train is at rest and whole, knows where it is, and begins a new life."""
     unit = system.units.get(train)
-    return at_rest and healthy and unit is not None and unit.life < life and stands_exactly(site, system, train, blocks)
+    return at_rest and healthy and unit is not None and unit.life < life and stands_within(site, system, train, blocks)
 
 
 def a_train_that_answered_is_accounted_for(
@@ -67,14 +67,34 @@ def its_answer_is_in_the_air(site: Site, system: System, train: Train, life: Uni
     return train in site.layout.fleet and (train, life, epoch) in system.radio.standings
 
 
-def a_number_is_left(site: Site, system: System, train: Train, life: UnitLife, run: Run) -> bool:
-    """The run that will stand for it has a new number, and no route."""
+def it_can_be_taken(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run) -> bool:
+    """The run that will stand for it has a new number, and no route; and nothing that it names is another train's."""
     return (
         run.train == train
         and run.life == life
         and run.route not in site.layout.routes
         and system.centre.newest < run.serial
         and run.serial < site.layout.last_serial
+        and is_free_for(site, system, train, system.radio.standings[train, life, epoch])
+    )
+
+
+def is_free_for(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
+    """No block, and none that fouls one, is held for another train, and no point in one is locked for another."""
+    return (
+        all(held.train == train for block in blocks for held in system.centre.claimed.get(block, frozenset()))
+        and all(
+            held.train == train
+            for block in blocks
+            for beside in site.layout.fouls.get(block, frozenset())
+            for held in system.centre.claimed.get(beside, frozenset())
+        )
+        and all(
+            held.train == train
+            for block in blocks
+            for point in site.layout.points_in.get(block, frozenset())
+            for held in system.centre.locked.get(point, {})
+        )
     )
 
 
@@ -114,7 +134,7 @@ PROMISES = (
     Promise(
         (
             Link(it_has_answered, radio.send_standing),
-            Link(its_answer_is_in_the_air, at_the_centre.note_standing, a_number_is_left),
+            Link(its_answer_is_in_the_air, at_the_centre.note_standing, it_can_be_taken),
         ),
         a_train_that_answered_is_accounted_for,
     ),

@@ -142,6 +142,28 @@ def the_last_number_is_never_granted(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_train_may_name_more_than_it_is_in(steps: Steps) -> Scenario:
+    """A train may name a block that it is not in; it is held for it, unless it is another's or its point moves (T8)."""
+    scenario, runs = recovered(steps, {**FACING_EAST, B1: frozenset({EAST})})
+    run = reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    epoch, beside = scenario.system.centre.epoch, frozenset({EAST})
+    for more, why in ((THROAT, Refusal.POINT_BEING_LAID), (WEST, Refusal.BLOCK_HELD_FOR_ANOTHER), (YARD_EAST, None)):
+        life = UnitLife(scenario.system.units[T2].life + 2)
+        scenario.does("restart_unit", train=T2, life=UnitLife(life - 1))
+        event = {"train": T2, "epoch": epoch, "life": life, "at_rest": True, "healthy": True}
+        scenario.does("answer", **event, blocks=beside | {more})
+        scenario.does("send_standing", train=T2, epoch=epoch)
+        word = {"train": T2, "life": life, "epoch": epoch, "run": next_run(scenario, T2, NO_ROUTE)}
+        if why is None:
+            scenario.does("note_standing", **word)
+        else:
+            scenario.refuses("note_standing", why, **word)
+    holders = scenario.system.centre.claimed[YARD_EAST]
+    scenario.must({each.train for each in holders} == {T2}, "the block that it named is held for it")
+    scenario.must(run in scenario.system.centre.claimed[THROAT], "the other's route stands")
+    return scenario
+
+
 def an_answer_is_given_once_and_at_rest(steps: Steps) -> Scenario:
     """A unit answers a challenge that was sent, at rest, over a healthy line, and only once an epoch (T8)."""
     scenario = opened(steps, FACING_EAST)

@@ -104,8 +104,10 @@ class Scenario:
         """Ask the kernel why it refuses this step."""
         asked = self.steps[WHY_REFUSED[step]]
         told = (event.get("train"), event.get("life"), event.get("epoch"))
+        radio = self.system.radio
+        said = radio.standings if step == "note_standing" else radio.confirmed_statements
         known = {
-            "blocks": self.system.radio.confirmed_statements.get(told, frozenset()),  # type: ignore[arg-type]
+            "blocks": said.get(told, frozenset()),  # type: ignore[arg-type]
             "tag_list": self.system.radio.echoes.get(event.get("run")),  # type: ignore[arg-type]
             **event,
             "layout": self.site.layout,

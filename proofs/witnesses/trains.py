@@ -148,9 +148,6 @@ def the_tail_cuts_the_corner(steps: Steps) -> Scenario:
     head_passes(scenario, run, WEST, THROAT)
     enters(scenario, run, A1, WEST, THROAT)
     scenario.refuses("car_follows", car=A1, other=A2, target=ONE)
-    rest(scenario, run)
-    scenario.refuses("car_follows", car=A2, other=A1, target=THROAT)
-    roll(scenario, run)
     follows(scenario, A2, A1, THROAT)
     scenario.must(scenario.system.track.under[A2][THROAT] == run, "it came under the run of the car ahead")
     return scenario
