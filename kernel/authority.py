@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.names import Block, Run, TagList
+from kernel.standstill import Standstill, stands_between
 from kernel.tag_list import NO_WAY, TagLists
 from kernel.unit import Unit
 
@@ -13,29 +14,31 @@ def may_proceed(unit: Unit, run: Run) -> bool:
     """Tell whether the train may move under ``run``: permitted, not wanted back, second loop closed (T4, T5, T9).
 
     A recall takes the authority away at once, long before the run is given back; but a train that has
-    begun the run keeps it.
+    begun the run keeps it.  Runs are begun in the order in which they were granted (:func:`is_overtaken`).
     """
     order = unit.orders.get(run)
     return (
         order is not None
         and order.permitted
         and not order.given_back
-        and (order.begun or not order.recalled)
+        and (order.begun or not (order.recalled or is_overtaken(unit, run)))
         and not unit.loop_open
     )
 
 
-def may_overrun(unit: Unit, run: Run) -> bool:
-    """Tell whether the overlap still belongs to the train's authority (T9)."""
-    order = unit.orders.get(run)
-    return may_proceed(unit, run) and order is not None and not order.stopped
+def is_overtaken(unit: Unit, run: Run) -> bool:
+    """Tell whether a later run has begun: an older one is not begun any more (T2, T9).
+
+    The unit takes it from the order of the runs whether its head has gone on out of a block.
+    """
+    return any(other.serial > run.serial and order.begun for other, order in unit.orders.items())
 
 
 def may_leave(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
     """Tell whether the end of authority lies beyond ``block``, so that a head in it may go on (T4, T12).
 
     It lies beyond while the way goes on, out of and into blocks that the tail has not left in
-    this run, and into the overlap only until the train has told that it stopped.
+    this run, and never in the overlap, which is for a train that brakes too late.
     """
     order = unit.orders.get(run)
     if order is None or order.tag_list is None:
@@ -46,7 +49,7 @@ def may_leave(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
         and may_proceed(unit, run)
         and block not in order.left
         and target not in order.left
-        and (not is_overlap(lists, order.tag_list, target) or may_overrun(unit, run))
+        and not is_overlap(lists, order.tag_list, target)
     )
 
 
@@ -55,14 +58,13 @@ def is_overlap(lists: TagLists, tag_list: TagList, block: Block) -> bool:
     return block in lists.overlap.get(tag_list, frozenset({block}))
 
 
-def note_stopped(unit: Unit, run: Run, within_destination: bool) -> Unit:
+def note_stopped(unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
     """Draw the end of authority back to the destination once the train stands in it (T9).
 
-    ``within_destination``: by odometer and tags the train stands still, its front inside the
-    destination.
+    ``begin_mm``, ``end_mm``: where the destination of ``run`` begins and ends, by its tag list.
     """
     order = unit.orders.get(run)
-    if order is None or not within_destination or not may_proceed(unit, run):
+    if order is None or not stands_between(at, begin_mm, end_mm) or not may_proceed(unit, run):
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, stopped=True)})
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Block, Cab, Read, Tag
+from kernel.authority import is_overtaken
+from kernel.names import Block, Cab, Read, Run, Tag
 from kernel.tag_list import TagLists, TagPlan
 from kernel.unit import Order, Unit
 
@@ -32,11 +33,14 @@ def expects(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bo
     )
 
 
-def is_next(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bool:
-    """Tell whether ``tag`` is the next one of this run, and not only where another ends (T5).
+def is_next(lists: TagLists, unit: Unit, run: Run, order: Order, cab: Cab, tag: Tag) -> bool:
+    """Tell whether ``tag`` is the next one of ``run``, and not only where another ends (T5).
 
-    A run back, permitted before the train has arrived, begins with the tag that the way in ends with.
+    A run back, permitted before the train has arrived, begins with the tag that the way in ends with.  One
+    that a later run has overtaken does not begin.
     """
+    if not order.begun and is_overtaken(unit, run):
+        return False
     return expects(lists, unit, order, cab, tag) and (
         order.led_by is not None
         or all(
@@ -93,7 +97,7 @@ def note_head_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, tag: Ta
         return open_loop(unit)
     block = plan.tag_in.get(tag)
     advanced = {
-        run: advance(lists, order, cab, tag) if is_next(lists, unit, order, cab, tag) else order
+        run: advance(lists, order, cab, tag) if is_next(lists, unit, run, order, cab, tag) else order
         for run, order in unit.orders.items()
     }
     if block is None:

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from kernel.names import Block, Epoch, UnitLife
+from kernel.standstill import Standstill, ThroughLine, is_whole, stands
 from kernel.unit import NO_ORDERS, Unit
 
 
-def answer(unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], at_rest: bool, healthy: bool) -> Unit:
+def answer(
+    unit: Unit, epoch: Epoch, life: UnitLife, blocks: frozenset[Block], at: Standstill, line: ThroughLine
+) -> Unit:
     """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands (T8).
 
-    ``blocks``: by the tags at both ends, all the blocks the train is in.
-    ``at_rest``: it stands still.  ``healthy``: the through line reaches the tail.
+    ``blocks``: by the tags at both ends, all the blocks that the train may be in.
     A life answers once: what it said stays true, since it cannot move before the centre has
     taken it.
     """
-    if not at_rest or not healthy or life <= unit.life or unit.answered == epoch:
+    if not stands(at) or not is_whole(line) or life <= unit.life or unit.answered == epoch:
         return unit
     return Unit(
         life=life,

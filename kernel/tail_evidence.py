@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from kernel.names import Block, Cab, Read, Run
 from kernel.second_loop import open_loop
+from kernel.standstill import ThroughLine, reaches_tail
 from kernel.tag_list import NO_PARTS, NO_WAY, TagLists, TagPlan
 from kernel.unit import Evidence, Order, Unit
 
@@ -63,16 +64,15 @@ def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
     )
 
 
-def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, line: ThroughLine, read: Read) -> Unit:
     """Note what the tail antenna read; the second tag of a pair proves the exit from the first's block (T2).
 
-    ``healthy``: the through line reaches the tail, so that the antenna is the train's last (T2, T3).
-    A partial or reversed pair, the cab that leads or a broken line prove nothing.  A tag in a
-    block that the train is not in opens the second loop (T5).
+    A partial or reversed pair, the cab that leads or a line that does not reach the tail prove nothing (T3).  A tag
+    in a block that the train is not in opens the second loop (T5).
     """
     if unit.leading is None or unit.leading == cab:
         return unit
-    if not healthy:
+    if not reaches_tail(line):
         return replace(unit, tail_read=None)
     entered = plan.tag_in.get(read.tag)
     if entered is None or entered not in unit.occupied:

@@ -65,6 +65,11 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
             frozenset({"unread", "astray"}),
             "writes the history on: that a tag was missed, and that it is overdue now",
         ),
+        "note_stopped": Leave(
+            frozenset({"track", "track.stood"}),
+            frozenset({"stood"}),
+            "writes the history on: that the train has stood in its destination",
+        ),
         "tail_reads": Leave(
             frozenset(
                 {
@@ -111,6 +116,7 @@ ASKED: Mapping[str, frozenset[str]] = {
         {
             "a_head_runs_no_farther_than_its_brake_lets_it",
             "a_healthy_line_reaches_the_tail",
+            "says_it_stands_between",
             "a_located_train_stands_where_it_says",
             "a_missed_tag_is_overdue_before_the_tail_comes",
             "a_pair_passed_in_order_proves_the_exit",

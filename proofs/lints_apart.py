@@ -77,6 +77,7 @@ DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "interlocking.relay_order": "a unit relays what it decides to relay",
+    "interlocking.start_rolling": "the brake takes the end that the unit works out, as the joint proves",
 }
 """Steps refused by the kernel because they are the machine's own deed, by their names' beginnings; why."""
 

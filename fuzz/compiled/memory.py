@@ -50,6 +50,8 @@ SELDOM_SENT = frozenset(
     )
 )
 """Messages that are one part together."""
+SELDOM_WRITTEN = frozenset(("stood", "first_erred", "second_erred"))
+"""Histories of the track that are one part together."""
 PARTS: tuple[str, ...] = (
     *(f"centre_{field.name}" for field in fields(Centre)),
     *(f"centre_runs_{field.name}" for field in fields(Grant)),
@@ -57,7 +59,7 @@ PARTS: tuple[str, ...] = (
     *(f"units_orders_{field.name}" for field in fields(Order)),
     *("terminals", *(f"terminals_{field.name}" for field in fields(Terminal))),
     *("radio", *(f"radio_{field.name}" for field in fields(Radio) if field.name not in SELDOM_SENT)),
-    *(f"track_{field.name}" for field in fields(Track)),
+    *("track", *(f"track_{field.name}" for field in fields(Track) if field.name not in SELDOM_WRITTEN)),
 )
 """The parts of a state; a set of them is one word."""
 assert len(PARTS) <= WORD_BITS

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from enum import Enum
 from functools import cache
 from typing import Any, get_args, get_origin, get_type_hints
 
 from kernel.names import Read, Run
+from kernel.standstill import Standstill, ThroughLine
 from proofs.catalogue import STEPS
 from proofs.transitions import event_types
 
@@ -61,17 +63,19 @@ def written(value: Any) -> Json:
         return [written(item) for item in value]
     if isinstance(value, frozenset):
         return sorted(value)
+    if isinstance(value, Standstill | ThroughLine):
+        return [written(getattr(value, field.name)) for field in fields(value)]
     raise TypeError(f"an event carries no {type(value).__name__}")
 
 
 def read(kind: Any, data: Any, place: str) -> Any:
     """Read one value of a kind."""
-    if kind in (Run, Read):
-        fields = get_type_hints(kind)
+    if kind in (Run, Read, Standstill, ThroughLine):
+        known = get_type_hints(kind)
         items = _list(data, place)
-        if len(items) != len(fields):
-            raise NotSo(place, f"has {len(items)} items; a {kind.__name__.lower()} is {', '.join(fields)}")
-        typed = enumerate(zip(fields.values(), items, strict=True))
+        if len(items) != len(known):
+            raise NotSo(place, f"has {len(items)} items; a {kind.__name__.lower()} is {', '.join(known)}")
+        typed = enumerate(zip(known.values(), items, strict=True))
         return kind(*(read(each, item, f"{place}[{at}]") for at, (each, item) in typed))
     if get_origin(kind) is frozenset:
         (inner,) = get_args(kind)

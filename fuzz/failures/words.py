@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Mapping
+from dataclasses import fields
 from enum import Enum
 from typing import Any
 
 from fuzz.failures.replaying import UNDEFINED, Outcome, Replay
 from kernel.names import Read, Run
+from kernel.standstill import Standstill, ThroughLine
 from models.world import assumptions
 from proofs.catalogue import INVARIANTS, STEPS
 
@@ -24,6 +26,8 @@ def value_in_words(value: Any) -> str:
         return f"#{value.serial} {value.train} “{value.route}”" + (f" life {value.life}" if value.life != 1 else "")
     if isinstance(value, Read):
         return f"{value.tag} “{value.record}”"
+    if isinstance(value, Standstill | ThroughLine):
+        return ", ".join(f"{field.name} {value_in_words(getattr(value, field.name))}" for field in fields(value))
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, Enum):

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from kernel.authority import may_overrun
 from kernel.names import Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
 from models.simulator.messages import NO_ROUTE
+from models.simulator.senses import AT_REST, BROKEN, INSIDE, WHOLE
 from models.world.state import Site, System
 
 Event = Mapping[str, Any]
@@ -56,7 +56,6 @@ MESSAGES: Mapping[str, tuple[str, tuple[str, ...]]] = {
     "relay_order": ("orders", ("run", "point", "life")),
     "relay_enquiry": ("enquiries", ("run", "point", "life")),
     "relay_confirmation": ("confirmed", ("run", "point", "position")),
-    "confirm_statement": ("statements", ("train", "life", "epoch")),
 }
 """For each transition in which a message arrives: which messages, and the names of what they carry."""
 
@@ -195,9 +194,8 @@ def _ordered(site: Site, system: System) -> Events:
 
 
 def _slips(site: Site, system: System) -> Events:
-    """The runs in which a train may still get into its overlap, the newest first; any that a unit knows, if none."""
-    known = _known(system)
-    for run in [run for run in known if may_overrun(system.units[run.train], run)] or known:
+    """The runs in which a train may still slip into its overlap; any that a unit knows, if none."""
+    for run in sorted(system.track.rolling - system.track.stood) or _known(system):
         yield {"run": run}
 
 
@@ -209,8 +207,8 @@ def _answers(site: Site, system: System) -> Events:
                 "epoch": epoch,
                 "life": UnitLife(unit.life + 1),
                 "blocks": stands_in(site, system, train),
-                "at_rest": True,
-                "healthy": True,
+                "at": AT_REST,
+                "line": WHOLE,
             }
 
 
@@ -225,6 +223,13 @@ def _corrections(site: Site, system: System) -> Events:
         there = stands_in(site, system, train)
         places = (there, frozenset(), *(there - {block} for block in sorted(there)))
         for blocks in dict.fromkeys(place for place in places if place != stated):
+            yield {"train": train, "epoch": epoch, "life": life, "blocks": blocks}
+
+
+def _statements_confirmed(site: Site, system: System) -> Events:
+    """What was stated, and where the train stands."""
+    for (train, life, epoch), stated in sorted(system.radio.statements.items(), key=lambda said: said[0]):
+        for blocks in dict.fromkeys((stated, stands_in(site, system, train))):
             yield {"train": train, "epoch": epoch, "life": life, "blocks": blocks}
 
 
@@ -247,7 +252,7 @@ def _standings(site: Site, system: System) -> Events:
 
 def _stops(site: Site, system: System) -> Events:
     for event in _ordered(site, system):
-        yield {**event, "within_destination": True}
+        yield {**event, **INSIDE}
 
 
 def _head_reads(site: Site, system: System) -> Events:
@@ -290,7 +295,7 @@ def _tail_reads(site: Site, system: System) -> Events:
             car = site.formation.last[run]
             told = {"run": run, "car": car, "cab": site.formation.cab[car]}
             for tag in tags:
-                yield {**told, "healthy": train not in system.track.parted, "read": _read(site, tag)}
+                yield {**told, "line": BROKEN if train in system.track.parted else WHOLE, "read": _read(site, tag)}
 
 
 def _read(site: Site, tag: Tag) -> Read:
@@ -398,5 +403,6 @@ SOURCES: Mapping[str, Source] = {
     "part": _trains,
     "take_over": _statements,
     "correct_statement": _corrections,
+    "confirm_statement": _statements_confirmed,
 }
 """For each transition that no message begins: where its plausible events are read off."""

@@ -50,6 +50,7 @@ from fuzz.traffic.places import (
     DESTINATION,
     DONE,
     DRAWN,
+    EVENT,
     FINISHED,
     LENGTH,
     ONWARD,
@@ -66,8 +67,9 @@ from fuzz.traffic.places import (
     WAKE,
     WANTED,
 )
+from fuzz.traffic.senses import put_stopped
 from fuzz.traffic.standing import AFRESH, accounted, adopt_points, tell
-from fuzz.traffic.steps import put2, put3, route_of, set_train, take1, take_beyond, train_word
+from fuzz.traffic.steps import put3, route_of, set_train, take1, take_beyond, train_word
 from fuzz.traffic.tables import (
     CANCEL,
     COME_TO_REST,
@@ -364,7 +366,7 @@ def slips(memory: Any, desk: Any, train: Any, run: Any) -> None:
     if not take1(memory, desk, OVERRUN, run):
         return
     if strikes(desk, FALSELY_WITHIN, train):
-        put2(memory, desk, run, 1)
+        put_stopped(memory, desk[EVENT], run, 1)
         take_beyond(memory, desk, NOTE_STOPPED)
         take1(memory, desk, SEND_STOP, run)
         take1(memory, desk, RELEASE_OVERLAP, run)

@@ -45,6 +45,7 @@ from fuzz.traffic.places import (
     UNITS_PERMITTED,
     UNITS_TAG_LIST,
 )
+from fuzz.traffic.senses import put_stopped
 from fuzz.traffic.steps import (
     list_of,
     put2,
@@ -315,7 +316,7 @@ def tell_stopped(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
         return 0
     if not holds_overlap(memory, desk, run) and not one_in(desk, 8):
         return 0
-    put2(memory, desk, run, 0 if strikes(desk, DOUBT, train) else 1)
+    put_stopped(memory, desk[EVENT], run, 0 if strikes(desk, DOUBT, train) else 1)
     take(memory, desk, NOTE_STOPPED)
     take1(memory, desk, SEND_STOP, run)
     memory[desk[EVENT]] = run

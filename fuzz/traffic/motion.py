@@ -52,7 +52,20 @@ from fuzz.traffic.places import (
     UNITS_LEADING,
     WAY,
 )
-from fuzz.traffic.steps import put4, route_of, set_train, take, take1, take2, take3, take4, take_beyond, train_word
+from fuzz.traffic.senses import LINE_WORDS, put_line
+from fuzz.traffic.steps import (
+    put3,
+    put4,
+    route_of,
+    set_train,
+    take,
+    take1,
+    take2,
+    take3,
+    take4,
+    take_beyond,
+    train_word,
+)
 from fuzz.traffic.tables import (
     CAR_FOLLOWS,
     CAR_LEAVES,
@@ -75,8 +88,8 @@ HEALED = number("line healed falsely")
 ROLLED_BACK, BACK_TO_FRONT = number("rolled back"), number("pair read back to front")
 OF_ELSEWHERE, TOO_LATE = number("tag of elsewhere at the head"), number("overdue too late")
 TRAIL_TO_SPARE = 4
-HEALTHY = 3
-"""Which word of a tail's read says whether the line is healthy; tag and record follow it."""
+LINE_AT, READ_AT = 3, 3 + LINE_WORDS
+"""From which word on of a tail's read stands what the line says, and from which on tag and record."""
 
 
 # ---- where a train is
@@ -210,8 +223,9 @@ def put_tail_read(memory: Any, desk: Any, train: Any, run: Any, tag: Any, record
     """Write what the tail reads over a line that is as healthy as it really is."""
     car = of2(desk, CAR, train, car_at(desk, train, train_word(desk, train, MOVING) - 1))
     healthy = train_word(desk, train, LINE) <= desk[CLOCK] and not has(memory, desk, TRACK_PARTED, train)
-    put4(memory, desk, run, car, of(desk, CAB, car), 1 if healthy else 0)
-    memory[desk[EVENT] + HEALTHY + 1], memory[desk[EVENT] + HEALTHY + 2] = tag, record
+    put3(memory, desk, run, car, of(desk, CAB, car))
+    put_line(memory, desk[EVENT] + LINE_AT, 1 if healthy else 0)
+    memory[desk[EVENT] + READ_AT], memory[desk[EVENT] + READ_AT + 1] = tag, record
 
 
 @compiled
@@ -243,7 +257,7 @@ def tail_reads(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> 
             record = below(desk, desk[RECORDS])
     put_tail_read(memory, desk, train, run, read, record)
     if has(memory, desk, TRACK_PARTED, train) and desk[PRESENT + HEALED] != 0:
-        memory[desk[EVENT] + HEALTHY] = 1
+        put_line(memory, desk[EVENT] + LINE_AT, 1)
         desk[BY] = HEALED
         take_beyond(memory, desk, TAIL_READS)
         return 0

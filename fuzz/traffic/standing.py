@@ -39,6 +39,7 @@ from fuzz.traffic.places import (
     UNITS_ANSWERED,
     UNITS_LIFE,
 )
+from fuzz.traffic.senses import STANDSTILL_WORDS, put_line, put_standstill
 from fuzz.traffic.steps import (
     NUMBERS_SPENT,
     end,
@@ -104,6 +105,13 @@ def put_wrong_place(memory: Any, desk: Any, train: Any, at: Any) -> None:
 
 
 @compiled
+def put_nowhere(memory: Any, desk: Any, at: Any) -> None:
+    """Write no block: where two persons who err alike say that the train is gone."""
+    for word in range(desk[BLOCK_WORDS]):
+        memory[at + word] = 0
+
+
+@compiled
 def new_life(memory: Any, desk: Any, train: Any) -> Any:
     """The number of the unit's next life; the trace ends before they are spent."""
     life = get1(memory, desk, UNITS_LIFE, train) + 1
@@ -126,8 +134,8 @@ def answers(memory_at: Any, desk_at: Any, train: Any) -> Any:
         return False
     put3(memory, desk, train, epoch, life)
     words = desk[BLOCK_WORDS]
-    after = desk[EVENT] + 3 + words
-    memory[after], memory[after + 1] = 1, healthy
+    put_standstill(memory, desk[EVENT] + 3 + words, 1)
+    put_line(memory, desk[EVENT] + 3 + words + STANDSTILL_WORDS, healthy)
     if strikes(desk, FALSE_STANDSTILL, train):
         put_wrong_place(memory, desk, train, desk[EVENT] + 3)
         return take_beyond(memory, desk, ANSWER)
@@ -156,7 +164,9 @@ def two_persons(memory_at: Any, desk_at: Any, train: Any) -> Any:
     err = strikes(desk, BOTH_ERR, train)
     wrong = err or strikes(desk, WRONG, train)
     put3(memory, desk, train, epoch, life)
-    if wrong:
+    if err:
+        put_nowhere(memory, desk, desk[EVENT] + 3)
+    elif wrong:
         put_wrong_place(memory, desk, train, desk[EVENT] + 3)
     else:
         put_place(memory, desk, train, desk[EVENT] + 3)
@@ -167,9 +177,11 @@ def two_persons(memory_at: Any, desk_at: Any, train: Any) -> Any:
         corrects(memory, desk, train, epoch, life)
     put3(memory, desk, train, epoch, life)
     if err:
+        put_nowhere(memory, desk, desk[EVENT] + 3)
         desk[BY] = BOTH_ERR
         take_beyond(memory, desk, CONFIRM_STATEMENT)
     else:
+        put_place(memory, desk, train, desk[EVENT] + 3)
         take(memory, desk, CONFIRM_STATEMENT)
     put3(memory, desk, train, life, epoch)
     return arrive_with_run(memory, desk, NOTE_STATEMENT_CONFIRMED, train)

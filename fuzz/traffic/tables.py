@@ -21,6 +21,7 @@ from kernel.names import (
     Train,
     UnitLife,
 )
+from kernel.standstill import Standstill, ThroughLine
 from proofs.transitions import TRANSITIONS, event_types
 
 NAMES = tuple(transition.__name__ for transition in TRANSITIONS)
@@ -129,6 +130,8 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Cab: (IS_CAB,),
     bool: (IS_BOOL,),
     int: (IS_MM,),
+    Standstill: (IS_BOOL, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM),
+    ThroughLine: (IS_BOOL, IS_BOOL, IS_BOOL),
 }
 
 
@@ -141,7 +144,7 @@ def word_types(kind: int, block_words: int) -> tuple[int, ...]:
 
 
 MOST_WORDS = 12
-"""An event has no more words; a wider layout's sets of blocks need more of them."""
+"""A telegram brings no more words; a wider layout's sets of blocks need more of them."""
 
 ARRIVALS: tuple[tuple[str, str, tuple[int, ...], int], ...] = (
     ("relay_order", "radio_orders", (1, 2), 0),
@@ -161,7 +164,6 @@ ARRIVALS: tuple[tuple[str, str, tuple[int, ...], int], ...] = (
     ("note_terminal_life", "radio_terminal_lives", (0,), 1),
     ("note_standing", "radio_standings", (0, 1), 2),
     ("note_statement", "radio_statements", (0, 1), 2),
-    ("confirm_statement", "radio_statements", (0, 2), 1),
     ("note_statement_confirmed", "radio_confirmed_statements", (0, 1), 2),
 )
 """How a telegram arrives: the transition, the set it is in, and the words for the set's axes and its bits."""

@@ -6,6 +6,7 @@ from collections import Counter
 from random import Random
 
 from kernel.names import Read, Run, Tag
+from kernel.standstill import ThroughLine
 from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
 from models.simulator.play import Play
@@ -106,21 +107,21 @@ class Drive:
         self.seen["follows"] += followed
         self.must(followed, what)
 
-    def reads_as_tail(self, train: OnRails, tag: Tag) -> bool:
-        """Take a read by the last car's antenna, and tell whether that is the tail: over a broken line not."""
+    def reads_as_tail(self, train: OnRails, tag: Tag) -> ThroughLine:
+        """Take a read by the last car's antenna, and what says whether that is the tail: over a broken line nothing."""
         del tag
-        return not train.standing
+        return ThroughLine(answers=not train.standing, is_intact=True, fits=True)
 
     def tail_reads(self, train: OnRails, run: Run, what: Happening) -> None:
         """The antenna of the last car reads a tag; it need not be the train's tail."""
         assert what.tag is not None
-        healthy = self.reads_as_tail(train, what.tag)
+        line = self.reads_as_tail(train, what.tag)
         site, system = self.play.site, self.play.system
         read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
-        self.must(a_healthy_line_reaches_the_tail(site, system, run, what.car, cab, healthy), what)
+        self.must(a_healthy_line_reaches_the_tail(site, system, run, what.car, cab, line), what)
         self.must(a_missed_tag_is_overdue_before_the_tail_comes(system, run.train), what)
         self.must(a_pair_passed_in_order_proves_the_exit(site, system, run, what.car, read), what)
-        self.play.take("tail_reads", run=run, car=what.car, cab=cab, healthy=healthy, read=read)
+        self.play.take("tail_reads", run=run, car=what.car, cab=cab, line=line, read=read)
 
     def must(self, allowed: bool, what: Happening) -> None:
         """Nature did it; the abstract world must allow it."""

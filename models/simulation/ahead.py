@@ -29,6 +29,14 @@ class Ahead:
     tags_mm: Mapping[Tag, int]
     arrives: Heading
 
+    def bounds_mm(self, block: Block) -> tuple[int, int] | None:
+        """Where a block of the list begins, which is where the one before it ends, and where it ends itself."""
+        if block not in self.ends_mm:
+            return None
+        end_mm = self.ends_mm[block]
+        before = [each for _, each in self.ends_mm.items() if each < end_mm]
+        return max(before, default=self.begins_mm), end_mm
+
 
 def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Point, Position]) -> Ahead:
     """Survey a run whose points lie right, from where the train came into it, or from its front's block on."""

@@ -28,6 +28,7 @@ from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.way import UNKNOWN, Way, between
+from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
@@ -129,10 +130,27 @@ class OnBoard:
             self.from_mm, self.from_at = (place_mm, place_mm), self.place_of_read
         return odometry.is_located(self.motion)
 
-    def tail_reads(self, number: int, through: bool) -> bool:
-        """The tail reads a tag: is it the train's last antenna, by line, spacing and wholeness (T13, P5)."""
+    def tail_reads(self, number: int, answers: bool) -> ThroughLine:
+        """The tail reads a tag: what says whether it is the train's last antenna (T13, P5)."""
         self.spacing = antenna_spacing.note_tail_read(PLAN.spacing, self.spacing, number, self.place_of_read)
-        return through and self.intact and antenna_spacing.is_healthy(self.spacing)
+        return self.line(answers)
+
+    def line(self, answers: bool) -> ThroughLine:
+        """What is known of the way to the tail; ``answers``: its signal comes over the line (T3)."""
+        return ThroughLine(answers, self.intact, antenna_spacing.is_healthy(self.spacing))
+
+    @property
+    def standstill(self) -> Standstill:
+        """What the odometry says of front and speed (P7)."""
+        motion, place = self.motion, self.place
+        return Standstill(
+            known=place.known,
+            front_least_mm=place.least_mm,
+            front_most_mm=place.most_mm,
+            speed_least_mm_s=motion.speed_least_mm_s,
+            speed_most_mm_s=motion.speed_most_mm_s,
+            standstill_mm_s=PLAN.brake.standstill_mm_s,
+        )
 
     # ---- what the unit was told
 

@@ -162,10 +162,8 @@ class Service:
         self.become(Phase.LOST, 10)
 
     def may_answer(self) -> bool:
-        """Whether it stands, whole, with nothing that it still could run under."""
-        vehicle = self.vehicle
-        whole = not vehicle.on_rails.standing and self.line.now_ms >= vehicle.line_broken_until_ms
-        return vehicle.stands and whole and self.phase is Phase.LOST
+        """Whether its driver lets it answer: it has nothing that it still could run under."""
+        return self.phase is Phase.LOST
 
     def _tells(self) -> None:
         vehicle = self.vehicle
@@ -460,16 +458,18 @@ class Service:
     def _arrives(self, run: Run) -> None:
         """It stands in its destination: told, and what was left is reported."""
         self._rests()
-        inside = self._is_inside(self.play.site.layout.destination[run.route])
-        self.play.take("note_stopped", run=run, within_destination=inside)
+        self._tells_that_it_stands(run)
         self.base, self.run = run, None
         messages.retire_what_is_over(self.play, self.train)
         self.become(Phase.STANDS, self.random.randint(*STAYS_S))
 
-    def _is_inside(self, block: Block) -> bool:
-        """Whether the odometry has the front before the end of the destination."""
-        ends = [each.ends_mm[block] for each in self.vehicle.board.lists.values() if block in each.ends_mm]
-        return bool(ends) and self.vehicle.board.motion.front_most_mm <= max(ends)
+    def _tells_that_it_stands(self, run: Run) -> None:
+        """The odometry and the list of the run say whether it stands in the destination (T9)."""
+        board, destination = self.vehicle.board, self.play.site.layout.destination[run.route]
+        bounds_mm = board.lists[run].bounds_mm(destination) if run in board.lists else None
+        if bounds_mm is not None:
+            event = {"at": board.standstill, "begin_mm": bounds_mm[0], "end_mm": bounds_mm[1]}
+            self.play.take("note_stopped", run=run, **event)
 
     # ---- a train that has parted
 

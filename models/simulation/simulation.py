@@ -10,6 +10,7 @@ from typing import Any
 from kernel.link import Party
 from kernel.names import Block, Car, Epoch, Point, Run, Stage, TerminalLife, Train, UnitLife
 from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.standstill import Standstill, ThroughLine
 from models.concrete.drive import NatureRefusedError
 from models.concrete.rails import Piece
 from models.concrete.train import CAR_MM, OnRails
@@ -73,7 +74,7 @@ class Simulation:
         ]
         self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
-        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._held_before)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._sensed, self._held_before)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
         roads = [WaysToRoad(self.rails, road) for road in plan.roads]
@@ -121,6 +122,10 @@ class Simulation:
 
     def _may_answer(self, train: Train) -> bool:
         return self.services[train].may_answer()
+
+    def _sensed(self, train: Train) -> tuple[Standstill, ThroughLine]:
+        vehicle = self.services[train].vehicle
+        return vehicle.board.standstill, vehicle.board.line(vehicle.line_answers(self.line.now_ms))
 
     def _held_before(self, run: Run) -> tuple[int, int] | None:
         return self.services[run.train].held_before(run)

@@ -12,6 +12,7 @@ from typing import Any
 from kernel.centre import Grant
 from kernel.link import Party
 from kernel.names import Block, Epoch, Point, Run, Serial, Stage, Train
+from kernel.standstill import Standstill, ThroughLine
 from models.simulation.links import CENTRE, Links
 from models.simulation.motors import Motors
 from models.simulation.parts import Joined, in_parts
@@ -20,7 +21,9 @@ from models.simulator.messages import NO_ROUTE
 from models.simulator.play import Play
 
 MayAnswer = Callable[[Train], bool]
-"""Whether a train stands still, whole by its line, and is to tell where."""
+"""Whether a train is to tell where it stands."""
+Sensed = Callable[[Train], tuple[Standstill, ThroughLine]]
+"""What odometry, line and the machines on board say of a train's standstill and of the way to its tail."""
 HeldBefore = Callable[[Run], tuple[int, int] | None]
 """Which end the brake of a run's train holds, and where the block ends that the run starts in."""
 
@@ -39,12 +42,13 @@ class Talk:
     """The conversations of every train."""
 
     def __init__(
-        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, held_before: HeldBefore
+        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, sensed: Sensed, held_before: HeldBefore
     ) -> None:
         self.play = play
         self.links = links
         self.motors = motors
         self.may_answer = may_answer
+        self.sensed = sensed
         self.held_before = held_before
         self._offered, self._echoed = Joined(), Joined()
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
@@ -252,9 +256,9 @@ class Talk:
         play = self.play
         if not self.may_answer(train):
             return
-        unit = play.system.units[train]
+        unit, (at, line) = play.system.units[train], self.sensed(train)
         event = {"train": train, "life": type(unit.life)(unit.life + 1), "blocks": where(play, train)}
-        if play.take("answer", **event, epoch=fields["epoch"], at_rest=True, healthy=True):
+        if play.take("answer", **event, epoch=fields["epoch"], at=at, line=line):
             self.with_train(train)
 
     def _is_noted(self, train: Train, fields: Fields) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from random import Random
 
 from kernel.names import Run, Tag, Train
+from kernel.standstill import ThroughLine
 from kernel.unit import Unit
 from models.concrete.drive import Drive
 from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
@@ -59,6 +60,10 @@ class Vehicle:
     def stands(self) -> bool:
         """Whether it is at rest."""
         return self.speed_mm_s == 0.0
+
+    def line_answers(self, now_ms: int) -> bool:
+        """Whether the through line brings the tail's signal: not of a train that has lost cars."""
+        return not self.on_rails.standing and now_ms >= self.line_broken_until_ms
 
     @property
     def settled(self) -> bool:
@@ -200,11 +205,10 @@ class Line(Drive):
         self.head_reads(vehicle.on_rails, what, tag, in_window)
         vehicle.demanded(self.play)
 
-    def reads_as_tail(self, train: OnRails, tag: Tag) -> bool:
-        """Take a read by the last car's antenna; the machines on board say whether that is the train's tail."""
+    def reads_as_tail(self, train: OnRails, tag: Tag) -> ThroughLine:
+        """Take a read by the last car's antenna; what line and machines say of the way to the train's tail."""
         vehicle = self.vehicles[train.name]
-        through = super().reads_as_tail(train, tag) and self.now_ms >= vehicle.line_broken_until_ms
-        return vehicle.board.tail_reads(self.numbers[tag], through)
+        return vehicle.board.tail_reads(self.numbers[tag], vehicle.line_answers(self.now_ms))
 
     def _happens(self, fault: str) -> bool:
         return happens(fault, self.chosen, self.random, self.seen)

@@ -6,6 +6,7 @@ from random import Random
 
 from kernel.names import Point, Route, Run, Serial, Stage, Train, UnitLife
 from models.simulator.play import Play
+from models.simulator.senses import AT_REST, INSIDE, WHOLE
 
 NO_ROUTE = Route("standing")
 
@@ -85,7 +86,7 @@ def report(play: Play, train: Train, random: Random, loss: float) -> None:
 
 def stop(play: Play, run: Run) -> None:
     """The train tells that it stands in its destination, and the overlap is freed."""
-    play.take("note_stopped", run=run, within_destination=True)
+    play.take("note_stopped", run=run, **INSIDE)
     play.take("send_stop", run=run)
     play.take("release_overlap", run=run)
 
@@ -108,7 +109,7 @@ def tell(play: Play, train: Train) -> Run | None:
     play.take("send_challenge", epoch=epoch)
     if train in play.system.track.parted:
         return state(play, train, life)
-    play.take("answer", train=train, epoch=epoch, life=life, blocks=blocks, at_rest=True, healthy=True)
+    play.take("answer", train=train, epoch=epoch, life=life, blocks=blocks, at=AT_REST, line=WHOLE)
     play.take("send_standing", train=train, epoch=epoch)
     run = next_run(play, train, NO_ROUTE)
     if not play.take("note_standing", train=train, life=life, epoch=epoch, run=run):
@@ -124,7 +125,7 @@ def state(play: Play, train: Train, life: UnitLife) -> Run | None:
     play.take("take_over", train=train, epoch=epoch, life=life, blocks=frozenset())
     play.take("correct_statement", train=train, epoch=epoch, life=life, blocks=blocks)
     play.take("note_statement", train=train, life=life, epoch=epoch)
-    play.take("confirm_statement", train=train, epoch=epoch, life=life)
+    play.take("confirm_statement", train=train, epoch=epoch, life=life, blocks=blocks)
     run = next_run(play, train, NO_ROUTE)
     if not play.take("note_statement_confirmed", train=train, life=life, epoch=epoch, run=run):
         return None

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from kernel.names import Block, Cab, Car, Read, Route, Run, Tag, Train
 from models.simulator.play import Play
+from models.simulator.senses import BROKEN, WHOLE
 
 
 @dataclass
@@ -102,6 +103,6 @@ def tail_reads(play: Play, train: OnTrack, run: Run, tag: Tag, healthy: bool) ->
         run=run,
         car=train.rear,
         cab=train.cab(play, train.rear),
-        healthy=healthy,
+        line=WHOLE if healthy else BROKEN,
         read=Read(tag, play.site.records.record[tag]),
     )

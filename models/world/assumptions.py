@@ -8,8 +8,16 @@ from __future__ import annotations
 
 from kernel.centre import NO_BLOCKS
 from kernel.names import Block, Cab, Car, Epoch, Point, Position, Read, Route, Run, Tag, Train, UnitLife
+from kernel.standstill import Standstill, ThroughLine
 from models.world.state import Site, System
-from models.world.truth import came_round, is_genuine, is_last, stands_within
+from models.world.truth import (
+    came_round,
+    is_genuine,
+    is_last,
+    says_it_stands,
+    says_it_stands_between,
+    stands_within,
+)
 
 
 def a_train_obeys_its_authority(site: Site, system: System, run: Run, block: Block) -> bool:
@@ -94,13 +102,19 @@ def a_missed_tag_is_overdue_before_the_tail_comes(system: System, train: Train) 
     return train not in system.track.unread
 
 
-def a_healthy_line_reaches_the_tail(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy: bool) -> bool:
-    """Of the cabs that do not lead, only the one on the last car reads over a healthy line; a parted train has none.
+def a_healthy_line_reaches_the_tail(
+    site: Site, system: System, run: Run, car: Car, cab: Cab, line: ThroughLine
+) -> bool:
+    """Of the cabs that do not lead, only the one on the last car reads while line, split and spacing all say whole.
 
-    The line runs through every coupling, so losing a car breaks it; antenna spacing is checked
-    against the measured length as well (T3, T13).
+    The line runs through every coupling, so losing a car breaks it; accelerations of both ends and the spacing of
+    the antennas are watched as well (T3, T13, P5).
     """
-    return not healthy or system.track.facing.get(run.train) == cab or is_last(site, system, run, car)
+    return (
+        not (line.answers and line.is_intact and line.fits)
+        or system.track.facing.get(run.train) == cab
+        or is_last(site, system, run, car)
+    )
 
 
 def a_head_runs_no_farther_than_its_brake_lets_it(
@@ -121,11 +135,17 @@ def a_head_runs_no_farther_than_its_brake_lets_it(
 
 
 def a_train_within_its_destination_is_not_beyond(
-    site: Site, system: System, run: Run, within_destination: bool
+    site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int
 ) -> bool:
-    """Odometer and tags contain the front: a train said to stand in its destination is not in the overlap."""
-    return not within_destination or (
+    """The range contains the front: a train that stands with it between these two places is there, and not beyond."""
+    return not says_it_stands_between(at, begin_mm, end_mm) or (
         run not in system.track.slipping
+        and run.route in site.layout.destination
+        and any(
+            site.layout.destination[run.route] in system.track.at[car]
+            for car in system.track.at
+            if site.formation.train_of.get(car) == run.train
+        )
         and run.route in site.layout.overlap
         and all(
             block not in system.track.at[car]
@@ -137,17 +157,25 @@ def a_train_within_its_destination_is_not_beyond(
 
 
 def a_located_train_stands_where_it_says(
-    site: Site, system: System, train: Train, blocks: frozenset[Block], at_rest: bool, healthy: bool
+    site: Site, system: System, train: Train, blocks: frozenset[Block], at: Standstill, line: ThroughLine
 ) -> bool:
     """No car of an unbroken train at rest is outside the blocks that the tags at both its ends say."""
-    return not at_rest or not healthy or stands_within(site, system, train, blocks)
+    return not says_it_stands(at) or not (line.answers and line.is_intact) or stands_within(site, system, train, blocks)
 
 
-def two_persons_do_not_err_alike(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
-    """The second person confirms a statement only if no car is outside it and the train is at rest."""
-    return (train, life, epoch) in system.radio.statements and stands_within(
-        site, system, train, system.radio.statements[train, life, epoch]
-    )
+def two_persons_do_not_both_err(
+    site: Site,
+    system: System,
+    train: Train,
+    blocks: frozenset[Block],
+    key: tuple[Train, UnitLife, Epoch],
+    others: frozenset[tuple[Train, UnitLife, Epoch]],
+) -> bool:
+    """Where one of the two persons has erred, the other names no place but one that the train is at rest in.
+
+    ``others``: when the other one has erred.
+    """
+    return key not in others or stands_within(site, system, train, blocks)
 
 
 def detection_is_true(system: System, point: Point, detected: Position) -> bool:

@@ -5,29 +5,30 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel import change_of_ends
-from kernel.authority import may_leave, may_overrun, may_proceed
+from kernel.authority import may_leave, may_proceed
 from kernel.names import Block, Cab, Car, Epoch, Run, Tag, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
     a_train_runs_forward_along_its_run,
     rails_lead,
-    two_persons_do_not_err_alike,
+    two_persons_do_not_both_err,
 )
 from models.world.evidence import unpassed
 from models.world.state import Site, System
+from models.world.truth import stands_within
 
 
 def start_rolling(site: Site, system: System, run: Run) -> System:
-    """A train with authority gathers speed: from now on it may run up to the end that its brake was given.
+    """The brake takes the end of authority that the unit works out from its list: the train may run up to it.
 
-    Without authority the unit holds the brake, so no train begins to roll.  The end is worked out from the list
-    that the unit keeps.
+    Without authority the unit holds the brake, so no train begins to roll.  That the brake does so is proved at the
+    joint (`a_brake_control_does_what_is_assumed_of_it`, `a_train_that_no_run_lets_move_is_braked`).
     """
     if run.train not in system.units or not may_proceed(system.units[run.train], run):
         return system
     tag_list = system.units[run.train].orders[run].tag_list
-    if tag_list is None or tag_list not in site.lists.way or tag_list not in site.lists.overlap:
+    if tag_list is None or tag_list not in site.lists.way:
         return system
     return replace(
         system,
@@ -38,31 +39,35 @@ def start_rolling(site: Site, system: System, run: Run) -> System:
             | frozenset(
                 (run, block)
                 for block in site.lists.way[tag_list]
-                if site.lists.way[tag_list][block] not in site.lists.overlap[tag_list]
-                and may_leave(site.lists, system.units[run.train], run, block)
+                if may_leave(site.lists, system.units[run.train], run, block)
             ),
         ),
     )
 
 
 def overrun(site: Site, system: System, run: Run) -> System:
-    """A train brakes so late that it will slip into its overlap; the overlap is laid out for no more (T9)."""
-    if run.train not in system.units or not may_overrun(system.units[run.train], run):
+    """A train brakes too late and slips into its overlap, which is laid out for no more (T9).
+
+    It comes to its destination under way: a train that has stood there does not.
+    """
+    if run not in system.track.rolling or run in system.track.stood:
         return system
-    tag_list = system.units[run.train].orders[run].tag_list
-    if tag_list is None or tag_list not in site.lists.way or tag_list not in site.lists.overlap:
+    if run.route not in site.layout.way or run.route not in site.layout.overlap:
         return system
     return replace(
         system,
         track=replace(
             system.track,
-            rolling=system.track.rolling | {run},
             slipping=system.track.slipping | {run},
             leavable=system.track.leavable
             | frozenset(
                 (run, block)
-                for block in site.lists.way[tag_list]
-                if may_leave(site.lists, system.units[run.train], run, block)
+                for block in site.layout.way[run.route]
+                if site.layout.way[run.route][block] in site.layout.overlap[run.route]
+                and any(
+                    block in system.track.at[car] and system.track.under.get(car, {}).get(block) == run
+                    for car in system.track.at
+                )
             ),
         ),
     )
@@ -180,11 +185,8 @@ def take_over(
     """The first person isolates a unit at rest, in a new life, and states, rightly or not, where the train is (T8)."""
     if train not in system.units or epoch not in system.radio.challenges or life <= system.units[train].life:
         return system
-    return replace(
-        system,
-        units=system.units | {train: restarted_unit(system.units[train], life)},
-        radio=replace(system.radio, statements=system.radio.statements | {(train, life, epoch): blocks}),
-    )
+    isolated = replace(system, units=system.units | {train: restarted_unit(system.units[train], life)})
+    return with_statement(isolated, site, train, (train, life, epoch), blocks)
 
 
 def correct_statement(
@@ -193,13 +195,41 @@ def correct_statement(
     """The first person states another place; what he stated first may have been taken down by then (T8)."""
     if (train, life, epoch) not in system.radio.statements:
         return system
-    statements = system.radio.statements | {(train, life, epoch): blocks}
-    return replace(system, radio=replace(system.radio, statements=statements))
-
-
-def confirm_statement(site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife) -> System:
-    """The second person looks for himself and confirms the place (T8)."""
-    if not two_persons_do_not_err_alike(site, system, train, life, epoch):
+    if not two_persons_do_not_both_err(site, system, train, blocks, (train, life, epoch), system.track.second_erred):
         return system
-    confirmed = system.radio.confirmed_statements | {(train, life, epoch): system.radio.statements[train, life, epoch]}
-    return replace(system, radio=replace(system.radio, confirmed_statements=confirmed))
+    return with_statement(system, site, train, (train, life, epoch), blocks)
+
+
+def with_statement(
+    system: System, site: Site, train: Train, key: tuple[Train, UnitLife, Epoch], blocks: frozenset[Block]
+) -> System:
+    """The first person has stated a place.  History: whether he has erred."""
+    erred = system.track.first_erred
+    return replace(
+        system,
+        radio=replace(system.radio, statements=system.radio.statements | {key: blocks}),
+        track=replace(system.track, first_erred=erred if stands_within(site, system, train, blocks) else erred | {key}),
+    )
+
+
+def confirm_statement(
+    site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife, blocks: frozenset[Block]
+) -> System:
+    """The second person looks for himself and states, rightly or not, where the train is (T8).
+
+    History: whether he has erred.
+    """
+    if (train, life, epoch) not in system.radio.statements:
+        return system
+    if not two_persons_do_not_both_err(site, system, train, blocks, (train, life, epoch), system.track.first_erred):
+        return system
+    confirmed = system.radio.confirmed_statements | {(train, life, epoch): blocks}
+    erred = system.track.second_erred
+    return replace(
+        system,
+        radio=replace(system.radio, confirmed_statements=confirmed),
+        track=replace(
+            system.track,
+            second_erred=erred if stands_within(site, system, train, blocks) else erred | {(train, life, epoch)},
+        ),
+    )

@@ -7,6 +7,7 @@ from dataclasses import replace
 from kernel import authority, first_loop, second_loop, standing, tail_evidence
 from kernel.names import Block, Cab, Car, Epoch, Read, Run, Tag, TagList, Train, UnitLife
 from kernel.restarts import restart_unit as restarted_unit
+from kernel.standstill import Standstill, ThroughLine
 from kernel.unit import Unit
 from models.world.assumptions import (
     a_head_runs_no_farther_than_its_brake_lets_it,
@@ -20,7 +21,7 @@ from models.world.assumptions import (
 )
 from models.world.evidence import as_written, unpassed
 from models.world.state import Site, System
-from models.world.truth import is_genuine, is_last, the_head_went_on
+from models.world.truth import is_genuine, is_last, says_it_stands_between, the_head_went_on
 
 
 def with_unit(system: System, train: Train, unit: Unit) -> System:
@@ -120,7 +121,7 @@ def window_passes(site: Site, system: System, train: Train) -> System:
     )
 
 
-def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy: bool, read: Read) -> System:
+def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: ThroughLine, read: Read) -> System:
     """The antenna of a cab on ``car`` reads something while the train runs as in ``run`` (T2, T6).
 
     History: what the last antenna has passed, and what the train has gone out of.
@@ -129,7 +130,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
         return system
     if site.formation.train_of.get(car) != run.train or system.track.facing.get(run.train) == cab:
         return system
-    if not a_healthy_line_reaches_the_tail(site, system, run, car, cab, healthy):
+    if not a_healthy_line_reaches_the_tail(site, system, run, car, cab, line):
         return system
     if not a_missed_tag_is_overdue_before_the_tail_comes(system, run.train):
         return system
@@ -137,11 +138,13 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
         return system
     before = system.units[run.train]
     elsewhere = (
-        healthy
+        line.answers
+        and line.is_intact
+        and line.fits
         and before.leading is not None
         and (read.tag not in site.plan.tag_in or site.plan.tag_in[read.tag] not in before.occupied)
     )
-    unit = tail_evidence.note_tail_read(site.plan, site.lists, before, cab, healthy, read)
+    unit = tail_evidence.note_tail_read(site.plan, site.lists, before, cab, line, read)
     counts = is_last(site, system, run, car) and is_genuine(site, read)
     behind = system.track.behind | frozenset(
         (other, block)
@@ -173,13 +176,18 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, healthy
     )
 
 
-def note_stopped(site: Site, system: System, run: Run, within_destination: bool) -> System:
-    """The odometer says whether the train stands in its destination (T9)."""
+def note_stopped(site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> System:
+    """The odometry has a range of front and speed, and the list says where the run's destination is (T9).
+
+    History: whether the train has stood in it.
+    """
     if run.train not in system.units:
         return system
-    if not a_train_within_its_destination_is_not_beyond(site, system, run, within_destination):
+    if not a_train_within_its_destination_is_not_beyond(site, system, run, at, begin_mm, end_mm):
         return system
-    return with_unit(system, run.train, authority.note_stopped(system.units[run.train], run, within_destination))
+    unit = authority.note_stopped(system.units[run.train], run, at, begin_mm, end_mm)
+    stood = system.track.stood | {run} if says_it_stands_between(at, begin_mm, end_mm) else system.track.stood
+    return replace(with_unit(system, run.train, unit), track=replace(system.track, stood=stood))
 
 
 def answer(
@@ -189,15 +197,15 @@ def answer(
     epoch: Epoch,
     life: UnitLife,
     blocks: frozenset[Block],
-    at_rest: bool,
-    healthy: bool,
+    at: Standstill,
+    line: ThroughLine,
 ) -> System:
     """A challenge arrives (T8)."""
     if epoch not in system.radio.challenges or train not in system.units:
         return system
-    if not a_located_train_stands_where_it_says(site, system, train, blocks, at_rest, healthy):
+    if not a_located_train_stands_where_it_says(site, system, train, blocks, at, line):
         return system
-    return with_unit(system, train, standing.answer(system.units[train], epoch, life, blocks, at_rest, healthy))
+    return with_unit(system, train, standing.answer(system.units[train], epoch, life, blocks, at, line))
 
 
 def restart_unit(site: Site, system: System, train: Train, life: UnitLife) -> System:

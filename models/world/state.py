@@ -113,7 +113,10 @@ class Track:
     ``behind``: history: for each run the blocks that its tail has been seen to leave, by what is written in their tags.
     ``rolling``: runs in which the train can no longer stop before the blocks they cover.
     ``slipping``: runs in which the train can no longer stop inside the destination.
+    ``stood``: history: runs under which the train has stood in its destination.
     ``leavable``: the blocks of a run that the train may get out of before its brake stops it.
+    ``first_erred``, ``second_erred``: history: the lives and epochs in which the first, or the second, of the two
+    persons of the supervised procedure has named a place that the train was not in, or not at rest in.
     ``facing``: the cab that leads each train, as its driver has chosen.
     ``last_read``: the tag that each train's head has read last since the ends were changed.
     ``passed``: the tags that a train's last antenna has passed since the ends were changed and
@@ -132,7 +135,10 @@ class Track:
     behind: frozenset[tuple[Run, Block]]
     rolling: frozenset[Run]
     slipping: frozenset[Run]
+    stood: frozenset[Run]
     leavable: frozenset[tuple[Run, Block]]
+    first_erred: frozenset[tuple[Train, UnitLife, Epoch]]
+    second_erred: frozenset[tuple[Train, UnitLife, Epoch]]
     facing: Map[Train, Cab]
     last_read: Map[Train, Tag]
     passed: frozenset[tuple[Train, Tag]]

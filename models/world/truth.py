@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kernel.names import Block, Car, Read, Run, Train
+from kernel.standstill import Standstill
 from models.world.state import Site, System
 
 
@@ -34,6 +35,16 @@ def stands_within(site: Site, system: System, train: Train, blocks: frozenset[Bl
         and all(run.train != train for run in system.track.rolling)
         and all(run.train != train for run in system.track.slipping)
     )
+
+
+def says_it_stands(at: Standstill) -> bool:
+    """The odometry claims a range of speed that is a standstill."""
+    return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
+
+
+def says_it_stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
+    """And one of the front that is between two places."""
+    return says_it_stands(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm
 
 
 def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:

@@ -202,6 +202,7 @@ def what_has_stopped_does_not_slip(site: Site, system: System) -> bool:
         or run not in system.radio.offers
         or (
             run not in system.track.slipping
+            and run in system.track.stood
             and all(
                 block not in site.layout.overlap[run.route] or block not in system.track.at.get(car, frozenset())
                 for car in system.track.under
@@ -213,6 +214,7 @@ def what_has_stopped_does_not_slip(site: Site, system: System) -> bool:
         for run, order in system.units[train].orders.items()
     ) and all(
         run not in system.track.slipping
+        and run in system.track.stood
         and all(
             block not in site.layout.overlap[run.route] or block not in system.track.at.get(car, frozenset())
             for car in system.track.under

@@ -6,7 +6,7 @@ from kernel.names import Stage
 from models.world.evidence import as_written
 from models.world.state import Site, System
 from models.world.truth import stands_within
-from proofs.invariants.vocabulary import genuine, reaches, told
+from proofs.invariants.vocabulary import could_be_taken, genuine, reaches, told
 
 
 def a_train_rolls_only_under_a_permit(site: Site, system: System) -> bool:
@@ -131,20 +131,28 @@ def a_held_block_is_clear_of_fouling(site: Site, system: System) -> bool:
 
 def a_reported_block_is_left_by_all_cars(site: Site, system: System) -> bool:
     """Where the tail has read the genuine pair of a block, no car is that came there under this run (T2, T6)."""
-    return all(
-        not genuine(site, block, left, entered)
-        or block not in system.track.at.get(car, frozenset())
-        or system.track.under.get(car, {}).get(block) != run
-        for run, block, left, entered in system.radio.tail_reports
-        for car in system.track.at
-    ) and all(
-        not genuine(site, block, evidence.left, evidence.entered)
-        or block not in system.track.at.get(car, frozenset())
-        or system.track.under.get(car, {}).get(block) != run
-        for train in system.units
-        for run, order in system.units[train].orders.items()
-        for block, evidence in order.left.items()
-        for car in system.track.at
+    return (
+        all(
+            not genuine(site, block, left, entered)
+            or block not in system.track.at.get(car, frozenset())
+            or system.track.under.get(car, {}).get(block) != run
+            for run, block, left, entered in system.radio.tail_reports
+            for car in system.track.at
+        )
+        and all(
+            not genuine(site, block, evidence.left, evidence.entered)
+            or block not in system.track.at.get(car, frozenset())
+            or system.track.under.get(car, {}).get(block) != run
+            for train in system.units
+            for run, order in system.units[train].orders.items()
+            for block, evidence in order.left.items()
+            for car in system.track.at
+        )
+        and all(
+            block not in system.track.at.get(car, frozenset()) or system.track.under.get(car, {}).get(block) != run
+            for run, block in system.track.behind
+            for car in system.track.at
+        )
     )
 
 
@@ -299,15 +307,39 @@ def a_train_that_told_stands_there(site: Site, system: System) -> bool:
         stands_within(site, system, train, blocks)
         for (train, life, epoch), blocks in system.radio.standings.items()
         if told(system, train, life, epoch)
-    ) and all(
-        stands_within(site, system, train, blocks)
-        for (train, life, epoch), blocks in system.radio.confirmed_statements.items()
-        if told(system, train, life, epoch)
+    )
+
+
+def one_of_two_persons_is_right(site: Site, system: System) -> bool:
+    """Until a train taken over is accounted for, one of the two has named only places that it is at rest in (T8)."""
+    return (
+        all(
+            (train, life, epoch) in system.track.first_erred or stands_within(site, system, train, blocks)
+            for (train, life, epoch), blocks in system.radio.statements.items()
+            if could_be_taken(system, train, life, epoch)
+        )
+        and all(
+            (train, said.life, system.centre.epoch) in system.radio.statements
+            and (
+                (train, said.life, system.centre.epoch) in system.track.first_erred
+                or not could_be_taken(system, train, said.life, system.centre.epoch)
+                or stands_within(site, system, train, said.blocks)
+            )
+            for train, said in system.centre.statements.items()
+        )
+        and all(
+            (train, life, epoch) in system.track.second_erred or stands_within(site, system, train, blocks)
+            for (train, life, epoch), blocks in system.radio.confirmed_statements.items()
+            if could_be_taken(system, train, life, epoch)
+        )
+        and all(key not in system.track.second_erred for key in system.track.first_erred)
+        and all(key in system.radio.statements for key in system.track.first_erred)
+        and all(key in system.radio.statements for key in system.track.second_erred)
     )
 
 
 def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
-    """A unit that answered this epoch and was not yet taken at its word is at rest where it said, offered nothing (T8)."""
+    """A unit that answered this epoch and was not yet taken at its word rests where it said, offered nothing (T8)."""
     return all(
         unit.answered != system.centre.epoch
         or (train in system.centre.accounted and unit.life <= system.centre.accounted[train])

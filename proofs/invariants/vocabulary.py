@@ -36,7 +36,12 @@ def reaches(site: Site, system: System, run: Run, block: Block) -> bool:
                 and (could_proceed(system, run) or run in system.track.rolling)
             )
             or (
-                block in site.layout.overlap[run.route] and (could_overrun(system, run) or run in system.track.slipping)
+                block in site.layout.overlap[run.route]
+                and (
+                    could_overrun(system, run)
+                    or run in system.track.slipping
+                    or (run in system.track.rolling and run not in system.track.stood)
+                )
             )
         )
     )
@@ -92,12 +97,12 @@ def genuine(site: Site, block: Block, left: Read, entered: Read) -> bool:
 
 def told(system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
     """The word is in the air that this train stands somewhere in this life, and the centre could still take it."""
-    known = system.centre.accounted.get(train)
-    return (
-        epoch == system.centre.epoch
-        and (known is None or known < life)
-        and (
-            (train, life, epoch) in system.radio.standings
-            or ((train, life, epoch) in system.radio.confirmed_statements)
-        )
+    return could_be_taken(system, train, life, epoch) and (
+        (train, life, epoch) in system.radio.standings or (train, life, epoch) in system.radio.confirmed_statements
     )
+
+
+def could_be_taken(system: System, train: Train, life: UnitLife, epoch: Epoch) -> bool:
+    """The centre is in this epoch, and has not accounted for the train in this life or a later one."""
+    known = system.centre.accounted.get(train)
+    return epoch == system.centre.epoch and (known is None or known < life)

@@ -216,7 +216,7 @@ def both_persons_speak_of_one_life(steps: Steps) -> Scenario:
     for stated in (life, again):
         scenario.does("take_over", train=T1, epoch=epoch, life=stated, blocks=frozenset({WEST}))
     scenario.does("note_statement", train=T1, epoch=epoch, life=life)
-    scenario.does("confirm_statement", train=T1, epoch=epoch, life=again)
+    scenario.does("confirm_statement", train=T1, epoch=epoch, life=again, blocks=frozenset({WEST}))
     run = telling.next_run(scenario, T1, NO_ROUTE, again)
     event = {"train": T1, "epoch": epoch, "life": again, "run": run}
     scenario.refuses("note_statement_confirmed", Refusal.NO_STATEMENT, **event)

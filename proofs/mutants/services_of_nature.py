@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLife
+from models.simulator.senses import BROKEN
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import came, went
@@ -112,9 +113,9 @@ def an_antenna_is_on_its_own_car_of_its_own_train(steps: Steps) -> Scenario:
     cab = scenario.site.formation.cab
     event = running.tail_read(scenario, run, running.pair(scenario.site.layout, WEST, THROAT)[0])
     scenario.refuses("tail_reads", **event | {"cab": cab[B1]})
-    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "healthy": False, "run": run})
+    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "line": BROKEN, "run": run})
     scenario.does("tail_reads", **event)
-    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "healthy": False})
+    scenario.refuses("tail_reads", **event | {"car": B1, "cab": cab[B1], "line": BROKEN})
     return scenario
 
 
@@ -323,4 +324,4 @@ def _reads_a_pair_unbound(scenario: Scenario, run: Run, car: Car) -> None:
         half = replace(scenario.system.units[T1], tail_read=Read(STRAY, Record("foreign")))
         scenario.system = replace(scenario.system, units=scenario.system.units | {T1: half})
         read = running.genuine(scenario, tag)
-        scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, healthy=False, read=read, **event)
+        scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, line=BROKEN, read=read, **event)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Read, Record, Tag, UnitLife
+from kernel.names import Read, Record, Serial, Tag, UnitLife
 from kernel.refusal import Refusal
+from models.simulator.senses import BROKEN, INSIDE
 from proofs.mutants.services import standing
 from proofs.witnesses import restarts, running, setting, telling
 from proofs.witnesses.changes import came
@@ -110,7 +111,7 @@ def a_broken_line_forgets_the_half_pair(steps: Steps) -> Scenario:
     first, second = running.pair(scenario.site.layout, WEST, THROAT)
     running.tail_reads_first(scenario, run, first)
     scenario.does("part", train=T1)
-    event = running.tail_read(scenario, run, second) | {"healthy": False}
+    event = running.tail_read(scenario, run, second) | {"line": BROKEN}
     scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, **event)
     return scenario
 
@@ -195,6 +196,24 @@ def a_train_slips_on_when_its_unit_restarts(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_run_that_a_later_one_has_overtaken_does_not_begin(steps: Steps) -> Scenario:
+    """Runs are begun in the order of their grant: what the unit holds of the way of two runs rests on it (T2, T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    order = scenario.system.units[T1].orders[run]
+    begun = {run._replace(serial=Serial(run.serial + 1)): replace(order, begun=True)}
+    unit = replace(scenario.system.units[T1], orders=scenario.system.units[T1].orders | begun)
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: unit})
+    scenario.refuses("start_rolling", run=run)
+    first = scenario.site.layout.first_tag[WEST_TO_ONE]
+    after = scenario.steps["head_reads"](
+        scenario.site, scenario.system, train=T1, cab=running.head_cab(scenario, run), tag=first, in_window=True
+    )
+    scenario.must(not after.units[T1].loop_open, "the tag is the next one of the later run")
+    scenario.must(after.units[T1].orders[run] == order, "it is not that of the older one")
+    return scenario
+
+
 def a_run_that_has_begun_stays_begun(steps: Steps) -> Scenario:
     """Where a route meets its own first tag again, the run is not taken for one that has not begun (T5, T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
@@ -255,9 +274,10 @@ def another_train_says_nothing_of_where_this_one_stops(steps: Steps) -> Scenario
     """Nature lets a train stand in its destination whoever is beyond it (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST, TWO))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.run_through(scenario, run, WEST, THROAT, ONE)
     track = scenario.system.track
     beyond = replace(scenario.system, track=replace(track, at=track.at | {B1: frozenset({OUTLET})}))
-    after = scenario.steps["note_stopped"](scenario.site, beyond, run=run, within_destination=True)
+    after = scenario.steps["note_stopped"](scenario.site, beyond, run=run, **INSIDE)
     scenario.must(after.units[T1].orders[run].stopped, "the train has told that it stopped")
     return scenario
 
@@ -277,7 +297,7 @@ def two_procedures_are_open_at_once(steps: Steps) -> Scenario:
         scenario.does("take_over", blocks=frozenset({block}), **word)
         scenario.does("note_statement", **word)
         said = {"radio": {"confirmed_statements": {(train, life, epoch): frozenset({block})}}}
-        scenario.does("confirm_statement", said, **word)
+        scenario.does("confirm_statement", said, **word, blocks=frozenset({block}))
     scenario.must(set(scenario.system.centre.statements) == {T1, T2}, "both statements are noted")
     return scenario
 
@@ -293,13 +313,15 @@ def two_trains_at_once(steps: Steps) -> Scenario:
         setting.return_it(scenario, run)
     third = setting.set_route(scenario, T1, WEST_TO_TWO, runs[T1])
     fourth = setting.set_route(scenario, T2, EAST_TO_ONE, runs[T2])
-    for run in (third, fourth):
+    for run, through in ((third, (WEST, THROAT, TWO)), (fourth, (EAST, OUTLET, ONE))):
+        running.roll(scenario, run)
+        running.pass_through(scenario, run, *through)
         running.slip(scenario, run)
         scenario.does("part", {"track": {"parted": came(run.train)}}, train=run.train)
     for run in (third, fourth):
         scenario.does("come_to_rest", run=run)
     for run in (third, fourth):
-        scenario.does("note_stopped", run=run, within_destination=True)
+        scenario.does("note_stopped", run=run, **INSIDE)
         scenario.does("send_stop", {"radio": {"stops": came(run)}}, run=run)
     return scenario
 

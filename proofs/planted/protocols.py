@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from kernel import release, restarts, tail_evidence, terminal
 from kernel.names import Block, Car, Epoch, Read, Record, Run, Train
+from models.simulator.senses import BROKEN, INSIDE
 from proofs.lift.sources import Code
 from proofs.planted import plausible, weakened
 from proofs.planted.fault import Fault
@@ -98,7 +99,7 @@ def _frees_on_head_evidence(player: Player) -> None:
     running.head_passes(player, run, THROAT, ONE)
     running.enters(player, run, A1, THROAT, ONE)
     running.rest(player, run)
-    player.does("note_stopped", run=run, within_destination=True)
+    player.does("note_stopped", run=run, **INSIDE)
     player.does("send_stop", run=run)
     player.does("release_overlap", run=run)
     player.does("request", run=telling.next_run(player, T2, TWO_TO_WEST), base=_standing(player))
@@ -150,7 +151,7 @@ def _reads_elsewhere_than_at_the_tail(player: Player) -> None:
         reads = [running.genuine(player, tag) for tag in tags]
         for read in reads:
             cab = player.site.formation.cab[BETWEEN]
-            event = {"run": run, "car": BETWEEN, "cab": cab, "healthy": False, "read": read}
+            event = {"run": run, "car": BETWEEN, "cab": cab, "line": BROKEN, "read": read}
             player.tries("tail_reads", **event)
         for held_for in (run, standing[T1]) if block == WEST else (run,):
             report = {"run": held_for, "block": block, "left": reads[0], "entered": reads[1]}

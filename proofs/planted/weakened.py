@@ -12,6 +12,7 @@ from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
 from kernel.route_setting import conflict
+from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists, TagPlan
 from kernel.tail_evidence import has_been_in
 from kernel.terminal import Terminal
@@ -86,7 +87,7 @@ def acknowledges_at_once(unit: Unit, run: Run) -> bool:
     return order is not None and order.recalled and not order.begun
 
 
-def any_antenna(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def any_antenna(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, line: ThroughLine, read: Read) -> Unit:
     """Count the reads of every antenna, the head's too, over every line."""
     before = unit.tail_read
     if before is None or unit.loop_open or plan.partner.get(before.tag) != read.tag:
@@ -107,7 +108,9 @@ def any_antenna(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: b
     )
 
 
-def tail_over_a_broken_line(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, healthy: bool, read: Read) -> Unit:
+def tail_over_a_broken_line(
+    plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, line: ThroughLine, read: Read
+) -> Unit:
     """Count the reads of the cabs that do not lead even when the through line does not reach the tail."""
     if unit.leading is None or unit.leading == cab:
         return unit
@@ -173,7 +176,7 @@ def all_at_the_first_report(
     )
 
 
-def stopped_wherever_it_is(unit: Unit, run: Run, within_destination: bool) -> Unit:
+def stopped_wherever_it_is(unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
     """Tell that the train has stopped though it can still slip."""
     order = unit.orders.get(run)
     if order is None or not order.permitted or order.given_back:

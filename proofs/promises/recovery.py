@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from kernel.names import Block, Epoch, Point, Run, Train, UnitLife
 from kernel.recovery import train_missing
+from kernel.standstill import Standstill, ThroughLine
 from models.world import at_the_centre, on_board, radio
 from models.world.state import Site, System
-from models.world.truth import stands_within
+from models.world.truth import says_it_stands, stands_within
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import lives
 
@@ -33,12 +34,19 @@ def it_can_answer(
     train: Train,
     life: UnitLife,
     blocks: frozenset[Block],
-    at_rest: bool,
-    healthy: bool,
+    at: Standstill,
+    line: ThroughLine,
 ) -> bool:
     """The train is at rest and whole, knows where it is, and begins a new life."""
     unit = system.units.get(train)
-    return at_rest and healthy and unit is not None and unit.life < life and stands_within(site, system, train, blocks)
+    return (
+        says_it_stands(at)
+        and line.answers
+        and line.is_intact
+        and unit is not None
+        and unit.life < life
+        and stands_within(site, system, train, blocks)
+    )
 
 
 def a_train_that_answered_is_accounted_for(

@@ -290,7 +290,7 @@ def two_persons_who_name_two_places_account_for_nothing(scenario: Scenario, line
     event = {"train": T1, "epoch": epoch, "life": life}
     corrected = {"radio": {"statements": {(T1, life, epoch): frozenset({there[0]})}}}
     scenario.does("correct_statement", corrected, blocks=frozenset({there[0]}), **event)
-    scenario.does("confirm_statement", **event)
+    scenario.does("confirm_statement", **event, blocks=frozenset({there[0]}))
     run = next_run(scenario, T1, NO_ROUTE, life)
     scenario.refuses("note_statement_confirmed", Refusal.STATEMENTS_DIFFER, run=run, **event)
     holds(scenario, there[0], standing)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from kernel.names import Epoch, Route, Serial, Train, UnitLife
 from kernel.refusal import Refusal
+from models.simulator.senses import AT_REST, BROKEN, ROLLING, WHOLE
 from proofs.witnesses.running import reported, run_through
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import prove_all, reserve, set_route
@@ -150,7 +151,7 @@ def a_train_may_name_more_than_it_is_in(steps: Steps) -> Scenario:
     for more, why in ((THROAT, Refusal.POINT_BEING_LAID), (WEST, Refusal.BLOCK_HELD_FOR_ANOTHER), (YARD_EAST, None)):
         life = UnitLife(scenario.system.units[T2].life + 2)
         scenario.does("restart_unit", train=T2, life=UnitLife(life - 1))
-        event = {"train": T2, "epoch": epoch, "life": life, "at_rest": True, "healthy": True}
+        event = {"train": T2, "epoch": epoch, "life": life, "at": AT_REST, "line": WHOLE}
         scenario.does("answer", **event, blocks=beside | {more})
         scenario.does("send_standing", train=T2, epoch=epoch)
         word = {"train": T2, "life": life, "epoch": epoch, "run": next_run(scenario, T2, NO_ROUTE)}
@@ -168,12 +169,12 @@ def an_answer_is_given_once_and_at_rest(steps: Steps) -> Scenario:
     """A unit answers a challenge that was sent, at rest, over a healthy line, and only once an epoch (T8)."""
     scenario = opened(steps, FACING_EAST)
     epoch, life, there = scenario.system.centre.epoch, UnitLife(2), frozenset({WEST})
-    event = {"train": T1, "epoch": epoch, "life": life, "blocks": there, "at_rest": True, "healthy": True}
+    event = {"train": T1, "epoch": epoch, "life": life, "blocks": there, "at": AT_REST, "line": WHOLE}
     scenario.refuses("answer", **event)
     scenario.refuses("send_challenge", epoch=Epoch(epoch + 1))
     scenario.does("send_challenge", epoch=epoch)
     scenario.refuses("send_standing", train=T1, epoch=epoch)
-    for wrong in ({"at_rest": False}, {"healthy": False}, {"blocks": frozenset({ONE})}, {"life": UnitLife(1)}):
+    for wrong in ({"at": ROLLING}, {"line": BROKEN}, {"blocks": frozenset({ONE})}, {"life": UnitLife(1)}):
         scenario.refuses("answer", **event | wrong)
     scenario.does("answer", **event)
     scenario.refuses("answer", **event | {"life": UnitLife(3)})

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kernel.centre import Statement
 from kernel.names import Block, Cause, Epoch, Run, Stage, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.restarts import restart_unit
+from models.simulator.senses import INSIDE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.running import (
     crosses,
@@ -199,7 +202,7 @@ def _goes_on(scenario: Scenario, stands: Run) -> None:
     report(scenario, stands, WEST, THROAT)
     for held in (stands, onward):
         report(scenario, held, THROAT, ONE)
-    scenario.does("note_stopped", run=onward, within_destination=True)
+    scenario.does("note_stopped", run=onward, **INSIDE)
     scenario.does("send_stop", run=onward)
     scenario.does("release_overlap", run=onward)
     retire(scenario, stands)
@@ -275,12 +278,12 @@ def two_persons_release_a_dead_train(steps: Steps) -> Scenario:
     life, epoch = UnitLife(scenario.system.units[T1].life + 1), scenario.system.centre.epoch
     stands = next_run(scenario, T1, NO_ROUTE, life)
     state(scenario, life, epoch, frozenset({THROAT}))
-    scenario.refuses("confirm_statement", train=T1, epoch=epoch, life=life)
+    scenario.refuses("confirm_statement", train=T1, epoch=epoch, life=life, blocks=frozenset({THROAT}))
     again = UnitLife(life + 1)
     state(scenario, again, epoch, blocks_of(scenario, T1))
     wrong = next_run(scenario, T1, NO_ROUTE, life)
     confirmed = {"radio": {"confirmed_statements": {(T1, again, epoch): blocks_of(scenario, T1)}}}
-    scenario.does("confirm_statement", confirmed, train=T1, epoch=epoch, life=again)
+    scenario.does("confirm_statement", confirmed, train=T1, epoch=epoch, life=again, blocks=blocks_of(scenario, T1))
     word = {"train": T1, "life": again, "epoch": epoch}
     scenario.refuses("note_statement_confirmed", Refusal.WRONG_LIFE, run=wrong, **word)
     stands = next_run(scenario, T1, NO_ROUTE, again)
@@ -297,10 +300,12 @@ def state(scenario: Scenario, life: UnitLife, epoch: Epoch, blocks: frozenset[Bl
     """The first person isolates the first train's unit and states where it is; the centre notes it."""
     unit = scenario.system.units[T1]
     reborn = restart_unit(unit, life)
-    effect: Changes = {
+    effect: dict[str, Any] = {
         "units": {T1: reborn if not unit.orders else {**_fields(reborn), "orders": dict.fromkeys(unit.orders, GONE)}},
         "radio": {"statements": {(T1, life, epoch): blocks}},
     }
+    if not blocks_of(scenario, T1) <= blocks:
+        effect |= {"track": {"first_erred": came((T1, life, epoch))}}
     scenario.does("take_over", effect, train=T1, epoch=epoch, life=life, blocks=blocks)
     noted = {"centre": {"statements": {T1: Statement(life, blocks)}}}
     scenario.does("note_statement", noted, train=T1, life=life, epoch=epoch)
@@ -318,7 +323,7 @@ def a_statement_waits_for_the_procedure(steps: Steps) -> Scenario:
     event = {"train": T1, "epoch": epoch, "life": life}
     scenario.does("take_over", blocks=frozenset({WEST}), **event)
     scenario.refuses("note_statement", **event)
-    scenario.does("confirm_statement", **event)
+    scenario.does("confirm_statement", **event, blocks=frozenset({WEST}))
     run = next_run(scenario, T1, NO_ROUTE, life)
     scenario.refuses("note_statement_confirmed", Refusal.PROCEDURE_NOT_OPEN, run=run, **event)
     scenario.does("open_procedure", {"centre": {"supervised": came(T1)}}, train=T1)
@@ -341,10 +346,30 @@ def two_persons_must_name_the_same_place(steps: Steps) -> Scenario:
     event = {"train": T1, "epoch": epoch, "life": life}
     corrected = {"radio": {"statements": {(T1, life, epoch): frozenset({WEST})}}}
     scenario.does("correct_statement", corrected, blocks=frozenset({WEST}), **event)
-    scenario.does("confirm_statement", **event)
+    scenario.does("confirm_statement", **event, blocks=frozenset({WEST}))
     run = next_run(scenario, T1, NO_ROUTE, life)
     scenario.refuses("note_statement_confirmed", Refusal.STATEMENTS_DIFFER, run=run, **event)
     scenario.does("note_statement", **event)
+    scenario.does("note_statement_confirmed", run=run, **event)
+    holds(scenario, WEST, run)
+    return scenario
+
+
+def a_second_person_who_errs_accounts_for_nothing(steps: Steps) -> Scenario:
+    """The first person is right, the second names another place: nothing is freed, until he has looked again (T8)."""
+    scenario, runs = recovered(steps, FACING_EAST)
+    life, epoch, there = UnitLife(3), scenario.system.centre.epoch, frozenset({WEST})
+    scenario.does("open_procedure", {"centre": {"supervised": came(T1)}}, train=T1)
+    state(scenario, life, epoch, there)
+    event = {"train": T1, "epoch": epoch, "life": life}
+    wrong, key = frozenset({THROAT}), (T1, life, epoch)
+    erred = {"radio": {"confirmed_statements": {key: wrong}}, "track": {"second_erred": came(key)}}
+    scenario.does("confirm_statement", erred, blocks=wrong, **event)
+    run = next_run(scenario, T1, NO_ROUTE, life)
+    scenario.refuses("note_statement_confirmed", Refusal.STATEMENTS_DIFFER, run=run, **event)
+    scenario.refuses("correct_statement", blocks=wrong, **event)
+    holds(scenario, WEST, runs[T1])
+    scenario.does("confirm_statement", {"radio": {"confirmed_statements": {key: there}}}, blocks=there, **event)
     scenario.does("note_statement_confirmed", run=run, **event)
     holds(scenario, WEST, run)
     return scenario

@@ -9,6 +9,7 @@ from typing import Any
 from kernel.layout import Layout
 from kernel.names import Block, Cab, Car, Cause, Point, Read, Route, Run, Stage, Tag, Train
 from kernel.unit import Evidence, Order
+from models.simulator.senses import INSIDE, WHOLE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
 from proofs.witnesses.telling import blocks_of
@@ -37,9 +38,12 @@ def roll(scenario: Scenario, run: Run) -> None:
 
 
 def slip(scenario: Scenario, run: Run) -> None:
-    """The train brakes so late that it will slip: what it may leave for its overlap counts as well."""
-    leavable = [(run, block) for block in _way_on(scenario, run)]
-    effect = {"track": {"rolling": came(run), "slipping": came(run), "leavable": came(*leavable)}}
+    """The train comes into its destination and brakes so late that it will slip: it may leave it for its overlap."""
+    layout = scenario.site.layout
+    last = layout.destination[run.route]
+    effect: dict[str, Any] = {"track": {"slipping": came(run)}}
+    if layout.way[run.route].get(last) in layout.overlap[run.route]:
+        effect["track"]["leavable"] = came((run, last))
     scenario.does("overrun", effect, run=run)
 
 
@@ -242,7 +246,7 @@ def tail_read(scenario: Scenario, run: Run, tag: Tag) -> dict[str, Any]:
     """The event that the tail antenna, on the last car, reads a tag as it was laid."""
     last = scenario.site.formation.last[run]
     cab, read = scenario.site.formation.cab[last], genuine(scenario, tag)
-    return {"run": run, "car": last, "cab": cab, "healthy": True, "read": read}
+    return {"run": run, "car": last, "cab": cab, "line": WHOLE, "read": read}
 
 
 def head_cab(scenario: Scenario, run: Run) -> Cab:
@@ -282,8 +286,8 @@ def released(scenario: Scenario, run: Run, block: Block) -> Changes:
 def stop(scenario: Scenario, run: Run) -> None:
     """The train tells that it stands in its destination, and the overlap is freed (T9)."""
     layout = scenario.site.layout
-    effect = {"units": {run.train: {"orders": {run: {"stopped": True}}}}}
-    scenario.does("note_stopped", effect, run=run, within_destination=True)
+    effect = {"units": {run.train: {"orders": {run: {"stopped": True}}}}, "track": {"stood": came(run)}}
+    scenario.does("note_stopped", effect, run=run, **INSIDE)
     scenario.does("send_stop", {"radio": {"stops": came(run)}}, run=run)
     overlap = layout.overlap[run.route]
     points = [point for point, place in layout.released_with[run.route].items() if place in overlap]

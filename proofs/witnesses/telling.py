@@ -10,6 +10,7 @@ from kernel.centre import Grant
 from kernel.names import Block, Car, Cause, Point, Position, Route, Run, Serial, Stage, Train, UnitLife
 from kernel.restarts import restart_unit
 from kernel.unit import Order
+from models.simulator.senses import AT_REST, WHOLE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import B1, NO_ROUTE, PASSING_PLACE, PLATFORM_2, YARD_EAST, site_of, standing_at
@@ -70,7 +71,7 @@ def answer(scenario: Scenario, train: Train) -> UnitLife:
     life = UnitLife(scenario.system.units[train].life + 1)
     reborn = replace(restart_unit(scenario.system.units[train], life), answered=epoch, standing_in=blocks)
     reborn = replace(reborn, leading=scenario.system.units[train].leading, occupied=blocks)
-    event = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at_rest": True, "healthy": True}
+    event = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at": AT_REST, "line": WHOLE}
     scenario.does("answer", {"units": {train: reborn}}, **event)
     told = {"radio": {"standings": {(train, life, epoch): blocks}}}
     scenario.does("send_standing", told, train=train, epoch=epoch)

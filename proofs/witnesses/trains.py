@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.names import Read, Record, Run, Stage, Tag
 from kernel.refusal import Refusal
+from models.simulator.senses import BROKEN, INSIDE, ON_THE_WAY
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
     crosses,
@@ -157,7 +158,7 @@ def the_overlap_is_freed_at_a_standstill(steps: Steps) -> Scenario:
     """Once a train tells that it stands in its destination, its overlap is free for another, closed to it (T9)."""
     scenario, runs = recovered(steps, {**FACING_EAST, B1: frozenset({EAST})})
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    scenario.refuses("note_stopped", run=run, within_destination=False)
+    scenario.refuses("note_stopped", run=run, **ON_THE_WAY)
     run_through(scenario, run, WEST, THROAT, ONE)
     scenario.refuses("release_overlap", run=run)
     scenario.refuses("send_stop", run=run)
@@ -181,9 +182,9 @@ def a_train_slips_into_its_overlap(steps: Steps) -> Scenario:
     effect = {"track": {"slipping": came(run), "leavable": came((run, ONE))}}
     scenario.does("overrun", effect, run=run)
     enters(scenario, run, A1, ONE, OUTLET)
-    scenario.refuses("note_stopped", run=run, within_destination=True)
+    scenario.refuses("note_stopped", run=run, **INSIDE)
     rest(scenario, run)
-    scenario.refuses("note_stopped", run=run, within_destination=True)
+    scenario.refuses("note_stopped", run=run, **INSIDE)
     scenario.refuses("send_stop", run=run)
     holds(scenario, OUTLET, run)
     return scenario
@@ -207,7 +208,7 @@ def _rolls_on_without_authority(scenario: Scenario, run: Run) -> None:
     rest(scenario, run)
     scenario.refuses("start_rolling", run=run)
     scenario.refuses("car_moves", run=run, car=A1, block=THROAT, target=ONE)
-    scenario.refuses("note_stopped", run=run, within_destination=True)
+    scenario.refuses("note_stopped", run=run, **INSIDE)
     for block in (THROAT, ONE, OUTLET):
         holds(scenario, block, run)
 
@@ -260,7 +261,7 @@ def a_parted_train_releases_nothing(steps: Steps) -> Scenario:
     front = {**tail_read(scenario, run, first), "car": A1, "cab": scenario.site.formation.cab[A1]}
     scenario.refuses("tail_reads", **front)
     for tag in (first, second):
-        scenario.refuses("tail_reads", **front | {"healthy": False, "read": genuine(scenario, tag)})
+        scenario.refuses("tail_reads", **front | {"line": BROKEN, "read": genuine(scenario, tag)})
     head_passes(scenario, run, THROAT, ONE)
     crosses(scenario, run, A1, THROAT, ONE)
     rest(scenario, run)
@@ -284,7 +285,7 @@ def half_a_pair_proves_nothing(steps: Steps) -> Scenario:
     tail_reads_first(scenario, run, first)
     gone = {"gone": came((run, WEST)), "passed": came((T1, second))}
     forgotten = {"units": {T1: {"tail_read": None}}, "track": gone}
-    scenario.does("tail_reads", forgotten, **tail_read(scenario, run, second) | {"healthy": False})
+    scenario.does("tail_reads", forgotten, **tail_read(scenario, run, second) | {"line": BROKEN})
     tail_reads_first(scenario, run, second)
     scenario.refuses("send_tail_report", **reported(scenario, run, WEST, THROAT))
     scenario.must(not scenario.system.track.behind, "nothing counts as left")

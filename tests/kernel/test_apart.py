@@ -9,7 +9,17 @@ import pytest
 
 KERNEL = Path(__file__).parents[2] / "kernel"
 CENTRE = ("cancellation", "centre", "claims", "recovery", "release", "route_setting", "supervision")
-ON_BOARD = ("authority", "change_of_ends", "first_loop", "relay", "second_loop", "standing", "tail_evidence", "unit")
+ON_BOARD = (
+    "authority",
+    "change_of_ends",
+    "first_loop",
+    "relay",
+    "second_loop",
+    "standing",
+    "standstill",
+    "tail_evidence",
+    "unit",
+)
 AT_A_POINT = ("terminal",)
 THEIRS = {
     CENTRE: {"kernel.unit", "kernel.tag_list", "kernel.terminal"},

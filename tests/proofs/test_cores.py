@@ -12,7 +12,7 @@ from proofs.search import NARROW, core
 from proofs.workbench import Part
 
 ROW, COLUMN = "request", "no_conflicting_routes"
-CONFLICT = "kernel.route_setting.conflict: any("
+CONFLICT = "kernel.claims.held_refusal: any("
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +30,7 @@ def test_a_proof_names_the_guards_it_rests_on(notes: Notes) -> None:
     assert found["open"] == 0
     assert found["parts"] == 2
     assert found["hypotheses"] == sorted({"fouling_is_mutual", COLUMN})
-    assert [guard.startswith(CONFLICT) and "other.train != run.train" in guard for guard in found["guards"]] == [
-        True
-    ] * 2
+    assert [guard.startswith(CONFLICT) and "other.train != train" in guard for guard in found["guards"]] == [True] * 2
     assert "centre.claimed" in found["updates"]
 
 

@@ -69,7 +69,7 @@ def test_the_use_of_an_axiom_is_found_and_not_written() -> None:
 def test_every_assumption_of_nature_is_asked_by_a_transition() -> None:
     asked = {one.name: assumptions.asking(one.name) for one in assumptions.read() if one.kind == "world"}
     assert [name for name, steps in asked.items() if not steps] == []
-    assert asked["two_persons_do_not_err_alike"] == ["confirm_statement"]
+    assert asked["two_persons_do_not_both_err"] == ["correct_statement", "confirm_statement"]
 
 
 def test_the_assumptions_named_are_those_of_the_proof() -> None:

@@ -33,6 +33,7 @@ from fuzz.failures.trace import (
     text_of,
 )
 from kernel.names import Block, Car, Point, Position, Read, Run, Train
+from kernel.standstill import Standstill, ThroughLine
 from models.layouts import BadInput
 from proofs.catalogue import STEPS
 from tests.fuzz.failures.samples import LAYOUTS, failing, found
@@ -43,7 +44,7 @@ PLACE = "passing_station"
 
 def values(kind: Any) -> st.SearchStrategy[Any]:
     """Any value of a kind."""
-    if kind in (Run, Read):
+    if kind in (Run, Read, Standstill, ThroughLine):
         return st.builds(kind, *(values(each) for each in get_type_hints(kind).values()))
     if get_origin(kind) is frozenset:
         return st.frozensets(values(get_args(kind)[0]), max_size=4)

@@ -52,7 +52,7 @@ from kernel.tag_list import TagPlan
 from kernel.tag_list_text import what_they_say, with_tag_lists
 from kernel.terminal import Terminal
 from kernel.unit import Unit
-from tests.independent.world.sight import Sight
+from tests.independent.world.sight import Sight, line, standstill
 
 Message = tuple[Any, ...]
 CENTRE = "centre"
@@ -289,7 +289,7 @@ class Calls:
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
-        board.unit = standing.answer(board.unit, epoch, life, sight.blocks, sight.at_rest, sight.whole)
+        board.unit = standing.answer(board.unit, epoch, life, sight.blocks, standstill(sight), line(sight.whole))
         if board.unit is not before:
             self.begin_anew(board, sight)
 
@@ -304,7 +304,7 @@ class Calls:
         self.follow(board, sight)
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
-        board.unit = tail_evidence.note_tail_read(self.plan, self.lists, board.unit, cab, healthy, read)
+        board.unit = tail_evidence.note_tail_read(self.plan, self.lists, board.unit, cab, line(healthy), read)
         self.follow(board, sight)
 
     def genuine(self, tag: Tag) -> Read:
@@ -312,12 +312,12 @@ class Calls:
 
     def note_stopped(self, board: Board, run: Run, sight: Sight) -> None:
         """By odometer and tags: it stands still, its front inside the destination."""
-        within = (
-            sight.at_rest
-            and sight.front_block == self.layout.destination[run.route]
-            and not sight.blocks & self.layout.overlap[run.route]
-        )
-        board.unit = authority.note_stopped(board.unit, run, within)
+        ends_mm = board.ends_mm.get(run)
+        if ends_mm is None:
+            return
+        end_mm = ends_mm[self.layout.destination[run.route]]
+        begin_mm = max((each for _, each in ends_mm.items() if each < end_mm), default=board.begins_mm[run])
+        board.unit = authority.note_stopped(board.unit, run, standstill(sight), begin_mm, end_mm)
         self.follow(board, sight)
 
     def change_ends(self, board: Board, sight: Sight) -> None:

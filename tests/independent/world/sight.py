@@ -6,6 +6,7 @@ from typing import Protocol
 
 from kernel.maps import Map
 from kernel.names import Block, Cab, Route, Train
+from kernel.standstill import Standstill, ThroughLine
 
 
 class Sight(Protocol):
@@ -47,3 +48,21 @@ class Sight(Protocol):
 
     def ends_mm(self, route: Route) -> tuple[int, Map[Block, int]] | None:
         """Where the start block of a route begins, and where all its blocks end; nothing if it does not lead there."""
+
+
+def standstill(sight: Sight) -> Standstill:
+    """What the odometry says of front and speed."""
+    front_least_mm, front_most_mm = sight.front_mm
+    return Standstill(
+        known=True,
+        front_least_mm=front_least_mm,
+        front_most_mm=front_most_mm,
+        speed_least_mm_s=sight.speed_mm_s,
+        speed_most_mm_s=sight.speed_mm_s,
+        standstill_mm_s=0,
+    )
+
+
+def line(whole: bool) -> ThroughLine:
+    """What line, split detection and spacing say of the way to the tail."""
+    return ThroughLine(answers=whole, is_intact=whole, fits=whole)

@@ -1,0 +1,58 @@
+"""A train at rest, and whole, as the machines on board know it: what it may tell of itself rests on this (T8, T9)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Standstill:
+    """What the odometry says of a train that may have come to rest (P7).
+
+    ``known``: a range is claimed; if not, the rest says nothing.
+    ``front_least_mm``, ``front_most_mm``: the front is between these, on the kilometrage of the tag list.
+    ``speed_least_mm_s``, ``speed_most_mm_s``: so is the speed; below 0 the train may roll back.
+    ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing (T12).
+    """
+
+    known: bool
+    front_least_mm: int
+    front_most_mm: int
+    speed_least_mm_s: int
+    speed_most_mm_s: int
+    standstill_mm_s: int
+
+
+@dataclass(frozen=True)
+class ThroughLine:
+    """What the unit knows of the way to its tail, from the machines that watch it (引通し線; T3, T13, P5).
+
+    ``answers``: the tail's signal comes back over the line.
+    ``is_intact``: split detection has seen no part of the train move unlike the other (`kernel.onboard.split`).
+    ``fits``: head and tail antenna read the same tags as far apart as the train is long
+    (`kernel.onboard.antenna_spacing`).
+    """
+
+    answers: bool
+    is_intact: bool
+    fits: bool
+
+
+def stands(at: Standstill) -> bool:
+    """Tell whether the train certainly stands (P7)."""
+    return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
+
+
+def stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
+    """Tell whether the train certainly stands with its front between two places (P7)."""
+    return stands(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm
+
+
+def is_whole(line: ThroughLine) -> bool:
+    """Tell whether nothing says that the train has parted (T3, P5)."""
+    return line.answers and line.is_intact
+
+
+def reaches_tail(line: ThroughLine) -> bool:
+    """Tell whether an antenna that reads is the train's last: it is whole, and the antennas are where they are (T2)."""
+    return is_whole(line) and line.fits
