@@ -50,8 +50,8 @@ SELDOM_SENT = frozenset(
     )
 )
 """Messages that are one part together."""
-SELDOM_WRITTEN = frozenset(("stood", "first_erred", "second_erred"))
-"""Histories of the track that are one part together."""
+SELDOM_WRITTEN = frozenset(("stood", "first_erred", "second_erred", "parted"))
+"""What of the track seldom changes, which is one part together."""
 PARTS: tuple[str, ...] = (
     *(f"centre_{field.name}" for field in fields(Centre)),
     *(f"centre_runs_{field.name}" for field in fields(Grant)),

@@ -51,7 +51,7 @@ ASSUMED: tuple[str, ...] = (
     "a_head_runs_no_farther_than_its_brake_lets_it",
     "a_train_within_its_destination_is_not_beyond",
     "a_located_train_stands_where_it_says",
-    "two_persons_do_not_err_alike",
+    "two_persons_do_not_both_err",
     "detection_is_true",
 )
 """What the world assumes of nature; the number of each is its bit in ``broken``."""

@@ -234,7 +234,7 @@ BEYOND: tuple[Fault, ...] = (
         "procedure",
         uniform(0.2, 1.0),
         0.1,
-        ("two_persons_do_not_err_alike",),
+        ("two_persons_do_not_both_err",),
     ),
     Fault(
         "falsely short of the run",

@@ -9,23 +9,14 @@ beyond the end, and never counted in.
 
 from __future__ import annotations
 
-from kernel.authority import is_overlap, may_leave, may_proceed
+from kernel.authority import may_leave, may_proceed
 from kernel.maps import Map
 from kernel.names import Block, Run
 from kernel.onboard import braking
 from kernel.onboard.arithmetic import smaller
 from kernel.onboard.braking import Brake, BrakeBounds
-from kernel.tag_list import NO_WAY, TagLists
+from kernel.tag_list import TagLists
 from kernel.unit import Unit
-
-
-def may_be_left(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
-    """Tell whether the head may run on out of ``block``, into a block that is not overlap (T4, T9)."""
-    order = unit.orders.get(run)
-    if order is None or order.tag_list is None or not may_leave(lists, unit, run, block):
-        return False
-    target = lists.way.get(order.tag_list, NO_WAY).get(block)
-    return target is not None and not is_overlap(lists, order.tag_list, target)
 
 
 def is_open(lists: TagLists, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]], block: Block, end_mm: int) -> bool:
@@ -33,9 +24,7 @@ def is_open(lists: TagLists, unit: Unit, block_ends_mm: Map[Run, Map[Block, int]
 
     On a loop one block may lie ahead twice, and an order for the first time is none for the second.
     """
-    return any(
-        block_ends_mm[run].get(block) == end_mm and may_be_left(lists, unit, run, block) for run in block_ends_mm
-    )
+    return any(block_ends_mm[run].get(block) == end_mm and may_leave(lists, unit, run, block) for run in block_ends_mm)
 
 
 def covers_the_head(begins_mm: int, block_ends_mm: Map[Block, int], front_least_mm: int, to_mm: int) -> bool:

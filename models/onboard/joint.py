@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.authority import may_proceed
+from kernel.authority import may_leave, may_proceed
 from kernel.maps import Map
 from kernel.names import Block, Car, Run, Train
 from kernel.onboard import authority_end, braking
@@ -423,7 +423,7 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
         for run in system.block_ends_mm
         if run.train == train
         for block in system.block_ends_mm[run]
-        if authority_end.may_be_left(site.site.lists, unit, run, block)
+        if may_leave(site.site.lists, unit, run, block)
     )
     return replace(
         system,

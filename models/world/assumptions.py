@@ -142,9 +142,8 @@ def a_train_within_its_destination_is_not_beyond(
         run not in system.track.slipping
         and run.route in site.layout.destination
         and any(
-            site.layout.destination[run.route] in system.track.at[car]
+            site.formation.train_of.get(car) == run.train and site.layout.destination[run.route] in system.track.at[car]
             for car in system.track.at
-            if site.formation.train_of.get(car) == run.train
         )
         and run.route in site.layout.overlap
         and all(

@@ -186,7 +186,7 @@ def take_over(
     if train not in system.units or epoch not in system.radio.challenges or life <= system.units[train].life:
         return system
     isolated = replace(system, units=system.units | {train: restarted_unit(system.units[train], life)})
-    return with_statement(isolated, site, train, (train, life, epoch), blocks)
+    return _stated(isolated, site, train, (train, life, epoch), blocks)
 
 
 def correct_statement(
@@ -197,10 +197,10 @@ def correct_statement(
         return system
     if not two_persons_do_not_both_err(site, system, train, blocks, (train, life, epoch), system.track.second_erred):
         return system
-    return with_statement(system, site, train, (train, life, epoch), blocks)
+    return _stated(system, site, train, (train, life, epoch), blocks)
 
 
-def with_statement(
+def _stated(
     system: System, site: Site, train: Train, key: tuple[Train, UnitLife, Epoch], blocks: frozenset[Block]
 ) -> System:
     """The first person has stated a place.  History: whether he has erred."""

@@ -279,6 +279,9 @@ def another_train_says_nothing_of_where_this_one_stops(steps: Steps) -> Scenario
     beyond = replace(scenario.system, track=replace(track, at=track.at | {B1: frozenset({OUTLET})}))
     after = scenario.steps["note_stopped"](scenario.site, beyond, run=run, **INSIDE)
     scenario.must(after.units[T1].orders[run].stopped, "the train has told that it stopped")
+    elsewhere = {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({ONE})}
+    scenario.system = replace(scenario.system, track=replace(track, at=track.at | elsewhere))
+    scenario.refuses("note_stopped", run=run, **INSIDE)
     return scenario
 
 

@@ -46,7 +46,6 @@ class Change:
 
     ``theories``: those whose obligations are asked.
     ``harmless``: why it lets nothing unsafe happen, if so.
-    ``assumed``: which assumption takes for granted what it would matter for, if one does.
     """
 
     name: str
@@ -57,12 +56,11 @@ class Change:
     new: str
     theories: tuple[str, ...]
     harmless: str = ""
-    assumed: str = ""
 
     @property
     def excused(self) -> str:
         """In a word, why no proof need notice it, if one need not."""
-        return "harmless" if self.harmless else "assumed away" if self.assumed else ""
+        return "harmless" if self.harmless else ""
 
     @property
     def module(self) -> str:

@@ -397,12 +397,6 @@ PLANTED: dict[str, tuple[str, Code, str, str]] = {
         "end_mm <= other_mm",
         "end_mm >= other_mm",
     ),
-    "into the overlap": (
-        "joint.may_be_left",
-        kernel.onboard.authority_end.may_be_left,
-        "target is not None and not is_overlap(lists, order.tag_list, target)",
-        "target is not None",
-    ),
     "the old brake is kept": (
         "joint.ask_for_the_end",
         models.onboard.joint.ask_for_the_end,

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kernel.authority import may_leave
 from kernel.maps import Map
 from kernel.names import Block, Run
 from kernel.onboard import authority_end as machine
@@ -68,7 +69,7 @@ def ends(order: Order, ends_mm: Mapping[Block, int], least_mm: int, most_mm: int
 def leavable(station: Station) -> set[Block]:
     """Give the blocks that the orders which the unit has now let the head leave."""
     unit = station.unit()
-    return {block for run in unit.orders for block, _ in TRACK if machine.may_be_left(SITE.lists, unit, run, block)}
+    return {block for run in unit.orders for block, _ in TRACK if may_leave(SITE.lists, unit, run, block)}
 
 
 @pytest.mark.parametrize("witness", WITNESSES)
@@ -86,7 +87,7 @@ def test_there_is_one_end_and_it_is_the_nearest_that_may_not_be_passed(
     closed = [
         end_mm
         for block, end_mm in ends_mm.items()
-        if end_mm >= least_mm and not machine.may_be_left(SITE.lists, unit, RUN, block)
+        if end_mm >= least_mm and not may_leave(SITE.lists, unit, RUN, block)
     ]
     known = begins_mm <= least_mm and closed and min(most_mm, *closed) <= max(ends_mm.values())
     assert ends(order, ends_mm, least_mm, most_mm, begins_mm) == (frozenset({min(closed)}) if known else frozenset())
@@ -104,7 +105,7 @@ def test_two_runs_end_where_one_of_them_does_and_never_beyond_a_block_of_neither
         end_mm
         for block, end_mm in TRACK
         if end_mm >= least_mm
-        and not any(block in listed[run] and machine.may_be_left(SITE.lists, unit, run, block) for run in listed)
+        and not any(block in listed[run] and may_leave(SITE.lists, unit, run, block) for run in listed)
     )
     found = machine.ends_mm(SITE.lists, unit, {RUN: BEGINS_MM, ONWARD: 550_000}, listed, least_mm, least_mm + range_mm)
     straddles = least_mm < 550_000 and min(least_mm + range_mm, walked) > 750_000

@@ -12,6 +12,7 @@ from fuzz.failures.words import otherwise, verdict
 from kernel.names import Block, Epoch, Point, Position, Route, Run, Serial, Train, UnitLife
 from kernel.refusal import Refusal
 from models.layouts import BadInput
+from models.simulator.senses import AT_REST, WHOLE
 from models.world import nature
 from proofs.catalogue import INVARIANTS
 from tests.fuzz.failures.samples import LAYOUTS, PLANTED, failing, found, imported, traffic
@@ -97,7 +98,7 @@ def at_the_start() -> tuple[Trace, Train, frozenset[Block]]:
 def answers(trace: Trace, train: Train, blocks: frozenset[Block], beyond: bool) -> tuple[Event, ...]:
     """A train tells where it stands."""
     life, epoch = UnitLife(2), Epoch(1)
-    told = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at_rest": True, "healthy": True}
+    told = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at": AT_REST, "line": WHOLE}
     run = Run(Serial(1), train, life, Route("standing"))
     return (
         Event("send_challenge", {"epoch": epoch}),

@@ -109,7 +109,7 @@ def parse_trace(text: str) -> Trace:
 
 def test_every_kind_of_event_is_covered_by_the_strategy() -> None:
     drawn = {str(kind) for step in STEPS for kind in kinds_of(step).values()}
-    assert len(drawn) == 16
+    assert len(drawn) == 18
 
 
 def test_the_schema_is_one_and_says_what_each_field_is() -> None:

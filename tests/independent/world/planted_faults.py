@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel import supervision
+from kernel import authority, supervision
 from kernel.centre import Centre
 from kernel.names import Block, Cab, Epoch, Read, Run, Train, UnitLife
 from kernel.onboard import authority_end, braking
@@ -103,7 +103,7 @@ class RunSetAhead(Calls):
         ahead = [
             end_mm
             for block, end_mm in board.ends_mm[run].items()
-            if end_mm >= least_mm and not authority_end.may_be_left(self.lists, board.unit, run, block)
+            if end_mm >= least_mm and not authority.may_leave(self.lists, board.unit, run, block)
         ]
         return [min(ahead)] if ahead else []
 

@@ -45,8 +45,14 @@ FAULTS = [
 """A fault, a layout that shows it, and a seed near to where it does."""
 HERE = Path(__file__).parent
 READERS = ["raw_graph.py", "raw_native.py", "raw_railjson.py", "raw_table.py", "files.py"]
-TYPES = {"kernel.names", "kernel.layout", "kernel.maps"}
-"""What other files may import of the kernel: names, maps, and the layout that it is told."""
+TYPES = {
+    "kernel.names",
+    "kernel.layout",
+    "kernel.maps",
+    "kernel.standstill.Standstill",
+    "kernel.standstill.ThroughLine",
+}
+"""What other files may import of the kernel: names, maps, the layout that it is told, and what sensors say."""
 
 
 def imported(path: Path) -> set[str]:
