@@ -39,6 +39,7 @@ from fuzz.compiled.values import (
     Map,
     Maybe,
     Nothing,
+    Num,
     Record,
     Set,
     Test,
@@ -283,7 +284,10 @@ class _Text:
             return both(*parts)
         return negation(both(*(negation(part) for part in parts)))
 
-    def _unaryop(self, node: ast.UnaryOp, env: Env) -> Truth:
+    def _unaryop(self, node: ast.UnaryOp, env: Env) -> Truth | Word:
+        if isinstance(node.op, ast.USub):
+            (number,) = flat(some(self.value(node.operand, env)))
+            return Word(Scalar(int), (Num(("minus", number.key), lambda e: e.build.neg(number.emit(e))),))
         if not isinstance(node.op, ast.Not):
             raise self.refused(node, ast.unparse(node))
         return negation(truth_of(self.value(node.operand, env)))

@@ -45,13 +45,7 @@ FAULTS = [
 """A fault, a layout that shows it, and a seed near to where it does."""
 HERE = Path(__file__).parent
 READERS = ["raw_graph.py", "raw_native.py", "raw_railjson.py", "raw_table.py", "files.py"]
-TYPES = {
-    "kernel.names",
-    "kernel.layout",
-    "kernel.maps",
-    "kernel.standstill.Standstill",
-    "kernel.standstill.ThroughLine",
-}
+TYPES = {"kernel.names", "kernel.layout", "kernel.maps", "kernel.standstill"}
 """What other files may import of the kernel: names, maps, the layout that it is told, and what sensors say."""
 
 
