@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from fuzz.compiled.memory import ALL_PARTS, HEADER, Ints, Memory
 from fuzz.compiled.native import Native, event_places
-from fuzz.compiled.places import Array, Bits, Words, spread
+from fuzz.compiled.places import Array, Bits, Fields, Place, Words, spread
 from fuzz.failures.replaying import ERRORS, UNDEFINED
 from fuzz.jolted.searching import Find
 from models.world.state import Site, System
@@ -122,10 +122,24 @@ def event_in(laid: Memory, words: Ints, kind: int) -> dict[str, Any]:
         match place:
             case Words(of, arrays, _):
                 event[name] = scalar(of, [int(words[array.base]) for array in arrays])
+            case Fields(record, below):
+                event[name] = record(
+                    **{
+                        each: scalar(of, [int(words[array.base]) for array in arrays])
+                        for each, of, arrays in _words_of(below)
+                    }
+                )
             case Bits((of,), _, array):
                 event[name] = frozenset(scalar(of, [number]) for number in _members(words, array))
     assert event.keys() == event_types(TRANSITIONS[kind]).keys(), event
     return event
+
+
+def _words_of(below: Mapping[str, Place]) -> Iterator[tuple[str, Scalar, tuple[Array, ...]]]:
+    """The fields of a record of scalars, and where each one's words are."""
+    for name, place in below.items():
+        assert isinstance(place, Words)
+        yield name, place.kind, place.arrays
 
 
 def _members(words: Ints, array: Array) -> list[int]:

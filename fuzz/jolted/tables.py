@@ -194,6 +194,8 @@ def _events(memory: Memory) -> dict[str, Ints]:
                 case Bits(_, _, array):
                     assert get_origin(event_types(transition)[name]) is frozenset
                     row.extend([BLOCKS] * array.shape[-1])
+                case Fields(_, below):
+                    row.extend(type_of(each.kind) for each in below.values() if isinstance(each, Words))
                 case _:
                     raise TypeError(f"{transition.__name__}: {name}")
         words[kind], types[kind, : len(row)] = len(row), row

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, get_origin
+from typing import Any, get_origin, get_type_hints
 
 import numpy as np
 
@@ -18,9 +18,13 @@ from fuzz.traffic.driver import run_trace
 from fuzz.traffic.entries import callbacks
 from fuzz.traffic.faults import FAULTS
 from kernel.names import Block, Car, Point, Position, Read, Run, Train
+from kernel.standstill import Standstill, ThroughLine
 from models.world.start import start
 from proofs.catalogue import INVARIANTS
 from proofs.transitions import TRANSITIONS, event_types
+
+WIDTHS: Mapping[Any, int] = {Run: 4, Read: 2, Standstill: 6, ThroughLine: 3}
+"""How many words of an event a record takes."""
 
 STAGES = ("reserved", "offered", "set", "standing", "over", "no run at the centre")
 CAUSES = ("timetable", "traffic", "start")
@@ -172,7 +176,7 @@ class Traffic:
         block_words = int(self.desk.words[places.BLOCK_WORDS])
         event: dict[str, Any] = {}
         for name, of in event_types(TRANSITIONS[kind]).items():
-            width = 4 if of is Run else 2 if of is Read else block_words if get_origin(of) is frozenset else 1
+            width = block_words if get_origin(of) is frozenset else WIDTHS.get(of, 1)
             event[name], words = self._value(of, words[:width]), words[width:]
         return event
 
@@ -188,6 +192,9 @@ class Traffic:
             return frozenset(
                 names["Block"][number] for at, word in enumerate(words) for number in bits_of(word, 64 * at)
             )
+        if of in (Standstill, ThroughLine):
+            kinds = get_type_hints(of)
+            return of(*(self._value(kind, [word]) for kind, word in zip(kinds.values(), words, strict=True)))
         if of is bool:
             return bool(words[0])
         return names[of.__name__][words[0]] if of.__name__ in names else words[0]
