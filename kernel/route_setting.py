@@ -24,11 +24,20 @@ def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refu
     secured = centre.runs.get(base)
     if secured is None or (secured.stage != Stage.SET and secured.stage != Stage.STANDING):
         return Refusal.START_NOT_SECURED
-    if secured.cancelling:
+    if is_wanted_back(layout, centre, base):
         return Refusal.START_WANTED_BACK
     if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
         return Refusal.START_NOT_HELD
     return conflict(layout, centre, run)
+
+
+def is_wanted_back(layout: Layout, centre: Centre, run: Run) -> bool:
+    """Tell whether the centre has asked for ``run`` and may still get it back (T9).
+
+    A run whose start the tail has left has begun, and a run that has begun is not given back.
+    """
+    grant, start = centre.runs.get(run), layout.start.get(run.route)
+    return grant is not None and grant.cancelling and start is not None and run in centre.claimed.get(start, NO_RUNS)
 
 
 def conflict(layout: Layout, centre: Centre, run: Run) -> Refusal | None:

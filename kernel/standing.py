@@ -13,10 +13,11 @@ def answer(
     """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands (T8).
 
     ``blocks``: by the tags at both ends, all the blocks that the train may be in.
-    A life answers once: what it said stays true, since it cannot move before the centre has
-    taken it.
+    What a life has said stays true, since it cannot move before the centre has taken it.  A challenge that has been
+    answered (:func:`tells_standing`) is answered again only for the driver, who asks to be located anew: so a train
+    at rest gives back whatever it can neither run under nor give back one by one.
     """
-    if not stands(at) or not is_whole(line) or life <= unit.life or unit.answered == epoch:
+    if not stands(at) or not is_whole(line) or life <= unit.life:
         return unit
     return Unit(
         life=life,

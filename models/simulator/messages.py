@@ -103,9 +103,7 @@ def tell(play: Play, train: Train) -> Run | None:
     epoch, unit = play.system.centre.epoch, play.system.units[train]
     at, train_of = play.system.track.at, play.site.formation.train_of
     blocks = frozenset(block for car in at if train_of[car] == train for block in at[car])
-    if unit.answered == epoch:
-        play.take("restart_unit", train=train, life=UnitLife(unit.life + 1))
-    life = UnitLife(play.system.units[train].life + 1)
+    life = UnitLife(unit.life + 1)
     play.take("send_challenge", epoch=epoch)
     if train in play.system.track.parted:
         return state(play, train, life)

@@ -90,7 +90,9 @@ def change_ends(site: Site, system: System, train: Train, cab: Cab) -> System:
     """The driver of a train at rest chooses the direction, or chooses it again after his unit has restarted (T2)."""
     if train not in system.units or any(run.train == train for run in system.track.rolling):
         return system
-    told = replace(system, units=system.units | {train: change_of_ends.change_ends(system.units[train], cab)})
+    told = replace(
+        system, units=system.units | {train: change_of_ends.change_ends(site.lists, system.units[train], cab)}
+    )
     if system.track.facing.get(train) == cab:
         return told
     return replace(

@@ -257,6 +257,21 @@ def a_run_that_another_leads_on_from_is_kept(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_begun_run_that_was_wanted_back_leads_on(steps: Steps) -> Scenario:
+    """Once its tail has left where it stood a train keeps its run, whoever asked for it, and is led on from it (T9)."""
+    scenario, runs = recovered(steps, FACING_EAST)
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    roll(scenario, run)
+    recall(scenario, run)
+    pass_through(scenario, run, WEST, THROAT, ONE)
+    rest(scenario, run)
+    onward = next_run(scenario, T1, ONE_TO_EAST)
+    scenario.refuses("request", Refusal.START_WANTED_BACK, run=onward, base=run)
+    report(scenario, run, WEST, THROAT)
+    reserve(scenario, T1, ONE_TO_EAST, run)
+    return scenario
+
+
 def the_nearer_of_two_runs_is_not_given_back_first(steps: Steps) -> Scenario:
     """A unit that is asked for a run gives back first what leads on from it, whoever asked in what order (T9)."""
     scenario, runs = recovered(steps, FACING_EAST)

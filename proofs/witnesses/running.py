@@ -60,7 +60,14 @@ def faces(scenario: Scenario, run: Run) -> None:
     unit, track = scenario.system.units[train], scenario.system.track
     if unit.leading == cab:
         return
-    effect: dict[str, Any] = {"units": {train: {"leading": cab, "head_tag": None, "tail_read": None}}}
+    lists, orders = scenario.site.lists, unit.orders.items()
+    anew = {
+        other: {"expected": lists.first_tag[order.tag_list], "led_by": None}
+        for other, order in orders
+        if order.tag_list is not None and not order.begun and order.led_by is not None
+    }
+    told = {"leading": cab, "head_tag": None, "tail_read": None} | ({"orders": anew} if anew else {})
+    effect: dict[str, Any] = {"units": {train: told}}
     if track.facing.get(train) != cab:
         passed = [(other, tag) for other, tag in track.passed if other == train]
         effect["track"] = {"facing": {train: cab}, "last_read": {train: GONE}, "passed": went(*passed)}

@@ -23,7 +23,7 @@ HEAD, OTHER = Cab("head"), Cab("other")
 
 def offered() -> Unit:
     """A unit in W, its driver at the head, told under which run it stands, with the list of tags to P."""
-    unit = change_ends(small_start(small_site()).units[T1], HEAD)
+    unit = change_ends(SITE.lists, small_start(small_site()).units[T1], HEAD)
     return take_offer(SITE.lists, take_standing(unit, STANDING), RUN, LIST)
 
 
@@ -74,10 +74,20 @@ def test_a_tag_that_does_not_come_opens_the_loop() -> None:
 
 
 def test_the_same_tag_read_again_at_once_is_one_reading() -> None:
-    """By the same cab; another that leads reads it anew, and it is not expected there (T5)."""
+    """By the same cab; another that leads reads it anew, as the first of its run (T5)."""
     unit = reads(permitted(), OUT)
     assert may_proceed(reads(unit, OUT), RUN)
-    assert not may_proceed(reads(change_ends(unit, OTHER), OUT, cab=OTHER), RUN)
+    turned = change_ends(SITE.lists, unit, OTHER)
+    assert (turned.orders[RUN].expected, turned.orders[RUN].led_by) == (OUT, None)
+    assert reads(turned, OUT, cab=OTHER).orders[RUN].expected == IN
+
+
+def test_a_run_that_has_begun_goes_on_after_a_change_of_ends_where_it_was() -> None:
+    """Only what has not begun is read from its first tag again (T5)."""
+    unit = reads(permitted(), OUT, IN)
+    turned = change_ends(SITE.lists, unit, OTHER)
+    assert turned.orders == unit.orders
+    assert turned.head_tag is None
 
 
 def test_what_a_cab_reads_that_does_not_lead_is_the_tails() -> None:
@@ -90,7 +100,7 @@ def test_what_a_cab_reads_that_does_not_lead_is_the_tails() -> None:
 
 def test_a_run_is_led_by_one_cab_throughout() -> None:
     """Whoever changes ends between the two tags reads the second unexpected (T2, T5)."""
-    unit = change_ends(reads(permitted(), OUT), OTHER)
+    unit = change_ends(SITE.lists, reads(permitted(), OUT), OTHER)
     assert may_proceed(unit, RUN)
     assert not may_proceed(reads(unit, IN, cab=OTHER), RUN)
 

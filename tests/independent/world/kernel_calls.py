@@ -60,17 +60,16 @@ STANDING = Route("standing")
 BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, standstill_mm_s=100)
 """A brake of 1 m/s² within 0.8 s, and motors as strong."""
 BEHIND_MM = 2_000
-"""So far behind the front a list may end and still be looked up: more than the odometer is ever wrong."""
+"""So far behind the front a list may end and still count: more than the odometer is ever wrong."""
 
 
 @dataclass
 class Board:
     """What is on board of one train.
 
-    ``begins_mm``, ``ends_mm``: where the blocks of its orders lie, along the direction it runs in.
-    ``marks_mm``: all these places in a row.
+    ``begins_mm``, ``ends_mm``: where the blocks of its orders lie, as it runs; ``marks_mm``: all these in a row.
     ``asked``: for which unit the brake was asked last, and between which of the places the front was.
-    ``kept``: for kernels that keep what a cab's tail has read.
+    ``kept``: for kernels that keep what a cab's tail has read.  ``asks_anew``: the driver asks to be located.
     """
 
     unit: Unit
@@ -80,6 +79,7 @@ class Board:
     marks_mm: list[int] = field(default_factory=list)
     asked: tuple[Unit, tuple[int, int, int]] | None = None
     kept: tuple[Cab, Read] | None = None
+    asks_anew: bool = False
 
 
 class Calls:
@@ -104,17 +104,18 @@ class Calls:
 
     def new_board(self, front_mm: int, cab: Cab) -> Board:
         nothing = Unit(UnitLife(0), None, frozenset(), {}, False, None, None, None, frozenset())
-        unit = change_of_ends.change_ends(restarts.restart_unit(nothing, UnitLife(1)), cab)
+        unit = change_of_ends.change_ends(self.lists, restarts.restart_unit(nothing, UnitLife(1)), cab)
         return Board(unit, braking.stand_still(front_mm))
 
     def restart_board(self, board: Board, sight: Sight) -> None:
         """After a restart the driver chooses his direction anew."""
+        board.asks_anew = False
         board.unit = restarts.restart_unit(board.unit, UnitLife(board.unit.life + 1))
         self.begin_anew(board, sight)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
         """The driver sits in the cab at the head; the brake is on, and reckons along the direction it looks in."""
-        board.unit = change_of_ends.change_ends(board.unit, sight.head_cab)
+        board.unit = change_of_ends.change_ends(self.lists, board.unit, sight.head_cab)
         board.brake = braking.stand_still(sight.front_mm[1])
         self.follow(board, sight)
 
@@ -289,8 +290,10 @@ class Calls:
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
-        board.unit = standing.answer(board.unit, epoch, life, sight.blocks, standstill(sight), line(sight.whole))
+        if board.asks_anew or not standing.tells_standing(before, epoch):
+            board.unit = standing.answer(before, epoch, life, sight.blocks, standstill(sight), line(sight.whole))
         if board.unit is not before:
+            board.asks_anew = False
             self.begin_anew(board, sight)
 
     # ---- what a train reads and notes
@@ -321,7 +324,6 @@ class Calls:
         self.follow(board, sight)
 
     def change_ends(self, board: Board, sight: Sight) -> None:
-        """The driver has gone to the other cab; the brake is on, and reckons along the new direction."""
         self.begin_anew(board, sight)
 
     # ---- what a train sends
@@ -335,8 +337,8 @@ class Calls:
         return ("echo", CENTRE, run, kept) if kept is not None and first_loop.echoes(board.unit, run, kept) else None
 
     def given_back(self, board: Board, run: Run) -> Message | None:
-        gives_back = run.route != STANDING and first_loop.acknowledges_back(board.unit, run)
-        return ("given back", CENTRE, run) if gives_back else None
+        gives = run.route != STANDING and first_loop.acknowledges_back(board.unit, run)
+        return ("given back", CENTRE, run) if gives else None
 
     def stopped(self, board: Board, run: Run) -> Message | None:
         tells = run.route != STANDING and authority.tells_stopped(board.unit, run)
@@ -476,9 +478,7 @@ class Calls:
         grant = centre.runs[run]
         if order is None:
             return run.life != board.unit.life
-        if grant.cancelling:
-            return order.given_back
-        return grant.stage != Stage.SET or order.permitted
+        return order.given_back if grant.cancelling else grant.stage != Stage.SET or order.permitted
 
     def is_ahead(self, centre: Centre, board: Board, run: Run) -> bool:
         """Whether a route is set or wanted that the train has not begun to run by."""

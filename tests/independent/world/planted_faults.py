@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel import authority, supervision
+from kernel import authority, recovery, standing, supervision
 from kernel.centre import Centre
-from kernel.names import Block, Cab, Epoch, Read, Run, Train, UnitLife
+from kernel.names import Block, Cab, Epoch, Read, Run, Stage, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.tail_evidence import has_been_in
 from kernel.unit import Evidence
-from tests.independent.world.kernel_calls import BOUNDS, Board, Calls, Message
+from tests.independent.world.kernel_calls import BOUNDS, STANDING, Board, Calls, Message
 from tests.independent.world.sight import Sight
 
 
@@ -129,6 +129,32 @@ class NothingCompared(Calls):
         return super().centre_hears(centre, message)
 
 
+class AnswersOnce(Calls):
+    """A life that has answered once in an epoch does not answer again."""
+
+    def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
+        if not standing.tells_standing(board.unit, epoch):
+            super().answer(board, epoch, sight)
+
+
+class KeepsWhatItHeld(Calls):
+    """A centre that takes a train's word and goes on holding what it held for it."""
+
+    def centre_hears_of_standing(
+        self, centre: Centre, kind: str, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
+    ) -> Centre:
+        held = {block for block, holders in centre.claimed.items() if any(run.train == train for run in holders)}
+        run = self.run_of(centre, train, life, STANDING)
+        return recovery.note_standing(self.layout, centre, train, life, epoch, blocks | held, run)
+
+
+class NeverForgets(Calls):
+    """A centre that never frees what was given back."""
+
+    def retire(self, centre: Centre, run: Run) -> Centre:
+        return centre if centre.runs[run].stage == Stage.OVER else super().retire(centre, run)
+
+
 FAULTS: tuple[type[Calls], ...] = (
     EvidenceAhead,
     EvidenceAcrossTurns,
@@ -137,5 +163,7 @@ FAULTS: tuple[type[Calls], ...] = (
     NothingCompared,
     LifeConfirmed,
 )
+STANDS_FOR_EVER: tuple[type[Calls], ...] = (AnswersOnce, KeepsWhatItHeld, NeverForgets)
+"""Kernels that are safe, and under which something that is held is never free again."""
 JUDGED: tuple[type[Calls], ...] = (Calls, *FAULTS)
 KERNELS: dict[str, type[Calls]] = {kernel.__name__: kernel for kernel in JUDGED}

@@ -149,7 +149,7 @@ class Schedule:
         if not train.isolated and train.whole and chance.random() < (0.3 if may_go else self.turns):
             return "turn", train.name, chance.getrandbits(63)
         if train.demanded and chance.random() < 0.1:
-            return "restart_board", train.name
+            return self.random.choice(("restart_board", "ask_anew")), train.name
         return self._says(train)
 
     def _says(self, train: OnRails) -> Event | None:
@@ -193,11 +193,16 @@ class Schedule:
         deaf = [
             t.name
             for t in trains
-            if t.at_rest and t.whole and not t.isolated and not calls.is_accounted(centre, t.board, t.name)
+            if t.at_rest and t.whole and not t.isolated
+            if t.board.asks_anew or not calls.is_accounted(centre, t.board, t.name)
         ]
         if deaf and chance.random() < 0.5:
             name = chance.choice(deaf)
-            answer = self._unless_said(("train_says", name, "answered", None))
+            answer = (
+                None
+                if self.world.trains[name].board.asks_anew
+                else self._unless_said(("train_says", name, "answered", None))
+            )
             return answer or self._unless_said(("centre_challenges", name))
         blocks, points = calls.recoverable(centre)
         if blocks and chance.random() < 0.6:

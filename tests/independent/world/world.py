@@ -288,6 +288,11 @@ class World:
         train.demanded = False
         return True
 
+    def ask_anew(self, name: Train) -> bool:
+        """The driver asks to be located: the next challenge is answered, though one was."""
+        self.trains[name].board.asks_anew = True
+        return True
+
     def note_stopped(self, name: Train, run: Run) -> bool:
         train = self.trains[name]
         before = train.board.unit
