@@ -54,7 +54,9 @@ class World:
         least_mm, most_mm = start_mm - chance.randrange(3_000), start_mm + chance.randrange(3_000)
         motion = machine.located(least_mm, most_mm, chance.randrange(10**6))
         start_nm = chance.choice((least_mm, most_mm, start_mm)) * NM_A_MM
-        running = Running(start_nm, 0, False, False, 0, motion.way_mm, 0, start_nm, motion.way_mm, False, False, motion)
+        running = Running(
+            start_nm, 0, False, False, 0, motion.way_mm, 0, start_nm, motion.way_mm, False, False, 0, motion
+        )
         self.play = Play(THEORY, site, running)
         self.wheel_nm = motion.way_mm * NM_A_MM
         self.scale_ppm = chance.choice((0, scale_ppm, -scale_ppm * 1_000_000 // (1_000_000 + scale_ppm) + 1))
