@@ -177,6 +177,24 @@ def test_the_range_contains_the_train_in_drawn_worlds(seed: int) -> None:
     assert world.accepted > 300
 
 
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 2**32))
+def test_a_false_fix_in_drawn_worlds_puts_the_range_off_by_no_more(seed: int) -> None:
+    """Fixes off by anything, seen or not; invariants in each step."""
+    chance = Random(seed)
+    world = World(chance, SITE)
+    for cycle in range(300):
+        world.cycle()
+        if cycle % 30 == 29:
+            at_mm = world.play.system.front_nm // NM_A_MM + chance.randrange(-6_000, 6_001)
+            within_mm = chance.choice((1, 1_000, 5_000))
+            world.play.step("take_fix", least_mm=at_mm - within_mm, most_mm=at_mm + within_mm)
+    running = world.play.system
+    least_nm, most_nm = NM_A_MM * running.motion.front_least_mm, NM_A_MM * running.motion.front_most_mm
+    if machine.is_located(running.motion):
+        assert least_nm - running.false_by_nm <= running.front_nm <= most_nm + running.false_by_nm
+
+
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 2**32))
 def test_a_train_that_rolls_keeps_a_narrow_range(seed: int) -> None:
