@@ -21,11 +21,23 @@ class Crossing:
 
 
 @dataclass(frozen=True)
+class Taken:
+    """What was really so when a ranging was taken, and how long ago that was.
+
+    ``way_um``, ``pace_um``: the head's way to the crossing then, and how fast it came nearer.
+    """
+
+    way_um: int
+    pace_um: int
+    age_cycles: int
+
+
+@dataclass(frozen=True)
 class Coming:
     """One moment of a train that is in contact.
 
     ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
-    ``ranged``: the ranging that is under way or was the last one, with its true age.
+    ``ranged``: where the train was, and how fast, when the ranging that is under way was taken, or the last one.
     ``arrived``: its head has been seen at the crossing, or beyond.
     ``decided``: the crossing has decided for the cycle that begins.
     ``told``: history: the ranging that the radio brought last of those that count, as old as it truly is made to be.
@@ -39,7 +51,7 @@ class Coming:
 
     way_um: int
     pace_um: int
-    ranged: Ranging
+    ranged: Taken
     arrived: bool
     decided: bool
     told: Ranging
@@ -99,21 +111,21 @@ def bounds_are_above_zero(site: Crossing) -> bool:
 # ---- assumptions
 
 
-def the_ranging_bounds_the_train(site: Crossing, system: Coming, way_mm: int, speed_mm_s: int) -> bool:
-    """When it is taken, the head is no nearer and no faster than the ranging says with its errors (X1)."""
-    return UM_A_MM * way_mm <= system.way_um and system.pace_um <= site.bounds.cycle_ms * speed_mm_s
+def the_ranging_bounds_the_train(site: Crossing, system: Coming, ranging: Ranging) -> bool:
+    """When it was taken, the head was no nearer and no faster than the ranging says with its errors (X1).
+
+    What the radio delivers, if anything, is the ranging that was ordered last.  It may come at any later moment,
+    any number of times, or never.
+    """
+    return not ranging.valid or (
+        UM_A_MM * ranging.way_mm <= system.ranged.way_um
+        and system.ranged.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s
+    )
 
 
 def a_ranging_is_no_older_than_it_says(system: Coming, ranging: Ranging) -> bool:
-    """What the radio delivers is the ranging that was ordered last, or nothing; its age is not made less (X1).
-
-    It may come at any later moment, any number of times, or never.
-    """
-    return not ranging.valid or (
-        ranging.way_mm == system.ranged.way_mm
-        and ranging.speed_mm_s == system.ranged.speed_mm_s
-        and ranging.age_cycles >= system.ranged.age_cycles
-    )
+    """The age that is told of a ranging is not made less than the time since it was taken (X1)."""
+    return not ranging.valid or ranging.age_cycles >= system.ranged.age_cycles
 
 
 def a_decision_begins_each_cycle(system: Coming) -> bool:
@@ -144,16 +156,16 @@ def who_is_at_the_crossing_has_come_all_the_way(system: Coming) -> bool:
 # ---- transitions
 
 
-def take_ranging(site: Crossing, system: Coming, way_mm: int, speed_mm_s: int) -> Coming:
+def take_ranging(site: Crossing, system: Coming) -> Coming:
     """The ground unit orders a ranging, and it is taken; the one before is given up (X1)."""
-    if not the_ranging_bounds_the_train(site, system, way_mm, speed_mm_s):
-        return system
-    return replace(system, ranged=Ranging(True, way_mm, speed_mm_s, 0))
+    return replace(system, ranged=Taken(system.way_um, system.pace_um, 0))
 
 
 def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
     """The crossing decides by what the radio delivers, if it delivers anything (X1, X2, X3)."""
     if not a_decision_begins_each_cycle(system) or not a_ranging_is_no_older_than_it_says(system, ranging):
+        return system
+    if not the_ranging_bounds_the_train(site, system, ranging):
         return system
     followed = arrival.follow(site.bounds, system.followed, ranging)
     silent_cycles = 0 if ranging.valid else system.silent_cycles + 1

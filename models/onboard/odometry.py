@@ -44,6 +44,7 @@ class Running:
     ``anchor_nm``, ``anchor_way_mm``: history: where the front was, and what the pulses were, at the anchor.
     ``counted``: history: the wheel rolled and the tachometer told of it, at the anchor and ever since.
     ``contradicted``: history: since it was located a fix came that lay outside the range.
+    ``false_by_nm``: history: of the other fixes since, each missed the front by no more.
     ``motion``: what the unit's odometry knows.
     """
 
@@ -58,6 +59,7 @@ class Running:
     anchor_way_mm: int
     counted: bool
     contradicted: bool
+    false_by_nm: int
     motion: Motion
 
 
@@ -189,14 +191,6 @@ def a_wheel_that_keeps_pace_rolls(site: Line, paced_cycles: int, slips: bool) ->
     return not slips or paced_cycles < site.pace_cycles
 
 
-def a_false_fix_lies_outside_the_range(system: Running, least_mm: int, most_mm: int) -> bool:
-    """Tags lie and features are where they are registered; if not, then beyond what the train knows of its place (P3).
-
-    Within the error that the fix is given with (T5).
-    """
-    return NM_A_MM * least_mm <= system.front_nm <= NM_A_MM * most_mm or lies_outside(system, least_mm, most_mm)
-
-
 def the_train_stands_where_it_is_said_to(system: Running, least_mm: int, most_mm: int) -> bool:
     """Who locates a train anew sees it stand, and its front within what he says (P7, T8)."""
     return system.speed_um_s == 0 and NM_A_MM * least_mm <= system.front_nm <= NM_A_MM * most_mm
@@ -208,6 +202,11 @@ def the_train_stands_where_it_is_said_to(system: Running, least_mm: int, most_mm
 def lies_outside(system: Running, least_mm: int, most_mm: int) -> bool:
     """A fix and the range that the unit shows have no place in common (P7)."""
     return most_mm < system.motion.front_least_mm or system.motion.front_most_mm < least_mm
+
+
+def missed_by_nm(system: Running, least_mm: int, most_mm: int) -> int:
+    """Give how far the front is from what a fix says, with the error that it is given with; 0 or less if true (T5)."""
+    return larger(NM_A_MM * least_mm - system.front_nm, system.front_nm - NM_A_MM * most_mm)
 
 
 def is_told(system: Running, readings: Readings, sticks: bool) -> bool:
@@ -285,20 +284,22 @@ def run_a_cycle(
         anchor_way_mm=system.anchor_way_mm if stays else readings.way_mm,
         counted=told and not slips and (system.counted or not stays),
         contradicted=system.contradicted,
+        false_by_nm=system.false_by_nm,
         motion=after,
     )
 
 
 def take_fix(site: Line, system: Running, least_mm: int, most_mm: int) -> Running:
-    """A tag or a feature says where the front is (P3, T2)."""
-    if not a_false_fix_lies_outside_the_range(system, least_mm, most_mm):
-        return system
+    """A tag or a feature says where the front is, or says it falsely, by as much as it likes (P3, T2)."""
+    lies_apart = lies_outside(system, least_mm, most_mm)
+    missed_nm = 0 if lies_apart else missed_by_nm(system, least_mm, most_mm)
     return replace(
         system,
         anchor_nm=system.front_nm,
         anchor_way_mm=system.shown_way_mm,
         counted=system.told and not system.slips,
-        contradicted=system.contradicted or lies_outside(system, least_mm, most_mm),
+        contradicted=system.contradicted or lies_apart,
+        false_by_nm=larger(system.false_by_nm, missed_nm),
         motion=odometry.note_fix(system.motion, least_mm, most_mm),
     )
 
@@ -312,5 +313,6 @@ def locate_anew(site: Line, system: Running, least_mm: int, most_mm: int, way_mm
         anchor_nm=system.front_nm,
         counted=False,
         contradicted=False,
+        false_by_nm=0,
         motion=odometry.located(least_mm, most_mm, way_mm),
     )

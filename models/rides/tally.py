@@ -28,7 +28,7 @@ ASSUMPTIONS: Mapping[str, str] = {
     "powers_broken": "`the_train_stays_within_its_powers`: more gain or loss of speed than motors and brakes have",
     "inertial_broken": "`the_inertial_sensor_keeps_its_bound`: a reading farther from the truth, or a steeper line",
     "wheel_broken": "`a_rolling_wheel_measures`: a trusted wheel shows another speed or way",
-    "fix_broken": "`a_false_fix_lies_outside_the_range`: a tag or a curve lies, or is found, elsewhere",
+    "fix_broken": "the survey (P3): a tag or a curve lies, or is found, elsewhere; the range is off by as much",
     "tail_broken": "the errors that `split.threshold_mm_s2` covers: a tail sensor farther from the truth",
     "brake_broken": "`the_brake_keeps_its_bound`, `the_train_gains_no_more`: motors or brake beyond their bounds",
 }

@@ -43,6 +43,16 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Run:
+    """What was confirmed to who lets trams onto the way, and when: a tram's turn, where it comes, its destination."""
+
+    turn: int
+    stop: int
+    leaves_at: int
+    at_ms: int
+
+
+@dataclass(frozen=True)
 class Given:
     """A history: an order as it was made, and what was not known then.
 
@@ -58,9 +68,14 @@ class Given:
 
 @dataclass(frozen=True)
 class Traffic:
-    """One moment: every tram, what the centre knows, every command ever sent, and the last order."""
+    """One moment: GPS time, every tram, what the centre knows, every command ever sent, and the last order.
 
+    ``runs``: for each tram the last run that was confirmed.
+    """
+
+    now_ms: int
     bodies: Map[Tram, Body]
+    runs: Map[Tram, Run]
     centre: Centre
     sent: frozenset[Command]
     given: Given
@@ -83,7 +98,7 @@ def is_on_the_way(bodies: Map[Tram, Body], tram: Tram) -> bool:
 
 def is_unknown(site: Way, system: Traffic, tram: Tram) -> bool:
     """Tell whether the centre does not know, by a report that is new enough, that a tram stands at its stop (G3)."""
-    trams, now_ms = system.centre.trams, system.centre.now_ms
+    trams, now_ms = system.centre.trams, system.now_ms
     return tram not in trams or not trams[tram].stands or now_ms - trams[tram].told_ms > site.limits.fresh_ms
 
 
@@ -101,8 +116,8 @@ def time_runs_forward(elapsed_ms: int) -> bool:
 
 
 def clocks_keep_gps_time(system: Traffic, now_ms: int) -> bool:
-    """A tram that comes onto the way keeps the time that the centre keeps (G3)."""
-    return now_ms == system.centre.now_ms
+    """A tram that comes onto the way keeps GPS time (G3)."""
+    return now_ms == system.now_ms
 
 
 def only_what_has_left_is_taken_up_anew(system: Traffic, tram: Tram) -> bool:
@@ -111,17 +126,17 @@ def only_what_has_left_is_taken_up_anew(system: Traffic, tram: Tram) -> bool:
 
 
 def the_centre_knows_it_before_it_comes(system: Traffic, tram: Tram, body: Body) -> bool:
-    """A tram comes onto the way, each time, after the centre has taken it up, in that turn and with that destination.
+    """A tram comes onto the way, each time, after its run was confirmed, in that turn and with that destination.
 
     Where it comes is where was said, or farther on.
     """
-    if tram in system.bodies or tram not in system.centre.trams:
+    if tram in system.bodies or tram not in system.runs:
         return False
-    known = system.centre.trams[tram]
+    run = system.runs[tram]
     return (
-        body.turn == known.turn
-        and body.leaves_at <= known.leaves_at
-        and mark(known.stop, known.left) <= place(body) <= mark(body.leaves_at, False)
+        body.turn == run.turn
+        and body.leaves_at <= run.leaves_at
+        and mark(run.stop, False) <= place(body) <= mark(body.leaves_at, False)
         and not body.is_gone
     )
 
@@ -168,8 +183,8 @@ def it_knows_the_stop_that_it_comes_to(system: Traffic, tram: Tram, noticed: boo
 
 
 def a_report_tells_where_it_was(system: Traffic, tram: Tram, report: Report) -> bool:
-    """What a tram has told since it was taken up is of this run: it has reached that place (G2, G3)."""
-    if tram not in system.centre.trams or report.made_ms <= system.centre.trams[tram].since_ms:
+    """What a tram has told since its run was confirmed is of this run: it has reached that place (G2, G3)."""
+    if tram not in system.runs or report.made_ms <= system.runs[tram].at_ms:
         return True
     return tram in system.bodies and mark(report.stop, report.left) <= place(system.bodies[tram])
 
@@ -199,6 +214,7 @@ def pass_time(site: Way, system: Traffic, elapsed_ms: int) -> Traffic:
         return system
     return replace(
         system,
+        now_ms=system.now_ms + elapsed_ms,
         centre=machine.later(system.centre, elapsed_ms),
         bodies={
             tram: replace(body, display=on_board.older(site.limits, body.display, elapsed_ms))
@@ -212,9 +228,11 @@ def take_up(site: Way, system: Traffic, tram: Tram, turn: int, stop: int, leaves
     if not only_what_has_left_is_taken_up_anew(system, tram):
         return system
     is_taken = machine.may_come(system.centre, tram, turn, stop, leaves_at)
+    run = Run(turn, stop, leaves_at, system.now_ms)
     return replace(
         system,
         bodies={other: body for other, body in system.bodies.items() if other != tram or not is_taken},
+        runs=system.runs | {tram: run} if is_taken else system.runs,
         centre=machine.note_coming(system.centre, tram, turn, stop, leaves_at),
     )
 

@@ -22,10 +22,13 @@ from proofs.theory import Theory, by_name
 
 
 def nothing_was_told(site: Line, system: Lookout) -> bool:
-    """At the start nothing is known of train and worker, wherever they are (A8)."""
+    """At the start nothing is known of train and worker, wherever they are (A8): no report is within its ranges (A1).
+
+    Those are 1000 km from the origin and an hour, as `is_report` states them.
+    """
     return (
-        system.train == distance.NO_TRAIN_FIX
-        and system.worker == distance.NO_WORKER_FIX
+        not is_report(system.train.place_mm, system.train.age_ms)
+        and not is_report(system.worker.place_mm, system.worker.age_ms)
         and not is_report(system.told.place_mm, system.told.age_ms)
     )
 

@@ -7,6 +7,7 @@ from kernel.onboard.arithmetic import smaller
 from models.crossing.arrival import (
     Coming,
     Crossing,
+    Taken,
     arrive,
     bounds_are_above_zero,
     decide,
@@ -41,14 +42,14 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.worst.short_um == system.followed.short_um
         and system.left_cycles == site.bounds.warning_cycles + 1
         and system.worst.way_um > (site.bounds.warning_cycles + 1) * site.bounds.line_um + site.bounds.gain_um
-        and system.told == system.ranged
-        and is_of_this_line(site.bounds, system.ranged)
-        and system.followed.told_way_mm == system.ranged.way_mm
-        and system.followed.told_speed_mm_s == towards_mm_s(system.ranged)
+        and is_of_this_line(site.bounds, system.told)
+        and system.told.age_cycles == 0
+        and UM_A_MM * system.told.way_mm <= system.way_um
+        and system.pace_um <= site.bounds.cycle_ms * system.told.speed_mm_s
+        and system.followed.told_way_mm == system.told.way_mm
+        and system.followed.told_speed_mm_s == towards_mm_s(system.told)
         and not system.contradicted
-        and system.ranged.age_cycles == 0
-        and UM_A_MM * system.ranged.way_mm <= system.way_um
-        and system.pace_um <= site.bounds.cycle_ms * system.ranged.speed_mm_s
+        and system.ranged == Taken(system.way_um, system.pace_um, 0)
     )
 
 
@@ -91,13 +92,17 @@ def no_pace_is_beyond_the_lines(site: Crossing, system: Coming) -> bool:
 
 
 def the_ranging_still_bounds_the_train(site: Crossing, system: Coming) -> bool:
-    """Since the ranging the train has come no nearer than at the line's speed, and gained no more than it can (X1)."""
-    way_um = system.ranged.age_cycles * site.bounds.line_um
-    gain_um = system.ranged.age_cycles * site.bounds.gain_um
+    """Since the ranging the train has come no nearer than at the line's speed, and gained no more than it can (X1).
+
+    By what was so when it was taken, and by what was told of the last one that counts.
+    """
+    ranged, told, bounds = system.ranged, system.told, site.bounds
     return (
-        system.ranged.age_cycles >= 0
-        and UM_A_MM * system.ranged.way_mm - way_um <= system.way_um
-        and system.pace_um <= site.bounds.cycle_ms * system.ranged.speed_mm_s + gain_um
+        ranged.age_cycles >= 0
+        and ranged.way_um - ranged.age_cycles * bounds.line_um <= system.way_um
+        and system.pace_um <= ranged.pace_um + ranged.age_cycles * bounds.gain_um
+        and UM_A_MM * told.way_mm - told.age_cycles * bounds.line_um <= system.way_um
+        and system.pace_um <= bounds.cycle_ms * told.speed_mm_s + told.age_cycles * bounds.gain_um
     )
 
 

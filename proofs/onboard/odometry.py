@@ -35,6 +35,7 @@ def the_train_stands_where_it_is_located(site: Line, system: Running) -> bool:
         and system.speed_um_s == 0
         and not system.counted
         and not system.contradicted
+        and system.false_by_nm == 0
         and system.paced_cycles >= 0
     )
 
@@ -43,11 +44,14 @@ def the_train_stands_where_it_is_located(site: Line, system: Running) -> bool:
 
 
 def range_contains_train(site: Line, system: Running) -> bool:
-    """While a range is claimed, the whole train is in it: its front, and its rear by the length used (P7)."""
+    """While a range is claimed, the whole train is in it: its front, and its rear by the length used (P7).
+
+    Where a fix was false and the unit could not know it, the range is off by no more than that fix was.
+    """
     return system.motion.loss != Loss.NONE or (
-        NM_A_MM * odometry.rear_least_mm(system.motion, site.length_used_mm)
+        NM_A_MM * odometry.rear_least_mm(system.motion, site.length_used_mm) - system.false_by_nm
         <= system.front_nm - NM_A_MM * site.length_mm
-        and system.front_nm <= NM_A_MM * system.motion.front_most_mm
+        and system.front_nm <= NM_A_MM * system.motion.front_most_mm + system.false_by_nm
     )
 
 
@@ -67,16 +71,18 @@ def a_contradicted_range_is_claimed_no_more(site: Line, system: Running) -> bool
 
 
 def range_contains_front(site: Line, system: Running) -> bool:
-    """The front is in the range (P7)."""
+    """The front is in the range, but for what a fix was false by (P7)."""
     return system.motion.loss != Loss.NONE or (
-        NM_A_MM * system.motion.front_least_mm <= system.front_nm <= NM_A_MM * system.motion.front_most_mm
+        NM_A_MM * system.motion.front_least_mm - system.false_by_nm <= system.front_nm
+        and system.front_nm <= NM_A_MM * system.motion.front_most_mm + system.false_by_nm
     )
 
 
 def anchor_contained_front(site: Line, system: Running) -> bool:
-    """At the anchor the front was in the anchor's range (P1)."""
+    """At the anchor the front was in the anchor's range, but for what a fix was false by (P1)."""
     return system.motion.loss != Loss.NONE or (
-        NM_A_MM * system.motion.anchor_least_mm <= system.anchor_nm <= NM_A_MM * system.motion.anchor_most_mm
+        NM_A_MM * system.motion.anchor_least_mm - system.false_by_nm <= system.anchor_nm
+        and system.anchor_nm <= NM_A_MM * system.motion.anchor_most_mm + system.false_by_nm
     )
 
 

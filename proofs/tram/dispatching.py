@@ -13,7 +13,9 @@ from proofs.theory import Theory, by_name
 def nothing_runs_yet(site: Way, system: Traffic) -> bool:
     """At the start no tram is on the way, none is known, and nothing was sent."""
     return (
-        all(False for _tram in system.bodies)
+        system.centre.now_ms == system.now_ms
+        and all(False for _tram in system.bodies)
+        and all(False for _tram in system.runs)
         and all(False for _tram in system.centre.trams)
         and all(False for _command in system.sent)
         and not system.given.holds
@@ -91,7 +93,7 @@ def no_order_outlives_its_time(site: Way, system: Traffic) -> bool:
     """What a standing tram is shown was made no longer ago than written (G3, G6)."""
     return all(
         not (body.display.stands and (body.display.holds or body.display.recovers))
-        or system.centre.now_ms - body.display.made_ms <= site.limits.order_ms
+        or system.now_ms - body.display.made_ms <= site.limits.order_ms
         for _tram, body in system.bodies.items()
     )
 
@@ -130,6 +132,24 @@ def trams_are_known_no_farther_on_than_they_are(site: Way, system: Traffic) -> b
     )
 
 
+def runs_that_were_confirmed_are_those_known(site: Way, system: Traffic) -> bool:
+    """The centre knows of each run that was confirmed, since then, and of no other (G2, G5; ours).
+
+    Until the tram has come, it knows it no farther on than where it is to come.
+    """
+    return all(
+        tram in system.centre.trams
+        and system.centre.trams[tram].since_ms == run.at_ms
+        and system.centre.trams[tram].turn == run.turn
+        and system.centre.trams[tram].leaves_at >= run.leaves_at
+        and (
+            tram in system.bodies
+            or mark(system.centre.trams[tram].stop, system.centre.trams[tram].left) <= mark(run.stop, False)
+        )
+        for tram, run in system.runs.items()
+    ) and all(tram in system.runs for tram in system.centre.trams)
+
+
 def none_is_beyond_its_destination(site: Way, system: Traffic) -> bool:
     """No tram on the way has passed the stop where it leaves (002, 4.2)."""
     return all(body.is_gone or place(body) <= mark(body.leaves_at, False) for _tram, body in system.bodies.items())
@@ -150,13 +170,15 @@ def trams_run_in_their_turn(site: Way, system: Traffic) -> bool:
 
 def clocks_agree(site: Way, system: Traffic) -> bool:
     """All keep GPS time (G3)."""
-    return all(body.display.now_ms == system.centre.now_ms for _tram, body in system.bodies.items())
+    return system.centre.now_ms == system.now_ms and all(
+        body.display.now_ms == system.now_ms for _tram, body in system.bodies.items()
+    )
 
 
 def nothing_is_of_the_future(site: Way, system: Traffic) -> bool:
     """Commands were made by now; and no tram was taken up later than now (G3)."""
-    return all(command.made_ms <= system.centre.now_ms for command in system.sent) and all(
-        known.since_ms <= system.centre.now_ms for _tram, known in system.centre.trams.items()
+    return all(command.made_ms <= system.now_ms for command in system.sent) and all(
+        known.since_ms <= system.now_ms for _tram, known in system.centre.trams.items()
     )
 
 
@@ -276,6 +298,7 @@ INVARIANTS = (
     *SAFETY,
     none_is_ahead_of_one_that_recovers,
     trams_are_known_no_farther_on_than_they_are,
+    runs_that_were_confirmed_are_those_known,
     none_is_beyond_its_destination,
     trams_run_in_their_turn,
     clocks_agree,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -60,8 +61,8 @@ def test_no_train_arrives_too_early_in_drawn_worlds(seed: int) -> None:
             aim_um = chance.choice((BOUNDS.line_um, BOUNDS.line_um, 1_000_000, 0, -500_000))
         if chance.random() < 0.7:
             train.range()
-        ranged = train.system.ranged
-        late = Ranging(True, ranged.way_mm, ranged.speed_mm_s, ranged.age_cycles + chance.choice((0, 0, 1, 30)))
+        ranging = train.ranging()
+        late = replace(ranging, age_cycles=ranging.age_cycles + chance.choice((0, 0, 1, 30)))
         train.decide(NOTHING if chance.random() < loss else late)
         train.run(max(min(aim_um, train.faster()), train.system.pace_um - 15_000))
         if train.system.way_um <= 0:
@@ -87,7 +88,7 @@ def test_a_train_at_or_beyond_the_crossing_is_warned_of() -> None:
 def test_a_stuck_ranging_is_shortened_ever_more() -> None:
     """The same one again with its true age: the way shrinks with it, until it is lost."""
     train = Train(contacted(3_000_000, 0))
-    told, ways = train.system.ranged, []
+    told, ways = train.ranging(), []
     for age_cycles in range(22):
         train.decide(Ranging(True, told.way_mm, told.speed_mm_s, age_cycles))
         ways.append(train.system.followed.way_um)

@@ -54,7 +54,9 @@ class World:
         least_mm, most_mm = start_mm - chance.randrange(3_000), start_mm + chance.randrange(3_000)
         motion = machine.located(least_mm, most_mm, chance.randrange(10**6))
         start_nm = chance.choice((least_mm, most_mm, start_mm)) * NM_A_MM
-        running = Running(start_nm, 0, False, False, 0, motion.way_mm, 0, start_nm, motion.way_mm, False, False, motion)
+        running = Running(
+            start_nm, 0, False, False, 0, motion.way_mm, 0, start_nm, motion.way_mm, False, False, 0, motion
+        )
         self.play = Play(THEORY, site, running)
         self.wheel_nm = motion.way_mm * NM_A_MM
         self.scale_ppm = chance.choice((0, scale_ppm, -scale_ppm * 1_000_000 // (1_000_000 + scale_ppm) + 1))
@@ -173,6 +175,24 @@ def test_the_range_contains_the_train_in_drawn_worlds(seed: int) -> None:
             world.fix()
     assert machine.is_located(world.motion)
     assert world.accepted > 300
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 2**32))
+def test_a_false_fix_in_drawn_worlds_puts_the_range_off_by_no_more(seed: int) -> None:
+    """Fixes off by anything, seen or not; invariants in each step."""
+    chance = Random(seed)
+    world = World(chance, SITE)
+    for cycle in range(300):
+        world.cycle()
+        if cycle % 30 == 29:
+            at_mm = world.play.system.front_nm // NM_A_MM + chance.randrange(-6_000, 6_001)
+            within_mm = chance.choice((1, 1_000, 5_000))
+            world.play.step("take_fix", least_mm=at_mm - within_mm, most_mm=at_mm + within_mm)
+    running = world.play.system
+    least_nm, most_nm = NM_A_MM * running.motion.front_least_mm, NM_A_MM * running.motion.front_most_mm
+    if machine.is_located(running.motion):
+        assert least_nm - running.false_by_nm <= running.front_nm <= most_nm + running.false_by_nm
 
 
 @settings(max_examples=10, deadline=None)

@@ -56,7 +56,7 @@ def test_what_a_machine_may_be_told_besides_is_a_field_of_its_theory() -> None:
 
 CYCLE = "odometry.note_cycle(site.bounds, system.motion, readings)"
 NARROWED = "motion=odometry.note_fix(system.motion, least_mm, most_mm)"
-NO_FIX = "if not a_false_fix_lies_outside_the_range(system, least_mm, most_mm):"
+NOT_THERE = "if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):"
 
 
 @pytest.mark.parametrize(
@@ -69,12 +69,20 @@ NO_FIX = "if not a_false_fix_lies_outside_the_range(system, least_mm, most_mm):"
         (NARROWED, "motion=odometry.note_fix(system.motion, system.front_nm, most_mm)", "writes system.front_nm"),
         (NARROWED, "motion=at(system)", "writes system into motion"),
         (NARROWED, "motion=getattr(system, 'motion')", "uses getattr"),
-        (NO_FIX, "if system.slips:", "decides by system.slips"),
-        (NO_FIX, "if least_mm > most_mm:", "refuses events by `least_mm > most_mm`"),
-        (NO_FIX, NO_FIX.replace("if ", "if most_mm < 0 or "), "refuses events by `most_mm < 0`"),
-        (NO_FIX, "if site.length_mm > most_mm:", "decides by site.length_mm"),
-        (NO_FIX, f"slid = system.slips\n    if slid:\n        return system\n    {NO_FIX}", "decides by system.sl"),
-        (f"{NO_FIX}\n        return system", f"{NO_FIX}\n        return again(site, system)", "does more on an assu"),
+        (NOT_THERE, "if system.slips:", "decides by system.slips"),
+        (NOT_THERE, "if least_mm > most_mm:", "refuses events by `least_mm > most_mm`"),
+        (NOT_THERE, NOT_THERE.replace("if ", "if most_mm < 0 or "), "refuses events by `most_mm < 0`"),
+        (NOT_THERE, "if site.length_mm > most_mm:", "decides by site.length_mm"),
+        (
+            NOT_THERE,
+            f"slid = system.slips\n    if slid:\n        return system\n    {NOT_THERE}",
+            "decides by system.sl",
+        ),
+        (
+            f"{NOT_THERE}\n        return system",
+            f"{NOT_THERE}\n        return again(site, system)",
+            "does more on an assu",
+        ),
     ],
 )
 def test_a_machine_on_board_that_is_told_the_truth_is_seen(old: str, new: str, offence: str) -> None:
@@ -133,8 +141,8 @@ def test_what_is_written_of_a_theory_and_not_listed_is_seen() -> None:
     claims = {name: claim for name, claim in ODOMETRY.invariants.items() if name != "range_contains_train"}
     found = unlisted(replace(ODOMETRY, steps=steps, invariants=claims))
     assert [line.split(":")[0].rsplit(".", 1)[-1] for line in found] == [
-        "a_false_fix_lies_outside_the_range",
         "lies_outside",
+        "missed_by_nm",
         "take_fix",
         "range_contains_train",
     ]

@@ -28,7 +28,7 @@ KILLED = [
     "kernel.onboard.braking.supervise: and-operand stops_before",
     "kernel.onboard.braking.reach_nm: term",
     "kernel.link.judge: guard if not is_authentic",
-    "models.onboard.odometry.take_fix: guard",
+    "models.onboard.odometry.take_fix: update",
     "models.onboard.braking.run_a_cycle: guard",
     "models.link.arrive: guard",
 ]

@@ -229,7 +229,7 @@ def a_clock_that_goes_back_or_leaps_takes_the_fixes_away() -> None:
     still = watch.system
     watch.site = Line(AlarmBounds(0, 0, 60_000, 20_000, 15_000, 30_000), 0, 0)
     watch.step("run_on", elapsed_ms=-1, to_um=still.antenna_um, heading=DOWN, worker_to_um=still.worker_um)
-    assert watch.system.train.age_ms == watch.system.worker.age_ms == GREATEST_AGE_MS + 1
+    assert watch.system.train.age_ms == watch.system.worker.age_ms == GREATEST_AGE_MS + 1 == 3_600_001
 
 
 def every_number_fits_into_64_bits() -> None:

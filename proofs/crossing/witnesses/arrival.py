@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import Coming, Crossing
+from models.crossing.arrival import Coming, Crossing, Taken
 from proofs.crossing.arrival import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
@@ -32,7 +32,7 @@ def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
     return Coming(
         way_um=way_um,
         pace_um=pace_um,
-        ranged=Ranging(True, way_mm, speed_mm_s, 0),
+        ranged=Taken(way_um, pace_um, 0),
         arrived=False,
         decided=False,
         told=Ranging(True, way_mm, speed_mm_s, 0),
@@ -53,14 +53,18 @@ class Train(Play[Crossing, Coming]):
         super().__init__(THEORY, SITE, contacted() if system is None else system)
 
     def range(self) -> None:
-        """Take a ranging, exact but for rounding to the safe side."""
-        way_mm, speed_mm_s = self.system.way_um // UM_A_MM, -(-self.system.pace_um // BOUNDS.cycle_ms)
-        self.step("take_ranging", way_mm=way_mm, speed_mm_s=speed_mm_s)
-        assert self.system.ranged == Ranging(True, way_mm, speed_mm_s, 0)
+        """Take a ranging."""
+        self.step("take_ranging")
+        assert self.system.ranged == Taken(self.system.way_um, self.system.pace_um, 0)
+
+    def ranging(self) -> Ranging:
+        """What the ranging under way says: exact but for rounding to the safe side."""
+        ranged = self.system.ranged
+        return Ranging(True, ranged.way_um // UM_A_MM, -(-ranged.pace_um // BOUNDS.cycle_ms), ranged.age_cycles)
 
     def decide(self, ranging: Ranging | None = None) -> None:
         """The crossing decides, by the ranging under way if not told otherwise."""
-        self.step("decide", ranging=self.system.ranged if ranging is None else ranging)
+        self.step("decide", ranging=self.ranging() if ranging is None else ranging)
         assert self.system.decided
 
     def run(self, pace_um: int) -> None:
@@ -231,7 +235,7 @@ def a_late_ranging_is_shortened_by_its_age() -> None:
     """By the line's speed, and the train may have gained since; at any age that counts (X2)."""
     train = Train(contacted(3_000_000, 20_000))
     train.range()
-    told = train.system.ranged
+    told = train.ranging()
     for _ in range(5):
         train.decide(NOTHING)
         train.run(2_000_000)
@@ -259,8 +263,8 @@ def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
     train = Train(contacted(3_000_000, 20_000))
     train.decide()
     train.run(2_000_000)
-    train.step("take_ranging", way_mm=2_000_000, speed_mm_s=20_000)
-    train.decide()
+    train.range()
+    train.decide(Ranging(True, 2_000_000, 20_000, 0))
     assert (train.system.contradicted, train.warns()) == (True, True)
     for _ in range(3):
         train.run(2_000_000)
@@ -327,9 +331,8 @@ def what_nature_does_not_do_does_not_happen() -> None:
     """Each of the assumptions refuses its event, at its edge and not within (X1, X2)."""
     train = Train(contacted(2_000_000, 20_000))
     start = train.system
-    for far in ({"way_mm": 2_000_001, "speed_mm_s": 20_000}, {"way_mm": 2_000_000, "speed_mm_s": 19_999}):
-        assert train.step("take_ranging", **far) == start
-    ranging = start.ranged
+    ranging = train.ranging()
+    assert ranging == Ranging(True, 2_000_000, 20_000, 0)
     train.step("run_a_cycle", to_um=start.way_um - 2_000_000, pace_um=2_000_000)
     assert train.step("arrive") == start
     train.decide(NOTHING)

@@ -190,13 +190,38 @@ def a_fix_that_contradicts_the_range_loses_it() -> None:
         train.step("take_fix", least_mm=at_mm + off_mm - 500, most_mm=at_mm + off_mm + 500)
         assert train.motion.loss == Loss.CONTRADICTED
         assert train.system.contradicted
+        assert train.system.false_by_nm == 0
+
+
+def a_false_fix_in_the_range_puts_it_off_by_as_much() -> None:
+    """A tag a metre off is believed, as any other; the range is off by that, until a true one contradicts it (P7)."""
+    for sign in (1, -1):
+        train = rolling(20_000)
+        train.run_on(500)
+        at_mm = train.system.front_nm // NM_A_MM
+        train.fix(*sorted((at_mm + sign * 1_000, at_mm + sign * 2_000)))
+        assert (train.system.false_by_nm, train.system.contradicted) == (1_000 * NM_A_MM, False)
+        off_mm = train.motion.front_least_mm - at_mm if sign > 0 else at_mm - train.motion.front_most_mm
+        assert off_mm == 1_000
+        train.fix(*sorted((at_mm + sign * 1_500, at_mm + sign * 1_400)))
+        train.fix(*sorted((at_mm + sign * 1_000, at_mm + sign * 2_000)))
+        assert train.system.false_by_nm == 1_400 * NM_A_MM
+        train.run_on(1)
+        assert train.system.false_by_nm == 1_400 * NM_A_MM
+        train.step("take_fix", least_mm=at_mm + 2_000, most_mm=at_mm + 2_000)
+        assert train.motion.loss == Loss.CONTRADICTED
+        train.run_to(0)
+        at_mm = train.system.front_nm // NM_A_MM
+        train.step("locate_anew", least_mm=at_mm, most_mm=at_mm, way_mm=0)
+        assert machine.is_located(train.motion)
+        assert train.system.false_by_nm == 0
 
 
 # ---- nature
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
-    """Backward, too far, too fast, a sensor or wheel beyond its bound, a slip without a jolt, a false fix."""
+    """Backward, too far, too fast, a sensor or wheel beyond its bound, a slip without a jolt."""
     train = rolling(20_000)
     before = train.system
     far_nm = before.front_nm + 2_000 * NM_A_MM
@@ -223,10 +248,6 @@ def what_nature_does_not_do_does_not_happen() -> None:
         assert train.step("run_a_cycle", **{**event, **what}) == before
     for stuck in (good, replace(good, way_mm=205_000, tachometer_mm_s=19_999), replace(good, tachometer_mm_s=0)):
         assert train.step("run_a_cycle", **{**event, "sticks": True, "readings": stuck}) == before
-    wide = replace(before, motion=replace(before.motion, front_least_mm=290_000, front_most_mm=310_000))
-    train.system = before = wide
-    for least_mm, most_mm in ((290_000, 299_999), (300_001, 310_000)):
-        assert train.step("take_fix", least_mm=least_mm, most_mm=most_mm) == before
     after = train.step("run_a_cycle", **{**event, "slips": True, "readings": replace(good, tachometer_mm_s=20_115)})
     assert after.slips
     assert not after.motion.trusted
@@ -258,6 +279,7 @@ WITNESSES = (
     in_an_irregular_cycle_the_train_may_get_anywhere,
     a_train_whose_range_is_lost_is_located_at_rest,
     a_fix_that_contradicts_the_range_loses_it,
+    a_false_fix_in_the_range_puts_it_off_by_as_much,
     what_nature_does_not_do_does_not_happen,
     a_wheel_does_not_slip_for_long_at_the_trains_own_pace,
 )

@@ -37,6 +37,7 @@ AT_POWER_ON = Running(
     anchor_way_mm=5_000,
     counted=False,
     contradicted=False,
+    false_by_nm=0,
     motion=machine.located(START_MM - 1_000, START_MM + 1_000, 5_000),
 )
 

@@ -35,7 +35,9 @@ class Day(Play[Way, Traffic]):
 
     def __init__(self, now_ms: int = 1_000_000) -> None:
         """Begin: nothing is known."""
-        super().__init__(THEORY, SITE, Traffic({}, Centre(now_ms, {}, {}), frozenset(), Given(*4 * (False,))))
+        super().__init__(
+            THEORY, SITE, Traffic(now_ms, {}, {}, Centre(now_ms, {}, {}), frozenset(), Given(*4 * (False,)))
+        )
 
     def body(self, tram: Tram) -> Body:
         """A tram as it is."""
