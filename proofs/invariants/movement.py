@@ -133,9 +133,9 @@ def a_reported_block_is_left_by_all_cars(site: Site, system: System) -> bool:
     """Where the tail has read the genuine pair of a block, no car is that came there under this run (T2, T6)."""
     return (
         all(
-            not genuine(site, block, left, entered)
-            or block not in system.track.at.get(car, frozenset())
+            block not in system.track.at.get(car, frozenset())
             or system.track.under.get(car, {}).get(block) != run
+            or not genuine(site, block, left, entered)
             for run, block, left, entered in system.radio.tail_reports
             for car in system.track.at
         )
@@ -178,7 +178,7 @@ def a_unit_remembers_what_it_left(site: Site, system: System) -> bool:
             for block, evidence in order.left.items()
         )
         and all(
-            not genuine(site, block, left, entered) or (run, block) in system.track.behind
+            (run, block) in system.track.behind or not genuine(site, block, left, entered)
             for run, block, left, entered in system.radio.tail_reports
         )
     )
