@@ -3,32 +3,68 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
+from dataclasses import fields
+from functools import cache
+from typing import Any
 
 from fuzz.failures.replaying import holds
 from models.simulation.simulation import Simulation
 from models.world.state import System
 from proofs.catalogue import INVARIANTS, SAFETY
+from proofs.lift.sources import definition_of
+from proofs.lints_apart import paths_in
+from proofs.reach import called_by
 
 EVERY_S = 10
 """So often all of them are asked; in between, in every second that changes something, the claims of the safety case."""
 CLAIMS = tuple(name for name in INVARIANTS if name in SAFETY)
+PARTS = frozenset(part.name for part in fields(System))
 
 
 class Judge:
-    """Looks on, second by second; ``asked`` counts how often each invariant was."""
+    """Looks on, second by second; ``asked`` counts how often each invariant was.
+
+    What an invariant says follows from the parts of the state that it reads, so it is asked again once one of them
+    is another.
+    """
 
     def __init__(self) -> None:
         self.asked: Counter[str] = Counter(dict.fromkeys(INVARIANTS, 0))
-        self._seen: System | None = None
+        self._read: dict[str, tuple[object, ...]] = {}
 
     def look(self, now: Simulation) -> None:
         """Ask what is to be asked now; the simulation ends where something is false."""
         system = now.play.system
-        all_of_them = now.now_s % EVERY_S == 0
-        if system is self._seen and not all_of_them:
-            return
-        self._seen = system
-        for name in INVARIANTS if all_of_them else CLAIMS:
+        for name in INVARIANTS if now.now_s % EVERY_S == 0 else CLAIMS:
+            read = tuple(_part(system, path) for path in reads()[name])
+            before = self._read.get(name)
+            if before is not None and all(one is other for one, other in zip(before, read, strict=True)):
+                continue
+            self._read[name] = read
             self.asked[name] += 1
             if not holds(name, now.play.site, system):
                 now.oracles.violated(name, "the invariant is false of the simulated state")
+
+
+@cache
+def reads() -> Mapping[str, tuple[tuple[str, ...], ...]]:
+    """For each invariant the parts of a state that it reads, itself and by the functions that it calls."""
+    found = {}
+    for name, invariant in INVARIANTS.items():
+        trees = [definition_of(each) for each in (invariant, *called_by(invariant))]
+        paths = {path for tree in trees for path in paths_in(tree, PARTS)}
+        found[name] = tuple(sorted({tuple(path.split(".")[1:3]) for path in paths}))
+    return found
+
+
+def _part(system: System, path: tuple[str, ...]) -> object:
+    """Give what lies on a path, as far as it is of fields."""
+    part: Any = system
+    for name in path:
+        if name not in {each.name for each in fields(part)}:
+            break
+        part = getattr(part, name)
+        if not hasattr(part, "__dataclass_fields__"):
+            break
+    return part

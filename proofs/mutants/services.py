@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
-from kernel.names import Block, Car, Cause, Stage, TerminalLife, UnitLife
+from kernel.names import Block, Car, Cause, Stage, TerminalLife, Train, UnitLife
 from kernel.refusal import Refusal
 from kernel.unit import Evidence
+from models.simulator.senses import AT_REST, WHOLE
 from proofs.witnesses import restarts, running, setting, telling
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
@@ -36,6 +38,7 @@ from proofs.witnesses.stations import (
     WEST_TO_EAST,
     WEST_TO_ONE,
     WEST_TO_TWO,
+    WEST_TO_TWO_SHIELDED,
 )
 
 At = dict[Car, frozenset[Block]]
@@ -45,6 +48,38 @@ def standing(first: Block, second: Block | None = None) -> At:
     """Both cars of T1 in one block, and T2 in another where it matters."""
     at = {A1: frozenset({first}), A2: frozenset({first})}
     return at if second is None else {**at, B1: frozenset({second})}
+
+
+# ---- standing
+
+
+def tells_anew(scenario: Scenario, train: Train, blocks: frozenset[Block]) -> dict[str, Any]:
+    """A train at rest tells for its driver that it is in these blocks; the word of it that the centre is to take."""
+    epoch, life = scenario.system.centre.epoch, UnitLife(scenario.system.units[train].life + 1)
+    event = {"train": train, "epoch": epoch, "life": life, "blocks": blocks, "at": AT_REST, "line": WHOLE}
+    scenario.does("answer", **event)
+    scenario.does("send_standing", train=train, epoch=epoch)
+    run = telling.next_run(scenario, train, NO_ROUTE)
+    return {"train": train, "life": life, "epoch": epoch, "run": run}
+
+
+def a_train_may_name_a_block_with_a_point_proved_for_another(steps: Steps) -> Scenario:
+    """A point that another's route needs as its flank keeps still once it is proved; before, it may move (T8, T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST, EAST))
+    run = setting.reserve(scenario, T1, WEST_TO_TWO_SHIELDED, runs[T1])
+    word = tells_anew(scenario, T2, frozenset({EAST, OUTLET}))
+    scenario.refuses("note_standing", Refusal.POINT_BEING_LAID, **word)
+    setting.prove_all(scenario, run)
+    scenario.does("note_standing", **word)
+    return scenario
+
+
+def a_train_may_name_a_block_with_a_point_that_it_is_laid_for(steps: Steps) -> Scenario:
+    """A train that tells anew ends its own runs, and with them what is being laid for it (T8, T10)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    scenario.does("note_standing", **tells_anew(scenario, T1, frozenset({WEST, THROAT})))
+    return scenario
 
 
 # ---- cancelling

@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLife
-from models.simulator.senses import BROKEN
+from models.simulator.senses import AT_REST, BROKEN, INSIDE
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import came, went
@@ -292,6 +292,17 @@ def a_train_that_backs_out_leaves_what_it_came_into(steps: Steps) -> Scenario:
     back = setting.set_route(scenario, T1, ONE_TO_WEST, run)
     running.run_through(scenario, back, ONE, THROAT)
     running.report(scenario, run, ONE, THROAT)
+    return scenario
+
+
+def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
+    """A speed that may be above a standstill, either way, does not say that a train stands (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.run_through(scenario, run, WEST, THROAT, ONE)
+    for creeps in ({"speed_least_mm_s": -1}, {"speed_most_mm_s": 1}):
+        scenario.refuses("note_stopped", run=run, **INSIDE | {"at": replace(AT_REST, **creeps)})
+    scenario.does("note_stopped", run=run, **INSIDE)
     return scenario
 
 

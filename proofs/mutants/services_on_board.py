@@ -21,6 +21,8 @@ from proofs.witnesses.stations import (
     EAST,
     EAST_TO_ONE,
     ONE,
+    ONE_TO_EAST,
+    ONE_TO_WEST,
     OUTLET,
     P1,
     P2,
@@ -29,6 +31,7 @@ from proofs.witnesses.stations import (
     THROAT,
     TWO,
     WEST,
+    WEST_TO_EAST,
     WEST_TO_ONE,
     WEST_TO_TWO,
 )
@@ -45,6 +48,50 @@ def a_tag_read_before_the_permit_opens_the_loop(steps: Steps) -> Scenario:
     astray = {"astray": came((T1, run.life)), "last_read": {T1: tag}}
     opened = {"units": {T1: {"loop_open": True}}, "track": astray}
     scenario.does("head_reads", opened, train=T1, cab=cab, tag=tag, in_window=True)
+    return scenario
+
+
+def a_run_not_begun_is_read_from_its_first_tag_after_a_turn(steps: Steps) -> Scenario:
+    """A driver who stops on the first tag, turns and turns back reads that tag again, and his run begins (T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_reads(scenario, run, scenario.site.layout.first_tag[WEST_TO_ONE])
+    running.rest(scenario, run)
+    running.faces(scenario, telling.next_run(scenario, T1, ONE_TO_WEST))
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    scenario.must(scenario.system.units[T1].orders[run].begun, "the run has begun")
+    return scenario
+
+
+def an_overtaken_run_does_not_begin_with_its_successor(steps: Steps) -> Scenario:
+    """Two runs begin at one boundary: the older one, which others have overtaken since, stays behind (T2, T5)."""
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    overtaken = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+    away = setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
+    running.run_through(scenario, away, ONE, THROAT, WEST)
+    back = setting.set_route(scenario, T1, WEST_TO_ONE, away)
+    running.run_through(scenario, back, WEST, THROAT, ONE)
+    run = setting.set_route(scenario, T1, ONE_TO_EAST, back)
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, ONE, OUTLET)
+    orders = scenario.system.units[T1].orders
+    scenario.must(orders[run].begun and not orders[overtaken].begun, "only the newer run has begun")
+    return scenario
+
+
+def a_train_that_turned_goes_on_under_the_run_that_it_was_in(steps: Steps) -> Scenario:
+    """A begun run is read on from where it was, though a later one has begun in between (T2, T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_EAST, runs[T1])
+    running.run_through(scenario, run, WEST, THROAT, ONE)
+    back = setting.set_route(scenario, T1, ONE_TO_WEST, run)
+    running.roll(scenario, back)
+    running.head_passes(scenario, back, ONE, THROAT)
+    running.rest(scenario, back)
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, ONE, OUTLET)
     return scenario
 
 
