@@ -300,8 +300,8 @@ def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
-    for creeps in ({"speed_least_mm_s": -1}, {"speed_most_mm_s": 1}):
-        scenario.refuses("note_stopped", run=run, **INSIDE | {"at": replace(AT_REST, **creeps)})
+    for creeps in (replace(AT_REST, speed_least_mm_s=-1), replace(AT_REST, speed_most_mm_s=1)):
+        scenario.refuses("note_stopped", run=run, **{**INSIDE, "at": creeps})
     scenario.does("note_stopped", run=run, **INSIDE)
     return scenario
 
