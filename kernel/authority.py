@@ -14,20 +14,21 @@ def may_proceed(unit: Unit, run: Run) -> bool:
     """Tell whether the train may move under ``run``: permitted, not wanted back, second loop closed (T4, T5, T9).
 
     A recall takes the authority away at once, long before the run is given back; but a train that has
-    begun the run keeps it.  Runs are begun in the order in which they were granted (:func:`is_overtaken`).
+    begun the run keeps it.  A train runs by its runs in the order in which they were granted (:func:`is_overtaken`).
     """
     order = unit.orders.get(run)
     return (
         order is not None
         and order.permitted
         and not order.given_back
-        and (order.begun or not (order.recalled or is_overtaken(unit, run)))
+        and (order.begun or not order.recalled)
+        and not is_overtaken(unit, run)
         and not unit.loop_open
     )
 
 
 def is_overtaken(unit: Unit, run: Run) -> bool:
-    """Tell whether a later run has begun: an older one is not begun any more (T2, T9).
+    """Tell whether a later run has begun: an older one is not begun, nor gone on under, any more (T2, T9).
 
     The unit takes it from the order of the runs whether its head has gone on out of a block.
     """

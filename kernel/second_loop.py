@@ -37,9 +37,9 @@ def is_next(lists: TagLists, unit: Unit, run: Run, order: Order, cab: Cab, tag: 
     """Tell whether ``tag`` is the next one of ``run``, and not only where another ends (T5).
 
     A run back, permitted before the train has arrived, begins with the tag that the way in ends with.  One
-    that a later run has overtaken does not begin.
+    that a later run has overtaken is past.
     """
-    if not order.begun and is_overtaken(unit, run):
+    if is_overtaken(unit, run):
         return False
     return expects(lists, unit, order, cab, tag) and (
         order.led_by is not None

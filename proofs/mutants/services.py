@@ -151,7 +151,7 @@ def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Sce
     running.roll(scenario, again)
     running.head_passes(scenario, again, WEST, THROAT)
     scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
-    scenario.does("start_rolling", run=run)
+    scenario.refuses("start_rolling", run=run)
     return scenario
 
 

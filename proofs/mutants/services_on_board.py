@@ -81,8 +81,8 @@ def an_overtaken_run_does_not_begin_with_its_successor(steps: Steps) -> Scenario
     return scenario
 
 
-def a_train_that_turned_goes_on_under_the_run_that_it_was_in(steps: Steps) -> Scenario:
-    """A begun run is read on from where it was, though a later one has begun in between (T2, T5)."""
+def a_train_that_turned_does_not_go_on_under_an_older_run(steps: Steps) -> Scenario:
+    """A run that a later one has overtaken is past, though it had begun: a new one is set (T2, T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_EAST, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
@@ -90,8 +90,11 @@ def a_train_that_turned_goes_on_under_the_run_that_it_was_in(steps: Steps) -> Sc
     running.roll(scenario, back)
     running.head_passes(scenario, back, ONE, THROAT)
     running.rest(scenario, back)
-    running.roll(scenario, run)
-    running.head_passes(scenario, run, ONE, OUTLET)
+    running.faces(scenario, run)
+    scenario.refuses("start_rolling", run=run)
+    onward = setting.set_route(scenario, T1, ONE_TO_EAST, run)
+    running.roll(scenario, onward)
+    running.head_passes(scenario, onward, ONE, OUTLET)
     return scenario
 
 

@@ -145,7 +145,7 @@ def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     for other, known in known_orders.items():
         changed: dict[str, Any] = {}
         begun, led_by = known.begun, known.led_by
-        overtaken = not begun and any(new.serial > other.serial and known_orders[new].begun for new in known_orders)
+        overtaken = any(new.serial > other.serial and known_orders[new].begun for new in known_orders)
         if expects(known, tag) and not overtaken and (led_by is not None or not on_the_way):
             begun, led_by = begun or tag != layout.first_tag[other.route], cab
             changed |= {"expected": layout.tag_after[other.route].get(tag), "led_by": cab}
