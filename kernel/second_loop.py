@@ -44,8 +44,8 @@ def is_next(lists: TagLists, unit: Unit, run: Run, order: Order, cab: Cab, tag: 
     return expects(lists, unit, order, cab, tag) and (
         order.led_by is not None
         or all(
-            on_the_way.led_by is None or not expects(lists, unit, on_the_way, cab, tag)
-            for _, on_the_way in unit.orders.items()
+            on_the_way.led_by is None or is_overtaken(unit, other) or not expects(lists, unit, on_the_way, cab, tag)
+            for other, on_the_way in unit.orders.items()
         )
     )
 

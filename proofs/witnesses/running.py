@@ -141,12 +141,16 @@ def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     block = layout.tag_in[tag]
     orders: dict[Run, dict[str, Any]] = {}
     known_orders = scenario.system.units[train].orders
-    on_the_way = any(expects(known, tag) and known.led_by is not None for _, known in known_orders.items())
+    begun_runs = [other.serial for other, known in known_orders.items() if known.begun]
+    overtaken = {other for other in known_orders if any(serial > other.serial for serial in begun_runs)}
+    on_the_way = any(
+        expects(known, tag) and known.led_by is not None and other not in overtaken
+        for other, known in known_orders.items()
+    )
     for other, known in known_orders.items():
         changed: dict[str, Any] = {}
         begun, led_by = known.begun, known.led_by
-        overtaken = any(new.serial > other.serial and known_orders[new].begun for new in known_orders)
-        if expects(known, tag) and not overtaken and (led_by is not None or not on_the_way):
+        if expects(known, tag) and other not in overtaken and (led_by is not None or not on_the_way):
             begun, led_by = begun or tag != layout.first_tag[other.route], cab
             changed |= {"expected": layout.tag_after[other.route].get(tag), "led_by": cab}
             changed |= {"begun": True} if begun else {}
