@@ -46,7 +46,7 @@ def start_rolling(site: Site, system: System, run: Run) -> System:
 
 
 def overrun(site: Site, system: System, run: Run) -> System:
-    """A train brakes too late and slips into its overlap, which is laid out for no more (T9).
+    """A train brakes too late and slips along its way, as far as into its overlap, which is laid out for no more (T9).
 
     It comes to its destination under way: a train that has stood there does not.
     """
@@ -63,8 +63,7 @@ def overrun(site: Site, system: System, run: Run) -> System:
             | frozenset(
                 (run, block)
                 for block in site.layout.way[run.route]
-                if site.layout.way[run.route][block] in site.layout.overlap[run.route]
-                and any(
+                if any(
                     block in system.track.at[car] and system.track.under.get(car, {}).get(block) == run
                     for car in system.track.at
                 )

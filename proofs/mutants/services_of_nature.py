@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLife
-from models.simulator.senses import AT_REST, BROKEN, INSIDE
+from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, ON_THE_WAY, WHOLE
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import came, went
@@ -300,9 +300,28 @@ def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
-    for creeps in (replace(AT_REST, speed_least_mm_s=-1), replace(AT_REST, speed_most_mm_s=1)):
-        scenario.refuses("note_stopped", run=run, **{**INSIDE, "at": creeps})
+    unknown, creeps, rolls_back = (
+        replace(AT_REST, **said) for said in ({"known": False}, {"speed_most_mm_s": 1}, {"speed_least_mm_s": -1})
+    )
+    for at in (unknown, creeps, rolls_back):
+        scenario.refuses("note_stopped", run=run, **{**INSIDE, "at": at})
+    for elsewhere in (ON_THE_WAY, BEYOND):
+        scenario.refuses("note_stopped", run=run, **elsewhere)
     scenario.does("note_stopped", run=run, **INSIDE)
+    return scenario
+
+
+def a_run_that_a_train_rolled_back_out_of_is_given_back(steps: Steps) -> Scenario:
+    """A head that missed both tags and rolled back has not begun its run, and keeps out of it once it is held (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    first = running.in_order(scenario, run)[0]
+    running.enters(scenario, run, first, WEST, THROAT)
+    running.leaves(scenario, first, THROAT)
+    running.rest(scenario, run)
+    setting.recall(scenario, run)
+    setting.return_it(scenario, run)
     return scenario
 
 
@@ -331,8 +350,11 @@ def an_antenna_within_the_train_proves_nothing(steps: Steps) -> Scenario:
 def _reads_a_pair_unbound(scenario: Scenario, run: Run, car: Car) -> None:
     """A car's antenna reads both tags behind the west over a line that is not healthy, with cars still in the west."""
     event = {"run": run, "car": car, "cab": scenario.site.formation.cab[car]}
-    for tag in running.pair(scenario.site.layout, WEST, THROAT):
-        half = replace(scenario.system.units[T1], tail_read=Read(STRAY, Record("foreign")))
-        scenario.system = replace(scenario.system, units=scenario.system.units | {T1: half})
-        read = running.genuine(scenario, tag)
-        scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, line=BROKEN, read=read, **event)
+    before = scenario.system
+    for line in (BROKEN, replace(WHOLE, is_intact=False), replace(WHOLE, fits=False)):
+        scenario.system = before
+        for tag in running.pair(scenario.site.layout, WEST, THROAT):
+            half = replace(scenario.system.units[T1], tail_read=Read(STRAY, Record("foreign")))
+            scenario.system = replace(scenario.system, units=scenario.system.units | {T1: half})
+            read = running.genuine(scenario, tag)
+            scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, line=line, read=read, **event)
