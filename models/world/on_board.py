@@ -90,8 +90,7 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
             | frozenset(
                 (run, site.ground.laid_in[tag])
                 for run in system.radio.permits
-                if run.train == train
-                and run in site.formation.front
+                if run in site.formation.front
                 and site.formation.front[run] == cab
                 and run.route in site.layout.routes
                 and tag in site.ground.laid_in
@@ -156,7 +155,6 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
         (other, block)
         for other in system.radio.permits
         if counts
-        and other.train == run.train
         and other in site.formation.front
         and system.track.facing.get(run.train) == site.formation.front[other]
         for train, tag in system.track.passed
