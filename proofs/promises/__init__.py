@@ -19,6 +19,11 @@ for it, and it learns which (`a_train_learns_under_which_run_it_stands`), so tha
 **A run that is asked for** gets its permit once its points are proved (`a_proved_run_is_permitted`), or is given back
 (`a_run_wanted_back_is_freed`); one that its train was not told of yet is withdrawn at once.
 
+**A train that holds what it can neither run under nor give back**, at rest, is located anew for its driver: it answers
+once more (`a_train_answers`), which drops every authority, and what it held ends as after a restart. That nothing
+stands for ever so is searched for, and not proved, in worlds that share nothing with the proofs
+(`tests/independent/world/settled.py`).
+
 **What is not promised.** That a point's terminal confirms: a confirmation can be overtaken on a shared flank point,
 or a point be stuck ([limits](limits.md)); the signaller withdraws the run then. That a lost point under a standing
 train is adopted: its terminal must answer, or the train move off. That the train runs, that its tail reads both tags,
