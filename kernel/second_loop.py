@@ -15,11 +15,11 @@ def open_loop(unit: Unit) -> Unit:
     return replace(unit, loop_open=True)
 
 
-def expects(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bool:
+def expects(lists: TagLists, unit: Unit, run: Run, order: Order, cab: Cab, tag: Tag) -> bool:
     """Tell whether a permitted run that was not given back expects ``tag`` next, read by ``cab`` (T5).
 
     A run begins with both tags at the end of its start block, one right after the other, and is
-    led by one cab throughout.
+    led by one cab throughout.  One that a later run has overtaken is past.
     """
     if order.tag_list is None:
         return False
@@ -30,21 +30,19 @@ def expects(lists: TagLists, unit: Unit, order: Order, cab: Cab, tag: Tag) -> bo
         and order.expected == tag
         and (tag == first or order.begun or unit.head_tag == first)
         and (order.led_by is None or order.led_by == cab)
+        and not is_overtaken(unit, run)
     )
 
 
 def is_next(lists: TagLists, unit: Unit, run: Run, order: Order, cab: Cab, tag: Tag) -> bool:
     """Tell whether ``tag`` is the next one of ``run``, and not only where another ends (T5).
 
-    A run back, permitted before the train has arrived, begins with the tag that the way in ends with.  One
-    that a later run has overtaken is past.
+    A run back, permitted before the train has arrived, begins with the tag that the way in ends with.
     """
-    if is_overtaken(unit, run):
-        return False
-    return expects(lists, unit, order, cab, tag) and (
+    return expects(lists, unit, run, order, cab, tag) and (
         order.led_by is not None
         or all(
-            on_the_way.led_by is None or is_overtaken(unit, other) or not expects(lists, unit, on_the_way, cab, tag)
+            on_the_way.led_by is None or not expects(lists, unit, other, on_the_way, cab, tag)
             for other, on_the_way in unit.orders.items()
         )
     )
@@ -93,7 +91,7 @@ def note_head_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, tag: Ta
     tail_read = tail_read_still_good(plan, unit, tag)
     if unit.head_tag == tag or unit.loop_open:
         return replace(unit, tail_read=tail_read)
-    if not in_window or not any(expects(lists, unit, order, cab, tag) for _, order in unit.orders.items()):
+    if not in_window or not any(expects(lists, unit, run, order, cab, tag) for run, order in unit.orders.items()):
         return open_loop(unit)
     block = plan.tag_in.get(tag)
     advanced = {

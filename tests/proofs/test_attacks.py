@@ -73,7 +73,7 @@ WATCHED = {
     ),
     "a_way_back_permitted_before_the_arrival_keeps_its_loop": (
         "kernel.second_loop.is_next: and-operand order.led_by is not None or all((on_the_way.led_by is None or "
-        "not expects(lists, unit, on_the_way, cab, tag) for _, on_the_way in unit.orders.items()))"
+        "not expects(lists, unit, other, on_the_way, cab, tag) for other, on_the_way in unit.orders.items()))"
     ),
 }
 """Attacks that end without harm even without the guard: a run is lost, the loop opens, or another run still holds.
