@@ -25,8 +25,8 @@ PARTS = frozenset(part.name for part in fields(System))
 class Judge:
     """Looks on, second by second; ``asked`` counts how often each invariant was.
 
-    What an invariant says follows from the parts of the state that it reads, so it is asked again once one of them
-    is another.
+    What an invariant says follows from the parts of the state that it reads: while each of them is the same as when
+    it held, its answer stands and is not worked out again.
     """
 
     def __init__(self) -> None:
@@ -37,12 +37,12 @@ class Judge:
         """Ask what is to be asked now; the simulation ends where something is false."""
         system = now.play.system
         for name in INVARIANTS if now.now_s % EVERY_S == 0 else CLAIMS:
+            self.asked[name] += 1
             read = tuple(_part(system, path) for path in reads()[name])
             before = self._read.get(name)
             if before is not None and all(one is other for one, other in zip(before, read, strict=True)):
                 continue
             self._read[name] = read
-            self.asked[name] += 1
             if not holds(name, now.play.site, system):
                 now.oracles.violated(name, "the invariant is false of the simulated state")
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from fuzz.simulation import judging
 from fuzz.simulation.judging import Judge, _part, reads
-from models.world.state import System
+from models.world.state import Site, System
 from proofs.catalogue import INVARIANTS
 from proofs.witnesses.long_day import two_trains_pass
 from proofs.witnesses.scenario import STEPS, Scenario
@@ -44,15 +47,28 @@ def test_an_invariant_reads_what_is_listed(day: Scenario, name: str) -> None:
     assert not {path for path in unlisted if not any(getattr(day.system, path[0]) is part for part in listed)}
 
 
-def test_no_invariant_is_asked_twice_of_the_same_state(day: Scenario) -> None:
+def test_an_answer_stands_until_something_that_it_reads_is_another(
+    day: Scenario, monkeypatch: pytest.MonkeyPatch
+) -> None:
     class Now:
         now_s = 0
-        play = day
+        play: Any = day
 
+    worked_out: list[str] = []
+
+    def holds(name: str, site: Site, system: System) -> bool:
+        worked_out.append(name)
+        return bool(INVARIANTS[name](site, system))
+
+    monkeypatch.setattr(judging, "holds", holds)
     judge: Any = Judge()
     judge.look(Now)
-    once = dict(judge.asked)
-    assert set(once.values()) == {1}
+    assert sorted(worked_out) == sorted(INVARIANTS)
     judge.look(Now)
-    assert dict(judge.asked) == once
-    assert isinstance(day.system, System)
+    assert sorted(worked_out) == sorted(INVARIANTS)
+    assert set(judge.asked.values()) == {2}
+    track = day.system.track
+    Now.play = SimpleNamespace(site=day.site, system=replace(day.system, track=replace(track, at=dict(track.at.items()))))
+    judge.look(Now)
+    again = worked_out[len(INVARIANTS) :]
+    assert set(again) == {name for name, paths in reads().items() if ("track", "at") in paths}
