@@ -68,7 +68,9 @@ def test_an_answer_stands_until_something_that_it_reads_is_another(
     assert sorted(worked_out) == sorted(INVARIANTS)
     assert set(judge.asked.values()) == {2}
     track = day.system.track
-    Now.play = SimpleNamespace(site=day.site, system=replace(day.system, track=replace(track, at=dict(track.at.items()))))
+    Now.play = SimpleNamespace(
+        site=day.site, system=replace(day.system, track=replace(track, at=dict(track.at.items())))
+    )
     judge.look(Now)
     again = worked_out[len(INVARIANTS) :]
     assert set(again) == {name for name, paths in reads().items() if ("track", "at") in paths}
