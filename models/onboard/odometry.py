@@ -297,7 +297,6 @@ def take_fix(site: Line, system: Running, least_mm: int, most_mm: int) -> Runnin
         system,
         anchor_nm=system.front_nm,
         anchor_way_mm=system.shown_way_mm,
-        counted=system.told and not system.slips,
         contradicted=system.contradicted or lies_apart,
         false_by_nm=larger(system.false_by_nm, missed_nm),
         motion=odometry.note_fix(system.motion, least_mm, most_mm),

@@ -295,7 +295,17 @@ def what_nature_does_not_do_does_not_happen() -> None:
     watch.run(1, DOWN)
 
 
+def what_is_no_report_never_becomes_one() -> None:
+    """Not by growing old, as one of a time that is still to come would (A1)."""
+    watch = Watch(WORKER_MM)
+    fix = TrainFix(0, -10_000, DOWN, is_running=True)
+    watch.step("take_train_fix", fix=fix, at_um=watch.system.antenna_um)
+    watch.run(20_000, UP)
+    assert watch.system.told == fix
+
+
 WITNESSES = (
+    what_is_no_report_never_becomes_one,
     a_train_comes_passes_and_goes,
     the_deductions_are_all_made,
     at_the_worst_the_train_is_as_near_as_reckoned,

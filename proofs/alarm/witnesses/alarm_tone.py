@@ -21,7 +21,7 @@ from kernel.alarm.tone import (
 )
 from models.alarm.line import BOUNDS, FRESH
 from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed, may_be_within
-from proofs.alarm.witnesses import one_decision
+from proofs.alarm.witnesses import one_decision, what_is_known
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     CAUTION,
@@ -458,4 +458,5 @@ WITNESSES = (
     no_train_longer_than_written_comes,
     a_train_turns_when_it_can,
     *one_decision.WITNESSES,
+    *what_is_known.WITNESSES,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kernel.onboard import odometry as machine
 from kernel.onboard.odometry import Loss, Motion
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses import odometry_readings
+from proofs.onboard.witnesses import odometry_nature, odometry_readings
 from proofs.onboard.witnesses.rolling_stock import SITE, Train, rolling
 
 # ---- trust
@@ -127,6 +127,11 @@ def the_most_speed_is_never_less_than_nothing() -> None:
     for speed in (820, 640, 460, 280, 100, 0, 0, 0):
         train.cycle(speed, tachometer=0, slips=True)
     assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-151, 351)
+    train = rolling()
+    for speed in range(-45, -900, -45):
+        train.cycle(speed)
+    train.cycle(-900, gradient=-350, tachometer_valid=False)
+    assert train.motion.speed_most_mm_s == 0
 
 
 def a_train_that_rolls_back_is_in_its_range() -> None:
@@ -159,6 +164,9 @@ def the_brakes_of_a_train_that_rolls_back_act_forward() -> None:
     train.stand(1)
     train.cycle(0, tachometer_valid=False, inertial_valid=False)
     assert train.motion.speed_most_mm_s == 21 + 180
+    train = Train()
+    train.cycle(0, tachometer_valid=False, inertial_valid=False)
+    assert train.motion.speed_most_mm_s == 120
 
 
 def a_wheel_is_not_trusted_again_where_the_speed_is_hardly_known() -> None:
@@ -314,4 +322,5 @@ WITNESSES = (
     the_way_is_between_the_speeds_at_both_ends,
     a_train_that_stops_in_a_slide_stands_in_the_range,
     *odometry_readings.WITNESSES,
+    *odometry_nature.WITNESSES,
 )
