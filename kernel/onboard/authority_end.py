@@ -15,6 +15,7 @@ from kernel.names import Block, Run
 from kernel.onboard import braking
 from kernel.onboard.arithmetic import smaller
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.odometry import Motion, is_located
 from kernel.tag_list import TagLists
 from kernel.unit import Unit
 
@@ -77,15 +78,21 @@ def obey(
     block_ends_mm: Map[Run, Map[Block, int]],
     bounds: BrakeBounds,
     brake: Brake,
-    front_least_mm: int,
-    front_most_mm: int,
-    speed_most_mm_s: int,
+    motion: Motion,
 ) -> frozenset[Brake]:
-    """Give what the brake becomes by all that the unit knows: one state, asked for in every cycle (T4, T9, T12)."""
-    wanted_mm = ends_mm(lists, unit, begins_mm, block_ends_mm, front_least_mm, front_most_mm)
+    """Give what the brake becomes by all that the unit knows: one state, asked for in every cycle (T4, T9, T12).
+
+    ``motion``: the odometry's.  While that claims no range nobody knows whether the train can still stop before a
+    nearer end: none is taken, and so no run is given back by it.
+    """
+    if not is_located(motion):
+        return frozenset({braking.withhold_end(brake)})
+    wanted_mm = ends_mm(lists, unit, begins_mm, block_ends_mm, motion.front_least_mm, motion.front_most_mm)
     if not any(True for _ in wanted_mm):
         return frozenset({braking.withhold_end(brake)})
-    taken = frozenset(braking.take_end(bounds, brake, front_most_mm, speed_most_mm_s, end_mm) for end_mm in wanted_mm)
+    taken = frozenset(
+        braking.take_end(bounds, brake, motion.front_most_mm, motion.speed_most_mm_s, end_mm) for end_mm in wanted_mm
+    )
     if is_stopped(unit, block_ends_mm):
         return frozenset(braking.withhold_end(each) for each in taken)
     return taken

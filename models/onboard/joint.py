@@ -20,6 +20,7 @@ from kernel.maps import Map
 from kernel.names import Block, Car, Run, Train
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.odometry import Loss, Motion
 from kernel.unit import Unit
 from models.world.state import Site, System
 
@@ -322,15 +323,7 @@ def ask_for_the_end(
     return with_end(site, asked, train) if brake.end_mm in wanted_mm else asked
 
 
-def obey_the_orders(
-    site: Survey,
-    system: Joint,
-    train: Train,
-    bounds: BrakeBounds,
-    front_least_mm: int,
-    front_most_mm: int,
-    speed_most_mm_s: int,
-) -> Joint:
+def obey_the_orders(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> Joint:
     """The brake control that there is, with any brake and at any speed: does it do what is assumed of one (T12)?
 
     What becomes of the train by it is :func:`ask_for_the_end`; here it is only written down.  That there is
@@ -338,20 +331,12 @@ def obey_the_orders(
     """
     if train not in system.brake or train not in system.system.units:
         return system
-    if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
+    if motion.loss != Loss.NONE:
         return system
-    made = authority_end.obey(
-        site.site.lists,
-        system.system.units[train],
-        list_begins_mm(system.begins_mm, train),
-        list_ends_mm(system.block_ends_mm, train),
-        bounds,
-        system.brake[train],
-        front_least_mm,
-        front_most_mm,
-        speed_most_mm_s,
-    )
-    wanted_mm = wanted_ends_mm(site, system, train, front_least_mm, front_most_mm)
+    if not the_range_contains_the_head(system.head_mm[train], motion.front_least_mm, motion.front_most_mm):
+        return system
+    made = brakes_made(site, system, train, bounds, motion)
+    wanted_mm = wanted_ends_mm(site, system, train, motion.front_least_mm, motion.front_most_mm)
     does = all(
         the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm)
         for brake in made
@@ -363,6 +348,37 @@ def obey_the_orders(
         does_as_assumed=system.does_as_assumed | {train: does},
         brakes_at_a_stop=system.brakes_at_a_stop | {train: brakes},
         is_told_without_an_end=system.is_told_without_an_end | {train: has_end or any(True for _ in made)},
+    )
+
+
+def obey_without_a_range(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> Joint:
+    """The same while the odometry claims no range, and what it last claimed may be far from the train (P7, T12).
+
+    No end can be wanted then: the brake comes on, and keeps the end that it holds.
+    """
+    if train not in system.brake or train not in system.system.units or motion.loss == Loss.NONE:
+        return system
+    before = system.brake[train]
+    made = brakes_made(site, system, train, bounds, motion)
+    does = all(brake.withheld and brake.end_mm == before.end_mm for brake in made)
+    return replace(
+        system,
+        does_as_assumed=system.does_as_assumed | {train: does},
+        brakes_at_a_stop=system.brakes_at_a_stop | {train: all(brake.applied for brake in made)},
+        is_told_without_an_end=system.is_told_without_an_end | {train: any(True for _ in made)},
+    )
+
+
+def brakes_made(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> frozenset[Brake]:
+    """What the unit makes of a train's brake."""
+    return authority_end.obey(
+        site.site.lists,
+        system.system.units[train],
+        list_begins_mm(system.begins_mm, train),
+        list_ends_mm(system.block_ends_mm, train),
+        bounds,
+        system.brake[train],
+        motion,
     )
 
 

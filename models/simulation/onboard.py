@@ -170,7 +170,6 @@ class OnBoard:
         """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
         begins_mm = {run: self.lists[run].begins_mm for run in runs}
         ends_mm: dict[Run, Map[Block, int]] = {run: self.lists[run].ends_mm for run in runs}
-        motion = self.motion
         (brake,) = authority_end.obey(
             _said(frozenset(kept for run in runs if (kept := unit.orders[run].tag_list) is not None)),
             unit,
@@ -178,9 +177,7 @@ class OnBoard:
             ends_mm,
             PLAN.brake,
             self.brake,
-            motion.front_least_mm,
-            motion.front_most_mm,
-            motion.speed_most_mm_s,
+            self.motion,
         )
         return brake
 

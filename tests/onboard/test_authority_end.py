@@ -15,6 +15,7 @@ from kernel.maps import Map
 from kernel.names import Block, Run
 from kernel.onboard import authority_end as machine
 from kernel.onboard.braking import Brake
+from kernel.onboard.odometry import Loss
 from kernel.unit import Order
 from proofs.onboard.witnesses.joint import WITNESSES
 from proofs.onboard.witnesses.station import (
@@ -28,6 +29,7 @@ from proofs.onboard.witnesses.station import (
     RUN,
     Station,
     located,
+    motion_of,
     permitted,
     surveyed,
     two_runs,
@@ -113,16 +115,16 @@ def test_two_runs_end_where_one_of_them_does_and_never_beyond_a_block_of_neither
 
 
 @settings(deadline=None)
-@given(ORDERS, LISTS, PLACES, PLACES, st.integers(0, 100_000), st.booleans(), st.booleans())
+@given(ORDERS, LISTS, st.tuples(PLACES, PLACES, st.integers(0, 100_000)), st.booleans(), st.booleans(), st.booleans())
 def test_whatever_the_unit_knows_there_is_one_brake(
-    order: Order, ends_mm: dict[Block, int], least_mm: int, most_mm: int, speed_mm_s: int, applied: bool, no_list: bool
+    order: Order, ends_mm: dict[Block, int], place: tuple[int, int, int], known: bool, applied: bool, no_list: bool
 ) -> None:
     """Never none and never two: the joint proves only what each of them does."""
     unit = replace(Station().unit(), orders=kept({RUN: order}))
     listed: dict[Run, Map[Block, int]] = {} if no_list else {RUN: ends_mm}
     brake = Brake(applied=applied, end_mm=ENDS_MM[ONE])
-    place = (least_mm, most_mm, speed_mm_s)
-    assert len(machine.obey(SITE.lists, unit, {RUN: BEGINS_MM}, listed, BOUNDS, brake, *place)) == 1
+    motion = motion_of(*place, loss=Loss.NONE if known else Loss.CYCLE_IRREGULAR)
+    assert len(machine.obey(SITE.lists, unit, {RUN: BEGINS_MM}, listed, BOUNDS, brake, motion)) == 1
 
 
 @settings(deadline=None)

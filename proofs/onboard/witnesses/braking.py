@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.onboard import braking as machine
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Approach, Vehicle
@@ -371,9 +373,16 @@ def an_end_beyond_the_farthest_counts_as_so_far() -> None:
 
 def a_front_out_of_range_brakes() -> None:
     """What is no place on the line stops nowhere; the edges are places (T12)."""
-    edge_mm = machine.GREATEST_PLACE_MM
+    edge_mm = 10**9
     for front_mm, taken in ((edge_mm, True), (edge_mm + 1, False), (-edge_mm, True), (-edge_mm - 1, False)):
         assert machine.stops_before(BOUNDS, front_mm, 36_000, front_mm + 2_000_000) == taken
+
+
+def a_train_at_rest_may_stand_at_its_very_end() -> None:
+    """On the level, where it gains nothing: no way is left, and none is needed (T12)."""
+    level = replace(BOUNDS, gains_mm_s2=0)
+    assert machine.stops_before(level, END_MM, 0, END_MM)
+    assert not machine.stops_before(level, END_MM + 1, 0, END_MM)
 
 
 def every_number_fits_into_64_bits() -> None:
@@ -445,6 +454,7 @@ WITNESSES = (
     a_speed_out_of_range_brakes,
     an_end_beyond_the_farthest_counts_as_so_far,
     a_front_out_of_range_brakes,
+    a_train_at_rest_may_stand_at_its_very_end,
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,
 )

@@ -22,6 +22,7 @@ from proofs.onboard.witnesses.station import (
     RECALLED,
     RUN,
     located,
+    motion_of,
     permitted,
     released,
     two_runs,
@@ -149,9 +150,7 @@ def what_each_brake_did_is_written_down() -> None:
     """Of the one train and of the other, that has no end of authority; none is forgotten for the next (T12)."""
     station = under_way()
     station.step("locate", train=T2, head_mm=0, block=EAST, block_end_mm=100_000, front_most_mm=1_000)
-    station.step(
-        "obey_the_orders", train=T2, bounds=BOUNDS, front_least_mm=-1_000, front_most_mm=1_000, speed_most_mm_s=0
-    )
+    station.step("obey_the_orders", train=T2, bounds=BOUNDS, motion=motion_of(-1_000, 1_000))
     written = {T1: True, T2: True}
     assert station.system.does_as_assumed == written
     assert station.system.brakes_at_a_stop == written

@@ -72,6 +72,21 @@ def a_train_too_near_its_end_gives_nothing_back(line: Line) -> OnLine:
     return station
 
 
+def a_train_whose_range_is_lost_gives_nothing_back(line: Line) -> OnLine:
+    """Its clock has stalled: by where it was then it could stop short, and nobody knows where it is now (T9, P7)."""
+    station = OnLine(line)
+    station.located(BLOCK_MM * 3 // 5)
+    station.lists(station.out, 0)
+    station.told({station.out: PERMITTED})
+    station.holds(station.end_mm)
+    station.changes(first_loop.recall(station.unit(), station.out))
+    brake = station.asks(known=False)
+    assert brake == Brake(applied=True, end_mm=station.end_mm, withheld=True)
+    assert not station.gives_back(station.out)
+    assert station.order(station.out) == RECALLED
+    return station
+
+
 def a_run_set_ahead_carries_no_end_over_what_is_nobodys(line: Line) -> OnLine:
     """The nearer of two runs is gone: the end is that of the block, or there is none and the train brakes (T9)."""
     station = OnLine(line)
@@ -93,6 +108,7 @@ def a_run_set_ahead_carries_no_end_over_what_is_nobodys(line: Line) -> OnLine:
 
 ATTACKS: tuple[Callable[[Line], OnLine], ...] = (
     a_train_too_near_its_end_gives_nothing_back,
+    a_train_whose_range_is_lost_gives_nothing_back,
     a_run_set_ahead_carries_no_end_over_what_is_nobodys,
 )
 

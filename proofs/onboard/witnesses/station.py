@@ -11,7 +11,9 @@ from kernel.layout import Layout
 from kernel.maps import Map
 from kernel.names import Block, Car, Read, Record, Route, Run, Serial, Tag, UnitLife
 from kernel.onboard import authority_end as machine
+from kernel.onboard import odometry
 from kernel.onboard.braking import Brake, BrakeBounds, supervise
+from kernel.onboard.odometry import Loss, Motion
 from kernel.unit import Evidence, Order, Unit
 from models.onboard.joint import Joint, Survey
 from proofs.onboard.joint import THEORY
@@ -140,10 +142,11 @@ class Station(Play[Survey, Joint]):
         lists = (self.system.begins_mm, self.system.block_ends_mm)
         return machine.ends_mm(self.site.site.lists, self.unit(), *lists, front_least_mm, front_most_mm)
 
-    def asks(self, speed_mm_s: int = 0, error_mm: int = 1_000) -> Brake:
+    def asks(self, speed_mm_s: int = 0, error_mm: int = 1_000, known: bool = True) -> Brake:
         """A cycle on board: the brake does what the kernel says."""
         head_mm = self.system.head_mm[T1]
         least_mm, most_mm = head_mm - error_mm, head_mm + error_mm
+        motion = motion_of(least_mm, most_mm, speed_mm_s, Loss.NONE if known else Loss.CYCLE_IRREGULAR)
         asked = machine.obey(
             self.site.site.lists,
             self.unit(),
@@ -151,15 +154,13 @@ class Station(Play[Survey, Joint]):
             self.system.block_ends_mm,
             BOUNDS,
             self.system.brake[T1],
-            least_mm,
-            most_mm,
-            speed_mm_s,
+            motion,
         )
         assert len(asked) == 1
         (brake,) = asked
         event = {"train": T1, "front_least_mm": least_mm, "front_most_mm": most_mm, "brake": brake}
-        place = {name: event[name] for name in ("train", "front_least_mm", "front_most_mm")}
-        self.step("obey_the_orders", **place, bounds=BOUNDS, speed_most_mm_s=speed_mm_s)
+        row = "obey_the_orders" if known else "obey_without_a_range"
+        self.step(row, train=T1, bounds=BOUNDS, motion=motion)
         assert self.system.does_as_assumed[T1]
         assert self.system.brakes_at_a_stop[T1]
         assert self.system.is_told_without_an_end[T1]
@@ -197,6 +198,12 @@ class Station(Play[Survey, Joint]):
         held_mm = self.system.brake[T1].end_mm
         self.changes(first_loop.give_back(self.site.site.lists, self.unit(), run, held_mm, ends_mm[start]))
         return first_loop.acknowledges_back(self.unit(), run)
+
+
+def motion_of(front_least_mm: int, front_most_mm: int, speed_most_mm_s: int = 0, loss: Loss = Loss.NONE) -> Motion:
+    """What the odometry says, or said before it lost its range."""
+    at_rest = odometry.located(front_least_mm, front_most_mm, 0)
+    return replace(at_rest, speed_most_mm_s=speed_most_mm_s, loss=loss)
 
 
 def located(head_mm: int = 400_000) -> Station:

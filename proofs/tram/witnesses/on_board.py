@@ -125,6 +125,7 @@ def what_nature_does_not_do() -> None:
     now_ms = day.system.centre.now_ms
     day.step("take_up", tram=THIRD, turn=3, stop=1, leaves_at=4)
     good = Body(3, 1, False, 4, False, on_board.begun(0), 0)
+    assert good.display.stop == 0
     before = day.system
     for bad in (
         replace(good, turn=4),

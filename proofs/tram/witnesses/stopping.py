@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping
-from models.tram.stopping import Ride, Street
+from models.tram.stopping import Ride, Street, fell
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.stopping import THEORY
 
@@ -137,7 +137,19 @@ def what_nature_does_not_do() -> None:
         assert along.step("take_fix", **event) == before
 
 
+def what_tells_less_of_the_way_has_fallen_back() -> None:
+    """An earlier stop, or one that was left and is not any more; a later stop not yet left has not (G2)."""
+    left, at_it = Stopping(3, True, False), Stopping(3, False, False)
+    assert fell(at_it, Stopping(2, False, False))
+    assert fell(at_it, Stopping(2, True, False))
+    assert fell(left, at_it)
+    assert not fell(at_it, left)
+    assert not fell(left, Stopping(4, False, False))
+    assert not fell(at_it, at_it)
+
+
 WITNESSES = (
+    what_tells_less_of_the_way_has_fallen_back,
     a_tram_stands_at_its_stop,
     near_is_so_near_and_held_is_farther,
     it_stands_where_it_begins,

@@ -52,7 +52,7 @@ from kernel.tag_list import TagPlan
 from kernel.tag_list_text import what_they_say, with_tag_lists
 from kernel.terminal import Terminal
 from kernel.unit import Unit
-from tests.independent.world.sight import Sight, line, standstill
+from tests.independent.world.sight import Sight, line, moving, standstill
 
 Message = tuple[Any, ...]
 CENTRE = "centre"
@@ -389,9 +389,8 @@ class Calls:
         board.brake = self.obeyed(board, least_mm, most_mm, sight.speed_mm_s)
 
     def obeyed(self, board: Board, least_mm: int, most_mm: int, speed_mm_s: int) -> Brake:
-        (brake,) = authority_end.obey(
-            self.lists, board.unit, board.begins_mm, board.ends_mm, BOUNDS, board.brake, least_mm, most_mm, speed_mm_s
-        )
+        asked = (self.lists, board.unit, board.begins_mm, board.ends_mm, BOUNDS, board.brake)
+        (brake,) = authority_end.obey(*asked, moving(least_mm, most_mm, speed_mm_s))
         return brake
 
     def end_mm(self, board: Board) -> int:

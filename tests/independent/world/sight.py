@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Protocol
 
 from kernel.maps import Map
 from kernel.names import Block, Cab, Route, Train
+from kernel.onboard.odometry import Motion
+from kernel.onboard.odometry import located as found_at
 from kernel.standstill import Standstill, ThroughLine
 
 
@@ -66,3 +69,8 @@ def standstill(sight: Sight) -> Standstill:
 def line(whole: bool) -> ThroughLine:
     """What line, split detection and spacing say of the way to the tail."""
     return ThroughLine(answers=whole, is_intact=whole, fits=whole)
+
+
+def moving(least_mm: int, most_mm: int, speed_mm_s: int) -> Motion:
+    """What the odometry knows of a train between these places, at this speed."""
+    return replace(found_at(least_mm, most_mm, 0), speed_least_mm_s=speed_mm_s, speed_most_mm_s=speed_mm_s)
