@@ -113,7 +113,7 @@ def a_list_tells_the_track(
 
 
 def the_track_goes_on_as_listed(site: Survey, system: Joint, train: Train, block: Block, block_end_mm: int) -> bool:
-    """Beyond the head's block comes the block that the lists have there, and it ends where they say (T1, T10).
+    """Beyond the head's block comes a block that the lists have, and it ends where they say (T1, T10).
 
     Points lie for every run that is listed: `points_lie_for_the_set_route`.
     """
@@ -124,10 +124,7 @@ def the_track_goes_on_as_listed(site: Survey, system: Joint, train: Train, block
         or system.block_ends_mm[run].get(system.block[train]) != system.block_end_mm[train]
         or system.block[train] not in site.site.layout.way[run.route]
         or site.site.layout.way[run.route][system.block[train]] in site.site.layout.overlap[run.route]
-        or (
-            site.site.layout.way[run.route][system.block[train]] == block
-            and system.block_ends_mm[run].get(block) == block_end_mm
-        )
+        or system.block_ends_mm[run].get(block) == block_end_mm
         for run in system.asked
     )
 
@@ -463,7 +460,7 @@ def head_runs(site: Survey, system: Joint, train: Train, to_mm: int) -> Joint:
 
 def head_passes(site: Survey, system: Joint, train: Train, to_mm: int, block: Block, block_end_mm: int) -> Joint:
     """The head runs over the end of its block into the next, where track and points lead it (T12)."""
-    if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
+    if not the_head_stays_inside_authority(system, train, to_mm):
         return system
     if not a_head_passes_one_boundary_at_a_time(system, train, to_mm, block_end_mm):
         return system

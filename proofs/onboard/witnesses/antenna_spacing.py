@@ -241,6 +241,23 @@ def a_train_turns() -> None:
     assert not train.tail(0), "what the head read before the change counts no more"
 
 
+def history_begins_anew_with_the_train() -> None:
+    """After a change of ends, a restart or a preset, whatever tags were read before, and however many (T3, T8)."""
+    train = Train()
+    for tag in TAGS:
+        train.head(tag)
+    assert train.system.since == len(TAGS) - 1
+    assert train.system.head_newest == TAGS[-1]
+    before = train.system
+    begun = replace(JUST_STARTED, head_mm=TAGS[-1])
+    assert train.step("turn", head_mm=TAGS[-1], apart_mm=APART_MM) == begun
+    train.system = before
+    assert train.step("restart") == begun
+    train.system = before
+    preset = replace(begun, spacing=machine.preset(APART_MM), is_preset=True, whole=True)
+    assert train.step("preset", preset_mm=APART_MM) == preset
+
+
 def what_nature_does_not_do() -> None:
     """No tag is read outside the window, no range leaves the train out, no train rolls back."""
     train = Train()
@@ -271,5 +288,6 @@ WITNESSES = (
     a_place_beyond_the_range,
     a_train_that_stands_on_a_tag,
     a_train_turns,
+    history_begins_anew_with_the_train,
     what_nature_does_not_do,
 )

@@ -175,6 +175,20 @@ def an_accusation_stays() -> None:
     assert not train.system.kept
 
 
+def a_train_certainly_too_fast_is_noted() -> None:
+    """Once is enough, by the lower end of a range that is known; history keeps it (T12)."""
+    train = Train()
+    for um_s, off_mm_s, known in ((20_120_000, 0, True), (20_241_000, 1, True), (30_000_000, 0, False)):
+        train.cycle(um_s, applied=False, off_mm_s=off_mm_s, known=known)
+        assert not train.system.too_fast
+    train = Train()
+    train.cycle(20_121_000, applied=False)
+    assert train.system.too_fast
+    for um_s in (20_121_000, 15_000_000):
+        train.cycle(um_s, applied=False)
+        assert train.system.too_fast
+
+
 def the_limit_is_never_above_what_is_measured() -> None:
     """A train that was slower than it might have been is judged from there (T12)."""
     train = Train()
@@ -208,6 +222,7 @@ WITNESSES = (
     a_train_without_a_range_is_not_judged,
     a_train_that_rolls_back_is_not_accused_of_its_brakes,
     an_accusation_stays,
+    a_train_certainly_too_fast_is_noted,
     the_limit_is_never_above_what_is_measured,
     a_train_outside_its_range_is_not_looked_at,
 )

@@ -9,6 +9,7 @@ from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Approach, Vehicle
 from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
+from proofs.onboard.witnesses import braking_history
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
@@ -211,6 +212,14 @@ def a_train_that_rolls_back_is_not_released() -> None:
     train.release()
 
 
+def a_train_that_rolls_back_may_be_stopped_within_a_cycle() -> None:
+    """By its brakes, from whatever speed; forward it gains no more than from a standstill (T5, T12)."""
+    train = Train()
+    train.release()
+    for speed_um_s in (-300_000, -600_000, 120_000):
+        train.cycle(speed_um_s)
+
+
 def the_brake_stays_on_until_all_is_well() -> None:
     """Standing, acknowledged, nothing demanded and room ahead: all four, in one cycle (T12)."""
     train = running(5_000)
@@ -337,6 +346,7 @@ def a_train_without_an_end_stays_braked() -> None:
     """No acknowledgement releases it before an end is taken, and a farther one will do (T4, T12)."""
     train = running(20_000)
     train.step("withhold_end")
+    assert not train.system.wanted
     assert train.system.brake == Brake(applied=True, end_mm=END_MM, withheld=True)
     while train.system.speed_um_s > 0:
         train.worst_cycle(acknowledged=True)
@@ -443,6 +453,7 @@ WITNESSES = (
     a_demand_of_another_machine_is_obeyed_at_once,
     a_train_of_unknown_range_is_braked_until_it_is_located,
     a_train_that_rolls_back_is_not_released,
+    a_train_that_rolls_back_may_be_stopped_within_a_cycle,
     the_brake_stays_on_until_all_is_well,
     released_and_off_in_one_cycle,
     a_train_at_its_end_stands,
@@ -457,4 +468,5 @@ WITNESSES = (
     a_train_at_rest_may_stand_at_its_very_end,
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,
+    *braking_history.WITNESSES,
 )

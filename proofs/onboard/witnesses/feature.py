@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from kernel.onboard import feature as machine
-from kernel.onboard.feature import Band, Feature, Progress, Readings, TurnAxis
+from kernel.onboard.feature import Band, Detection, Feature, Progress, Readings, TurnAxis
 from kernel.onboard.odometry import SensorBounds
 from models.onboard.feature import NO_RUNS, NONE_MM, Looking, Order, Registered, all_stages_match
 from proofs.onboard.feature import THEORY
@@ -162,6 +162,11 @@ def a_curve_that_ends_beyond_the_place_is_another() -> None:
         train.to_the_end()
         train.cycle(STRAIGHT)
         assert train.system.state.stage == stage
+    beyond = Train(at_mm=106_000)
+    beyond.to_the_end()
+    beyond.exit_straight()
+    assert beyond.stage() == Progress.FAILED
+    assert all_stages_match(beyond.site, beyond.system.runs)
 
 
 def a_change_of_gradient_gives_a_fix() -> None:
@@ -171,6 +176,15 @@ def a_change_of_gradient_gives_a_fix() -> None:
         for _ in range(way_mm // A_CYCLE_MM):
             train.cycle(curvature, pitch_valid=True, pitch_urad_s=curvature * 20, yaw_valid=False, yaw_urad_s=77)
     assert machine.has_fix(train.system.state)
+
+
+def of_a_feature_awaited_nothing_is_known() -> None:
+    """No way was noted, and there is no range of a fix (P3)."""
+    awaited = Detection(stage=Progress.WAITING, from_mm=0, way_mm=0, fix_least_mm=0, fix_most_mm=0)
+    assert awaited == machine.AWAITED
+    train = Train()
+    train.run(STRAIGHT, 10_000)
+    assert train.step("await_feature").state == awaited
 
 
 def nothing_begins_before_its_begin() -> None:
@@ -292,6 +306,29 @@ def history_is_kept_of_the_newest_runs_alone() -> None:
     assert not all_stages_match(train.site, train.system.runs)
 
 
+def history_begins_anew_where_the_wheel_turns_back() -> None:
+    """What came before is no run before this one, and no curve that was in band (P3)."""
+    train = Train()
+    train.run(STRAIGHT, 50_000)
+    train.run(BENT, 100_000)
+    curve = train.system.runs
+    assert (curve.in_band, curve.before_mm) == (True, 50_000)
+    train.cycle(STRAIGHT, -1)
+    begun = train.system.runs
+    assert (begun.in_band, begun.before_mm, begun.first_mm) == (False, NONE_MM, NONE_MM)
+
+
+def the_first_part_is_met_first() -> None:
+    """Wherever the third is registered to begin, it does not begin before the second (P3)."""
+    train = Train(Registered(BOUNDS, replace(CURVE, third_from_mm=0)))
+    train.run(STRAIGHT, 50_000)
+    train.run(BENT, 30_000)
+    assert train.stage() == Progress.FIRST_PART
+    assert parts_met(train) == (False, False)
+    train.cycle(BENT)
+    assert parts_met(train) == (False, True)
+
+
 def a_way_that_jumps_on_the_exit_straight_fails() -> None:
     """Beyond the straight's greatest length the wheel's error is not known (P3)."""
     for jump_mm, right in ((22_000, True), (23_000, False)):
@@ -329,6 +366,7 @@ def an_unusable_cycle_fails_in_every_stage() -> None:
             for number in range(86):
                 curvature = BENT if 25 <= number < 75 else STRAIGHT
                 train.cycle(curvature, **(told if number == at else {}))
+                assert (train.system.runs == NO_RUNS) == (number == at)
             assert train.stage() == Progress.FAILED
 
 
@@ -369,15 +407,20 @@ def a_reading_out_of_range_is_none() -> None:
         assert train.stage() == Progress.ENTRY_STRAIGHT
         train.step("run_a_cycle", front_um=0, readings=replace(train.readings(STRAIGHT), **told))
         assert train.stage() == Progress.FAILED
+        assert train.system.runs == NO_RUNS
     train = Train(site)
-    train.step("run_a_cycle", front_um=0, readings=replace(train.readings(STRAIGHT), front_least_mm=100_000, way_mm=-1))
+    below = replace(train.readings(STRAIGHT), front_least_mm=100_000, way_mm=-1)
+    train.step("run_a_cycle", front_um=0, readings=below)
     assert train.stage() == Progress.WAITING
     assert train.system.cycle == 1
+    assert train.system.runs == NO_RUNS
+    assert not machine.is_usable(CURVE, below)
     for way_mm in (0, 1_000_000_000):
         train = Train(site)
         edge = replace(train.readings(STRAIGHT), front_least_mm=100_000, way_mm=way_mm)
         train.step("run_a_cycle", front_um=0, readings=edge)
         assert train.stage() == Progress.ENTRY_STRAIGHT
+        assert machine.is_usable(CURVE, edge)
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
@@ -423,6 +466,7 @@ WITNESSES = (
     a_curve_that_ends_beyond_the_place_is_another,
     a_feature_gives_a_fix,
     a_change_of_gradient_gives_a_fix,
+    of_a_feature_awaited_nothing_is_known,
     nothing_begins_before_its_begin,
     a_failed_detection_stays_failed,
     a_short_straight_fails,
@@ -430,6 +474,8 @@ WITNESSES = (
     at_the_edges_of_its_bands_it_matches_and_beyond_not,
     a_part_left_out_fails,
     history_is_kept_of_the_newest_runs_alone,
+    history_begins_anew_where_the_wheel_turns_back,
+    the_first_part_is_met_first,
     a_way_that_jumps_on_the_exit_straight_fails,
     a_wheel_that_turns_back_fails,
     an_unusable_cycle_fails_in_every_stage,

@@ -8,7 +8,7 @@ from kernel import first_loop
 from kernel.names import Route, Run, Serial, Train, UnitLife
 from kernel.onboard.braking import Brake
 from models.onboard.joint import may_move
-from proofs.onboard.witnesses import on_lines
+from proofs.onboard.witnesses import joint_nature, on_lines
 from proofs.onboard.witnesses.station import (
     A_PAIR,
     BEGINS_MM,
@@ -396,5 +396,6 @@ WITNESSES = (
     the_end_of_a_train_or_route_unknown_is_not_worked_out,
     what_the_other_proofs_exclude_does_not_happen,
     a_list_that_is_not_true_is_none,
+    *joint_nature.WITNESSES,
     *on_lines.WITNESSES,
 )

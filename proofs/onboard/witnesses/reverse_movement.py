@@ -100,6 +100,52 @@ def after_a_slip_it_is_reckoned_from_there() -> None:
     assert train.too_far_back()
 
 
+def a_train_is_watched_from_where_it_was_farthest() -> None:
+    """Not from where its wheel began to count (T5)."""
+    train = Train()
+    for to_mm in (0, 50_000, 90_000, 89_000):
+        train.move(to_mm)
+    assert train.system.furthest_nm == 90_000 * NM_A_MM
+    assert train.system.furthest_way_mm == START_MM + 90_000
+    assert train.move(87_800)
+    assert train.too_far_back()
+
+
+def a_train_that_rolled_back_stays_noted() -> None:
+    """When it runs forward again, until it is located anew (T5, T8)."""
+    train = Train()
+    train.move(0)
+    train.move(-2_200)
+    for to_mm in (-2_200, 0, 90_000):
+        train.move(to_mm)
+        assert train.too_far_back()
+    train.step("locate_anew")
+    assert not train.too_far_back()
+
+
+def a_tachometer_that_does_not_tell_of_its_wheel_may_show_anything() -> None:
+    """It may call itself invalid, or give more than a train can run; the train moves all the same (P1)."""
+    train = Train()
+    for to_mm in (0, 500, 200):
+        train.move(to_mm)
+    train.move(-700, counts=False, valid=False, way_mm=START_MM + 800)
+    assert train.system.furthest_nm == -700 * NM_A_MM, "from where it was farthest before nothing is measured"
+    assert train.system.furthest_way_mm == START_MM + 800
+    train.move(900, counts=False, speed_mm_s=200_001)
+    train.move(-1_200, counts=False, way_mm=-(10**9) - 1)
+
+
+def a_wheel_that_counts_again_may_show_any_way() -> None:
+    """What it slid is in its pulses, be it much or little: only from there on they measure (P1)."""
+    for way_mm in (START_MM + 9_000, START_MM - 9_000):
+        train = Train()
+        train.move(0)
+        train.move(-500, counts=False)
+        train.move(-1_000, way_mm=way_mm)
+        assert train.system.furthest_nm == -1_000 * NM_A_MM
+        assert train.system.furthest_way_mm == way_mm
+
+
 def what_nature_does_not_do_does_not_happen() -> None:
     """A wheel that counts, and is invalid, gross, or shows another way: such events are refused."""
     train = Train()
@@ -124,5 +170,9 @@ WITNESSES = (
     a_wheel_off_by_a_twentieth_finds_it_all_the_same,
     what_is_not_read_says_nothing,
     after_a_slip_it_is_reckoned_from_there,
+    a_train_is_watched_from_where_it_was_farthest,
+    a_train_that_rolled_back_stays_noted,
+    a_tachometer_that_does_not_tell_of_its_wheel_may_show_anything,
+    a_wheel_that_counts_again_may_show_any_way,
     what_nature_does_not_do_does_not_happen,
 )

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.onboard import train_length as machine
 from kernel.onboard.train_length import LengthBounds, Passing, PointKind
-from models.onboard.train_length import Formation, Railway
+from models.onboard.train_length import Formation, Railway, can_be_compared, tail_passes
 from proofs.onboard.train_length import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -86,6 +86,15 @@ class Train(Play[Railway, Formation]):
     def used_mm(self) -> int:
         """The length that the unit reckons with."""
         return machine.length_mm(BOUNDS, self.system.state)
+
+
+def measured() -> Train:
+    """A train that was measured at a curve."""
+    train = Train()
+    train.head(CURVE)
+    train.tail(train.later(CURVE, 100_000))
+    assert train.system.state.measured
+    return train
 
 
 def the_error_at_130_km_h_is_13_m() -> None:
@@ -202,6 +211,53 @@ def vehicles_coupled_untold_are_noticed_at_the_next_point() -> None:
     train.tail(train.later(second, 160_000))
     assert train.used_mm() == 193_006
     assert not machine.contradicts_itself(train.system.state)
+
+
+def another_length_stays_noted_when_the_first_is_measured_again() -> None:
+    """Coupled untold, measured, and set out again: that the train once was longer is not taken back (P4)."""
+    train = measured()
+    for length_mm in (180_000, 120_000):
+        train.step("change_formation_untold", length_um=length_mm * 1_000)
+        train.head(CURVE)
+        train.tail(train.later(CURVE, length_mm - 20_000))
+        assert train.system.differed
+
+
+def what_was_untold_before_a_length_is_measured_is_in_it() -> None:
+    """The length measured is that of the train with its new cars; until then nothing is noted of it (P4)."""
+    train = Train()
+    train.head(CURVE)
+    train.step("change_formation_untold", length_um=180_000_000)
+    train.tail(train.later(replace(CURVE, point=8), 100_000))
+    before = train.system
+    assert (before.untold, before.measured_um, before.open_um) == (True, 0, 0)
+    train.tail(train.later(CURVE, 160_000))
+    after = train.system
+    assert (after.untold, after.measured_um) == (False, 180_000_000)
+    assert train.used_mm() == 193_006
+
+
+def a_first_measurement_differs_from_none() -> None:
+    """Whatever differed before belongs to a length that is used no more (P4)."""
+    train = Train()
+    train.head(CURVE)
+    after = tail_passes(
+        SITE, replace(train.system, differed=True), front_um=100_000_000, speed_mm_s=0, sampling_um=0, skew_um=0,
+        averaging_um=0, sensor_um=0, passing=train.later(CURVE, 100_000),
+    )  # fmt: skip
+    assert after.state.measured
+    assert not after.differed
+
+
+def a_new_formation_has_no_history() -> None:
+    """Once told, or restarted, it was neither changed untold nor measured (P4, T3)."""
+    for what in ({"length_um": 240_000_000}, {}):
+        train = measured()
+        assert train.system.open_um > 0
+        train.step("change_formation_untold", length_um=180_000_000)
+        train.step("change_formation" if what else "restart", **what)
+        assert not train.system.untold
+        assert (train.system.measured_um, train.system.open_um) == (180_000_000, 0)
 
 
 def cars_set_out_untold_are_noticed_too() -> None:
@@ -331,6 +387,26 @@ def a_pass_out_of_range_is_none() -> None:
     assert machine.note_tail_pass(BOUNDS, machine.note_head_pass(BOUNDS, machine.UNMEASURED, begin), edge).measured
 
 
+def places_end_at_10_000_km() -> None:
+    """On either side of zero: a front there is a place, and a millimetre beyond it is none (P4)."""
+    for place_mm, is_one in ((10_000_000_000, True), (10_000_000_001, False)):
+        assert machine.fits(BOUNDS, replace(CURVE, front_least_mm=place_mm, front_most_mm=place_mm)) == is_one
+        assert machine.fits(BOUNDS, replace(CURVE, front_least_mm=-place_mm, front_most_mm=-place_mm)) == is_one
+
+
+def a_range_that_reaches_beyond_9_000_km_is_not_compared() -> None:
+    """At either of its ends; out there another length need not be noticed (P4)."""
+    far_mm = 9_000_000_000
+    train = Train()
+    train.head(CURVE)
+    least = replace(train.later(CURVE, -far_mm), front_most_mm=1_000 - far_mm)
+    most = replace(train.later(CURVE, far_mm), front_least_mm=far_mm - 1_000)
+    for inside in (least, most):
+        assert can_be_compared(SITE, train.system, inside)
+    assert not can_be_compared(SITE, train.system, replace(least, front_least_mm=-far_mm - 1))
+    assert not can_be_compared(SITE, train.system, replace(most, front_most_mm=far_mm + 1))
+
+
 def more_than_the_line_allows_is_kept_and_shown() -> None:
     """Bounds on top of a train near the limit: the larger is used, and the contradiction shown (P4; ours)."""
     train = Train()
@@ -381,6 +457,10 @@ WITNESSES = (
     a_measured_length_stays,
     a_train_measured_again_contradicts_nothing,
     vehicles_coupled_untold_are_noticed_at_the_next_point,
+    another_length_stays_noted_when_the_first_is_measured_again,
+    what_was_untold_before_a_length_is_measured_is_in_it,
+    a_first_measurement_differs_from_none,
+    a_new_formation_has_no_history,
     cars_set_out_untold_are_noticed_too,
     another_measured_above_the_line_is_kept_the_longer,
     a_jump_of_kilometrage_measures_nothing,
@@ -390,6 +470,8 @@ WITNESSES = (
     only_the_heads_point_counts,
     the_head_waits_at_its_last_point,
     a_pass_out_of_range_is_none,
+    places_end_at_10_000_km,
+    a_range_that_reaches_beyond_9_000_km_is_not_compared,
     more_than_the_line_allows_is_kept_and_shown,
     what_nature_does_not_do_does_not_happen,
 )
