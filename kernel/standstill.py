@@ -13,6 +13,8 @@ class Standstill:
     ``front_least_mm``, ``front_most_mm``: the front is between these, on the kilometrage of the tag list.
     ``speed_least_mm_s``, ``speed_most_mm_s``: so is the speed; below 0 the train may roll back.
     ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing (T12).
+    ``braked_cycles``: for how many cycles on end its brake has been commanded, counted up to its response.
+    ``response_cycles``: the brake holds the train once it has been commanded for so many (T12).
     """
 
     known: bool
@@ -21,6 +23,8 @@ class Standstill:
     speed_least_mm_s: int
     speed_most_mm_s: int
     standstill_mm_s: int
+    braked_cycles: int
+    response_cycles: int
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,11 @@ class ThroughLine:
 def stands(at: Standstill) -> bool:
     """Tell whether the train certainly stands (P7)."""
     return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
+
+
+def is_held(at: Standstill) -> bool:
+    """Tell whether the train certainly stands, and its brake has been on long enough to hold it there (T8, T12)."""
+    return stands(at) and at.braked_cycles >= at.response_cycles
 
 
 def stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:

@@ -6,13 +6,13 @@ from typing import Any
 
 from fuzz.traffic.compiling import compiled
 
-STANDSTILL_WORDS, LINE_WORDS = 6, 3
+STANDSTILL_WORDS, LINE_WORDS = 8, 3
 """The words of `Standstill` and of `ThroughLine`."""
 
 
 @compiled
 def put_standstill(memory: Any, at: Any, known: Any) -> None:
-    """Write that the train stands, with its front at 0; ``known``: whether the odometry claims a range."""
+    """Write that the train stands, held, with its front at 0; ``known``: whether the odometry claims a range."""
     memory[at] = known
     for word in range(1, STANDSTILL_WORDS):
         memory[at + word] = 0

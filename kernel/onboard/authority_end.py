@@ -44,8 +44,9 @@ def ends_mm(
     """Give the end of the train's authority: one number, or none where its head may be on track of no order (T12).
 
     ``begins_mm``: for each run where the block that it starts in begins.  ``block_ends_mm``: for each run
-    where its blocks end for a head that runs through them, less what its list may be wrong by; all on one
-    kilometrage of the train.  ``front_least_mm``, ``front_most_mm``: its front is between them (P7).
+    where its blocks end for a head that runs through them, as listed, all on one kilometrage of the train.
+    ``front_least_mm``, ``front_most_mm``: its front is between them, on that kilometrage (P7): what a list may be
+    wrong by widens this range, and shortens no end, or a block would count as passed that the head is still in.
     """
     return frozenset(
         end_mm

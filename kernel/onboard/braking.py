@@ -122,8 +122,10 @@ def withhold_end(brake: Brake) -> Brake:
 
 
 def stand_still(front_most_mm: int) -> Brake:
-    """Begin where the train stands: braked, with no authority beyond its front (T12).
+    """Begin where the train stands, held by its brake: with no authority beyond its front (T12).
 
+    A brake that has yet to respond (:class:`kernel.standstill.Standstill`) holds nothing: such a train may still get
+    beyond its front.
     ``front_most_mm``: the front is no farther than this.
     """
     return Brake(applied=True, end_mm=front_most_mm, withheld=True)

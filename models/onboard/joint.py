@@ -328,54 +328,38 @@ def obey_the_orders(site: Survey, system: Joint, train: Train, bounds: BrakeBoun
     """
     if train not in system.brake or train not in system.system.units:
         return system
+    least_mm, most_mm = motion.front_least_mm, motion.front_most_mm
+    if motion.loss == Loss.NONE and not the_range_contains_the_head(system.head_mm[train], least_mm, most_mm):
+        return system
+    lists, unit, before = site.site.lists, system.system.units[train], system.brake[train]
+    begins_mm = list_begins_mm(system.begins_mm, train)
+    ends_mm = list_ends_mm(system.block_ends_mm, train)
     if motion.loss != Loss.NONE:
-        return system
-    if not the_range_contains_the_head(system.head_mm[train], motion.front_least_mm, motion.front_most_mm):
-        return system
-    made = brakes_made(site, system, train, bounds, motion)
-    wanted_mm = wanted_ends_mm(site, system, train, motion.front_least_mm, motion.front_most_mm)
+        made = authority_end.obey(lists, unit, begins_mm, ends_mm, bounds, before, motion)
+        return written_down(system, train, made, all(keeps_its_end(before, brake) for brake in made), False, False)
+    # The same motion; written out, so that no solver has to ask once more whether it is lost.
+    claimed = replace(motion, loss=Loss.NONE)
+    made = authority_end.obey(lists, unit, begins_mm, ends_mm, bounds, before, claimed)
+    wanted_mm = wanted_ends_mm(site, system, train, least_mm, most_mm)
     does = all(
-        the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm)
-        for brake in made
+        the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm) for brake in made
     )
-    brakes = may_move(system, train) or all(brake.applied for brake in made)
-    has_end = any(True for _ in wanted_mm)
+    return written_down(system, train, made, does, may_move(system, train), any(True for _ in wanted_mm))
+
+
+def keeps_its_end(before: Brake, brake: Brake) -> bool:
+    """Of a train whose range is lost the brake stays applied, and no end is taken: none is known to be held (P7)."""
+    return brake.withheld and brake.end_mm == before.end_mm
+
+
+def written_down(system: Joint, train: Train, made: frozenset[Brake], does: bool, may_go: bool, has_end: bool) -> Joint:
+    """What was made of a train's brake goes into history."""
+    brakes = may_go or all(brake.applied for brake in made)
     return replace(
         system,
         does_as_assumed=system.does_as_assumed | {train: does},
         brakes_at_a_stop=system.brakes_at_a_stop | {train: brakes},
         is_told_without_an_end=system.is_told_without_an_end | {train: has_end or any(True for _ in made)},
-    )
-
-
-def obey_without_a_range(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> Joint:
-    """The same while the odometry claims no range, and what it last claimed may be far from the train (P7, T12).
-
-    No end can be wanted then: the brake comes on, and keeps the end that it holds.
-    """
-    if train not in system.brake or train not in system.system.units or motion.loss == Loss.NONE:
-        return system
-    before = system.brake[train]
-    made = brakes_made(site, system, train, bounds, motion)
-    does = all(brake.withheld and brake.end_mm == before.end_mm for brake in made)
-    return replace(
-        system,
-        does_as_assumed=system.does_as_assumed | {train: does},
-        brakes_at_a_stop=system.brakes_at_a_stop | {train: all(brake.applied for brake in made)},
-        is_told_without_an_end=system.is_told_without_an_end | {train: any(True for _ in made)},
-    )
-
-
-def brakes_made(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> frozenset[Brake]:
-    """What the unit makes of a train's brake."""
-    return authority_end.obey(
-        site.site.lists,
-        system.system.units[train],
-        list_begins_mm(system.begins_mm, train),
-        list_ends_mm(system.block_ends_mm, train),
-        bounds,
-        system.brake[train],
-        motion,
     )
 
 

@@ -12,6 +12,7 @@ from kernel.onboard import (
     reverse_movement,
     speed_limit,
     split,
+    tag_fix,
     tag_reader,
     tag_window,
     train_length,
@@ -19,8 +20,9 @@ from kernel.onboard import (
 )
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.odometry import Loss
+from kernel.onboard.tag_fix import TagLimits
 from models.compiled import compile_machines, compiled, packed
-from models.rides.plan import PLAN
+from models.rides.plan import PLAN, TAG_ERROR_MM
 
 MADE = compile_machines(
     (
@@ -33,6 +35,7 @@ MADE = compile_machines(
         reverse_movement,
         speed_limit,
         split,
+        tag_fix,
         tag_reader,
         tag_window,
         train_length,
@@ -50,6 +53,8 @@ READER_LIMITS = packed(PLAN.reader)
 WINDOW_LIMITS = packed(PLAN.window)
 SPACING_LIMITS = packed(PLAN.spacing)
 LENGTH_BOUNDS = packed(PLAN.length)
+TAG_LIMITS = packed(TagLimits(antenna_mm=0, error_mm=TAG_ERROR_MM))
+"""The rides' antenna is at the very front."""
 
 LOCATED = packed(Loss.NONE)
 CONTRADICTED = packed(Loss.CONTRADICTED)

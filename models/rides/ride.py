@@ -24,11 +24,12 @@ from models.rides.onboard import (
     SENSORS,
     SPACING_LIMITS,
     SPLIT_LIMITS,
+    TAG_LIMITS,
     WINDOW_LIMITS,
     speed_bound_mm_s,
     way_bound_mm,
 )
-from models.rides.plan import LEAST_WAY_M, LENGTH_MM, TAG_ERROR_MM
+from models.rides.plan import LEAST_WAY_M, LENGTH_MM
 from models.sensors.curves import MIDDLE
 
 STARTS_WITHIN_MM = 500
@@ -59,6 +60,7 @@ UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
 note_yaw, is_over, AWAITED = MADE.feature.note_cycle, MADE.feature.is_over, MADE.feature.AWAITED
 Feature, Band, Turning = MADE.feature.Feature, MADE.feature.Band, MADE.feature.Readings
 between, Way = MADE.way.between, MADE.way.Way
+place_of_read, fix_of = MADE.tag_fix.place_of_read, MADE.tag_fix.fix_of
 
 
 class Ends(NamedTuple):
@@ -146,7 +148,7 @@ def passing(motion: Any, tag: int, cycle: int) -> Any:
 
 
 @compiled
-def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+def under_the_head(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
     """The head's antenna passes a tag: the second loop's window, a fix, the spacing, the length (T5, T13, T3)."""
     tag = ends.next_head
     reader, delivered = passes(ends.head_reader, tag + 1, trace.tag_frames[tag])
@@ -157,13 +159,13 @@ def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
             ends.window, ends.last_at, ends.spacing, ends.length, reader, ends.tail_reader, tag + 1, ends.next_tail
         )
     was_located = motion.loss == LOCATED
-    if ends.window.expected and judge(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion))) != IN_WINDOW:
+    read_at = place_of_read(before, motion)
+    if ends.window.expected and judge(WINDOW_LIMITS, ends.window, between(ends.last_at, read_at)) != IN_WINDOW:
         out[tally.TAG_OUTSIDE_WINDOW] += 1
-    run_on_mm = motion.speed_most_mm_s // 10 + 1
-    least_mm, most_mm = trace.tags_mm[tag] - TAG_ERROR_MM, trace.tags_mm[tag] + TAG_ERROR_MM + run_on_mm
-    motion = note_fix(motion, least_mm, most_mm)
+    fix = fix_of(TAG_LIMITS, before, motion, trace.tags_mm[tag])
+    motion = note_fix(motion, fix.least_mm, fix.most_mm)
     if was_located:
-        out[tally.FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
+        out[tally.FIX_BROKEN] += not fix.least_mm <= trace.head_m[cycle] * 1000 <= fix.most_mm
         out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
     window, length = NONE_AWAITED, ends.length
     if tag + 1 < len(trace.tags_mm):
@@ -171,17 +173,18 @@ def under_the_head(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
         window = await_tag(away_mm, away_mm)
     if motion.loss == LOCATED:
         length = note_head_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
-    spacing = note_head_read(ends.spacing, tag + 1, place(motion))
-    return motion, Ends(window, place(motion), spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
+    read_at = place_of_read(before, motion)
+    spacing = note_head_read(ends.spacing, tag + 1, read_at)
+    return motion, Ends(window, read_at, spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
 
 
 @compiled
-def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+def under_the_tail(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
     """The tail's antenna passes a tag: is it one antenna distance behind the head; then the length (T13, T3)."""
     tag, spacing, length = ends.next_tail, ends.spacing, ends.length
     reader, delivered = passes(ends.tail_reader, tag + 1, trace.tag_frames[tag])
     if delivered:
-        spacing = note_tail_read(SPACING_LIMITS, spacing, tag + 1, place(motion))
+        spacing = note_tail_read(SPACING_LIMITS, spacing, tag + 1, place_of_read(before, motion))
         out[tally.SPACING_BROKEN] += spacing.broken
         hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
         out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
@@ -193,7 +196,7 @@ def under_the_tail(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> 
 
 
 @compiled
-def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any:
+def at_the_ends(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
     """Everything that the antennas have read in this cycle, and whether a tag is overdue (T2, T5)."""
     window = note_window(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion)))
     if window.passed:
@@ -204,9 +207,9 @@ def at_the_ends(trace: Any, cycle: int, motion: Any, ends: Any, out: Any) -> Any
         ends.next_tail,
     )  # fmt: skip
     while ends.next_head < len(trace.tags_mm) and trace.tag_cycle[ends.next_head] == cycle:
-        motion, ends = under_the_head(trace, cycle, motion, ends, out)
+        motion, ends = under_the_head(trace, cycle, before, motion, ends, out)
     while ends.next_tail < len(trace.tags_mm) and 0 <= trace.tail_cycle[ends.next_tail] <= cycle:
-        ends = under_the_tail(trace, cycle, motion, ends, out)
+        ends = under_the_tail(trace, cycle, before, motion, ends, out)
     return motion, ends
 
 
@@ -321,7 +324,7 @@ def ride(trace: Any, out: Any) -> Any:
         out[tally.SLIP_CYCLES] += not motion.trusted
         fronts_mm[cycle], trusted[cycle] = motion.front_least_mm, motion.trusted
         counted_from = anchor(motion)
-        motion, ends = at_the_ends(trace, cycle, motion, ends, out)
+        motion, ends = at_the_ends(trace, cycle, before, motion, ends, out)
         motion, curve = along_the_curve(trace, cycle, motion, curve, fronts_mm, trusted, out)
         if anchor(motion) != counted_from or not (before.trusted and motion.trusted):
             anchor_m = trace.head_m[cycle]

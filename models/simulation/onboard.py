@@ -21,12 +21,13 @@ from kernel.onboard import (
     reverse_movement,
     speed_limit,
     split,
+    tag_fix,
     tag_window,
 )
-from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
+from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.way import UNKNOWN, Way, between
 from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists
@@ -36,6 +37,7 @@ from models.concrete.rails import ANTENNA_MM
 from models.rides.plan import PLAN, TAG_ERROR_MM
 from models.simulation.ahead import Ahead
 
+TAG_LIMITS = TagLimits(ANTENNA_MM, TAG_ERROR_MM)
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
 
@@ -50,6 +52,7 @@ def _said(tag_lists: frozenset[TagList]) -> TagLists:
 class OnBoard:
     """What the machines on board remember.
 
+    ``before``: what the odometry knew a cycle ago.
     ``from_mm``: between these places, by the plan, the head antenna was when the way to the next tag began.
     ``lists``: the lists of the runs that the unit was permitted.
     ``limit``: layouts do not say where curves are, so the track stays unknown, with the line's speed everywhere.
@@ -61,6 +64,7 @@ class OnBoard:
     watch: brake_watch.BrakeWatch
     spacing: antenna_spacing.Spacing
     split: split.Split
+    before: odometry.Motion
     movement: reverse_movement.Movement = reverse_movement.LOCATED
     limit: speed_limit.SpeedLimit = speed_limit.UNKNOWN
     from_mm: tuple[int, int] = (0, 0)
@@ -75,15 +79,9 @@ class OnBoard:
         return Way(odometry.is_located(self.motion), self.motion.front_least_mm, self.motion.front_most_mm)
 
     @property
-    def run_on_mm(self) -> int:
-        """How far it may have run since something was read within the cycle."""
-        return self.motion.speed_most_mm_s * CYCLE_MS // 1_000 + 1
-
-    @property
     def place_of_read(self) -> Way:
         """Where the front was when an antenna read something within the cycle."""
-        here = self.place
-        return replace(here, least_mm=here.least_mm - self.run_on_mm)
+        return tag_fix.place_of_read(self.before, self.motion)
 
     @property
     def intact(self) -> bool:
@@ -100,6 +98,7 @@ class OnBoard:
     def cycle(self, readings: Readings, tail: TailReadings, demanded: bool) -> None:
         """Take what the sensors say at the end of a cycle; decide whether to brake in the next."""
         applied = self.brake.applied
+        self.before = self.motion
         self.motion = odometry.note_cycle(PLAN.sensors, self.motion, readings)
         self.split = split.note_cycle(PLAN.split, self.split, tail)
         self.window = tag_window.note_cycle(PLAN.window, self.window, between(self.from_at, self.place))
@@ -123,8 +122,8 @@ class OnBoard:
         fits = tag_window.in_window(PLAN.window, self.window, between(self.from_at, self.place_of_read))
         if place_mm is None or not fits:
             return False
-        front_mm = place_mm + ANTENNA_MM
-        self.motion = odometry.note_fix(self.motion, front_mm - TAG_ERROR_MM, front_mm + TAG_ERROR_MM + self.run_on_mm)
+        fix = tag_fix.fix_of(TAG_LIMITS, self.before, self.motion, place_mm)
+        self.motion = odometry.note_fix(self.motion, fix.least_mm, fix.most_mm)
         self.spacing = antenna_spacing.note_head_read(self.spacing, number, self.place_of_read)
         if self.awaited is None or self.awaited == tag:
             self.from_mm, self.from_at = (place_mm, place_mm), self.place_of_read
@@ -150,6 +149,8 @@ class OnBoard:
             speed_least_mm_s=motion.speed_least_mm_s,
             speed_most_mm_s=motion.speed_most_mm_s,
             standstill_mm_s=PLAN.brake.standstill_mm_s,
+            braked_cycles=self.watch.cycles,
+            response_cycles=PLAN.brake.response_cycles,
         )
 
     # ---- what the unit was told
@@ -196,8 +197,8 @@ class OnBoard:
 
     def locate(self, least_mm: int, most_mm: int) -> None:
         """Begin anew at a standstill, with the front in a range (P7, T8)."""
-        self.motion = odometry.located(least_mm, most_mm, self.motion.way_mm)
-        self.watch = brake_watch.watching(0)
+        self.motion = self.before = odometry.located(least_mm, most_mm, self.motion.way_mm)
+        self.watch = replace(brake_watch.watching(0), cycles=self.watch.cycles)
         self.movement = reverse_movement.LOCATED
         self.brake = braking.stand_still(most_mm)
         self.spacing = antenna_spacing.preset(self.length_mm - 2 * ANTENNA_MM)
@@ -210,6 +211,21 @@ class OnBoard:
         here = (self.motion.front_least_mm + self.motion.front_most_mm) // 2
         self.from_at = Way(odometry.is_located(self.motion), here, here)
 
+    @property
+    def is_held(self) -> bool:
+        """Whether the brake is on, and has been for as long as it takes to respond."""
+        return self.brake.applied and self.watch.cycles >= PLAN.brake.response_cycles
+
+    @property
+    def takes_hold(self) -> bool:
+        """Whether the brake is on, and has yet to respond."""
+        return self.brake.applied and not self.is_held
+
+    def hold(self) -> bool:
+        """The driver puts the brake on, until an end of authority is taken; whether it holds the train yet (T8)."""
+        self.brake = braking.withhold_end(self.brake)
+        return self.is_held
+
     def made_up(self) -> None:
         """Staff has found the train whole (P5)."""
         self.split = split.made_up(PLAN.split)
@@ -217,9 +233,11 @@ class OnBoard:
 
 def on_board(length_mm: int, front_mm: int) -> OnBoard:
     """The machines of a train that stands, located and found whole."""
+    motion = odometry.located(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM, 0)
     made = OnBoard(
         length_mm=length_mm,
-        motion=odometry.located(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM, 0),
+        motion=motion,
+        before=motion,
         brake=braking.stand_still(front_mm + LOCATED_WITHIN_MM),
         watch=brake_watch.watching(0),
         spacing=antenna_spacing.preset(length_mm - 2 * ANTENNA_MM),

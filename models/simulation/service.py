@@ -93,7 +93,7 @@ class Service:
         self.now_s = 0
         self.stopped_until_s = 0
         self.waits: tuple[Barred, ...] = ()
-        self.no_way = False
+        self.no_way = self.waits_for_staff = False
         self.life_before = self.play.system.units[self.train].life
 
     # ---- a second
@@ -134,11 +134,13 @@ class Service:
             board.made_up()
             self.diary.note(STAFF, self.train, "is found whole by its staff")
         if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):
-            self._is_located("is located anew at a standstill")
+            return not self._is_located("is located anew at a standstill")
         return False
 
-    def _is_located(self, told: str) -> None:
-        """Staff locates it by the tag or post beside it; it has not turned, so its lists stay as they are."""
+    def _is_located(self, told: str) -> bool:
+        """Staff locates it, once it is held, by the tag or post beside it; it has not turned, so its lists stay."""
+        if not self.vehicle.board.hold():
+            return False
         front_mm, board = round(self.vehicle.front_mm), self.vehicle.board
         lists = board.lists
         board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
@@ -146,6 +148,7 @@ class Service:
         self.vehicle.at_rest_cycles = 0
         self.vehicle.look_again()
         self.diary.note(STAFF, self.train, told)
+        return True
 
     def _rests(self) -> None:
         for run in [run for run in self.play.system.track.rolling if run.train == self.train]:
@@ -158,6 +161,7 @@ class Service:
         self.diary.note(BRAKE, self.train, why)
         self.base = self.run = self.onward = None
         self.life_before = self.play.system.units[self.train].life
+        self.vehicle.board.hold()
         self.vehicle.look_again()
         self.become(Phase.LOST, 10)
 
@@ -324,6 +328,8 @@ class Service:
         if not vehicle.settled:
             return
         if not self._leads(run.route):
+            if not self.vehicle.board.hold():
+                return
             self._turns()
         if not self.office.lets_depart(self.train):
             return
@@ -409,11 +415,12 @@ class Service:
     def _goes_on(self, run: Run) -> None:
         """At rest under authority: it goes on, or has arrived, or its range is too wide to go on with."""
         vehicle, board = self.vehicle, self.vehicle.board
-        if board.brake.applied:
+        if board.brake.applied and not self.waits_for_staff:
             board.supervise(vehicle.demanded(self.play), True)
         wide = board.motion.front_most_mm - board.motion.front_least_mm > WIDE_MM
-        if wide and (board.brake.applied or vehicle.is_barred):
-            self._is_located("cannot go on with so wide a range, and is located anew")
+        if self.waits_for_staff or (wide and (board.brake.applied or vehicle.is_barred)):
+            told = "cannot go on with so wide a range, and is located anew"
+            self.waits_for_staff = not self._is_located(told)
         elif self.onward is None and (vehicle.is_there or vehicle.is_barred):
             self._arrives(run)
 

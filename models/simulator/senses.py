@@ -9,11 +9,20 @@ from typing import Any
 from kernel.standstill import Standstill, ThroughLine
 
 AT_REST = Standstill(
-    known=True, front_least_mm=0, front_most_mm=0, speed_least_mm_s=0, speed_most_mm_s=0, standstill_mm_s=0
+    known=True,
+    front_least_mm=0,
+    front_most_mm=0,
+    speed_least_mm_s=0,
+    speed_most_mm_s=0,
+    standstill_mm_s=0,
+    braked_cycles=0,
+    response_cycles=0,
 )
-"""A train that stands."""
+"""A train that stands, held by its brake."""
 ROLLING = replace(AT_REST, speed_most_mm_s=1)
 """One that may be under way."""
+NOT_HELD = replace(AT_REST, response_cycles=1)
+"""One that stands, while its brake still takes hold, or is off."""
 INSIDE: Mapping[str, Any] = {"at": AT_REST, "begin_mm": 0, "end_mm": 0}
 """One that stands with its front inside its destination: what `note_stopped` is told."""
 ON_THE_WAY: Mapping[str, Any] = {"at": AT_REST, "begin_mm": 1, "end_mm": 1}

@@ -14,7 +14,7 @@ from models.world.truth import (
     came_round,
     is_genuine,
     is_last,
-    says_it_stands,
+    says_it_is_held,
     says_it_stands_between,
     stands_within,
 )
@@ -158,8 +158,10 @@ def a_train_within_its_destination_is_not_beyond(
 def a_located_train_stands_where_it_says(
     site: Site, system: System, train: Train, blocks: frozenset[Block], at: Standstill, line: ThroughLine
 ) -> bool:
-    """No car of an unbroken train at rest is outside the blocks that the tags at both its ends say."""
-    return not says_it_stands(at) or not (line.answers and line.is_intact) or stands_within(site, system, train, blocks)
+    """No car of an unbroken train that its brake holds is outside the blocks that the tags at both its ends say."""
+    return (
+        not says_it_is_held(at) or not (line.answers and line.is_intact) or stands_within(site, system, train, blocks)
+    )
 
 
 def two_persons_do_not_both_err(

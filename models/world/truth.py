@@ -42,6 +42,11 @@ def says_it_stands(at: Standstill) -> bool:
     return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
 
 
+def says_it_is_held(at: Standstill) -> bool:
+    """And its brake has been commanded for as long as that takes to respond."""
+    return says_it_stands(at) and at.braked_cycles >= at.response_cycles
+
+
 def says_it_stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
     """And one of the front that is between two places."""
     return says_it_stands(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm

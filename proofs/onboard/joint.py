@@ -16,7 +16,6 @@ from models.onboard.joint import (
     locate,
     no_car_is_ahead_of_the_head,
     obey_the_orders,
-    obey_without_a_range,
     take_list,
     the_unit_goes_by_the_centres_list,
     unit_changes,
@@ -239,17 +238,7 @@ INVARIANTS = (
     no_car_came_under_a_run_ahead,
 )
 PREMISES = (every_route_has_an_overlap, a_centres_list_says_what_its_layout_does)
-STEPS = (
-    locate,
-    take_list,
-    ask_for_the_end,
-    obey_the_orders,
-    obey_without_a_range,
-    head_runs,
-    head_passes,
-    cars_move,
-    unit_changes,
-)
+STEPS = (locate, take_list, ask_for_the_end, obey_the_orders, head_runs, head_passes, cars_move, unit_changes)
 
 THEORY = Theory(
     "joint",

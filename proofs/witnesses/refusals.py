@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.names import Epoch, Route, Serial, Train, UnitLife
 from kernel.refusal import Refusal
-from models.simulator.senses import AT_REST, BROKEN, ROLLING, WHOLE
+from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, ROLLING, WHOLE
 from proofs.witnesses.running import reported, run_through
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import prove_all, reserve, set_route
@@ -166,7 +166,7 @@ def a_train_may_name_more_than_it_is_in(steps: Steps) -> Scenario:
 
 
 def an_answer_is_given_at_rest(steps: Steps) -> Scenario:
-    """A unit answers a challenge that was sent, at rest, over a healthy line; it may again, in a new life (T8)."""
+    """A unit answers a challenge that was sent, at rest, held, over a healthy line; again, in a new life (T8)."""
     scenario = opened(steps, FACING_EAST)
     epoch, life, there = scenario.system.centre.epoch, UnitLife(2), frozenset({WEST})
     event = {"train": T1, "epoch": epoch, "life": life, "blocks": there, "at": AT_REST, "line": WHOLE}
@@ -174,7 +174,13 @@ def an_answer_is_given_at_rest(steps: Steps) -> Scenario:
     scenario.refuses("send_challenge", epoch=Epoch(epoch + 1))
     scenario.does("send_challenge", epoch=epoch)
     scenario.refuses("send_standing", train=T1, epoch=epoch)
-    for wrong in ({"at": ROLLING}, {"line": BROKEN}, {"blocks": frozenset({ONE})}, {"life": UnitLife(1)}):
+    for wrong in (
+        {"at": ROLLING},
+        {"at": NOT_HELD},
+        {"line": BROKEN},
+        {"blocks": frozenset({ONE})},
+        {"life": UnitLife(1)},
+    ):
         scenario.refuses("answer", **event | wrong)
     scenario.does("answer", **event)
     scenario.refuses("answer", **event)

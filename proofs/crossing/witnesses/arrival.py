@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import Coming, Crossing, Taken
+from models.crossing.arrival import Coming, Crossing, Taken, cannot_both_be, is_of_this_line
 from proofs.crossing.arrival import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
@@ -357,7 +357,23 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert fast.step("run_a_cycle", to_um=held.way_um, pace_um=3_000_001) == held
 
 
+def what_contradicts_is_too_far_or_gains_too_much() -> None:
+    """Between two rangings of this line: each by itself is enough; one of a time to come is none (X1, X2)."""
+    one = Ranging(True, 2_000_000, 20_000, 0)
+    for other, both in (
+        (one, True),
+        (replace(one, way_mm=2_000_001), True),
+        (replace(one, way_mm=2_000_002), False),
+        (replace(one, speed_mm_s=20_001), True),
+        (replace(one, speed_mm_s=20_002), False),
+    ):
+        assert cannot_both_be(SITE, one, other) is not both
+    assert is_of_this_line(BOUNDS, one)
+    assert not is_of_this_line(BOUNDS, replace(one, age_cycles=-1))
+
+
 WITNESSES = (
+    what_contradicts_is_too_far_or_gains_too_much,
     at_the_lines_speed_the_warning_time_is_met_to_the_cycle,
     gaining_all_the_way_the_warning_time_is_met_to_the_cycle,
     a_slow_train_is_warned_of_later,

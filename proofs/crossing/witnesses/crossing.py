@@ -437,7 +437,20 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert [world.secured_cycles(40, 20, due) for due in (NEAR, FAR)] == [42, 62]
 
 
+def a_train_that_was_struck_stays_so() -> None:
+    """Whatever other train a terminal tells of after it (X3, T14)."""
+    day = Day()
+    for train in (ONE, TWO):
+        day.come(train, contact=False)
+        day.strike(train)
+    for train in (ONE, TWO):
+        day.step("hear_strike", train=train)
+    assert day.system.bodies[ONE].was_struck
+    assert day.system.bodies[TWO].was_struck
+
+
 WITNESSES = (
+    a_train_that_was_struck_stays_so,
     a_train_in_contact_is_warned_of_when_it_is_due,
     a_train_without_radio_is_warned_of_from_its_start_point,
     a_start_point_leaves_trains_in_contact_alone,

@@ -174,15 +174,16 @@ def what_is_noted_of_a_train_leaves_the_other_as_it_was() -> None:
 
 
 def what_a_brake_did_without_a_range_is_written_down() -> None:
-    """Of that train, and of the other what it did before; nothing where nobody is located, or the range holds (P7)."""
-    obey = Station().theory.steps["obey_without_a_range"]
+    """Of that train, and of the other what it did before; nothing of one that is nowhere (P7)."""
+    obey = Station().theory.steps["obey_the_orders"]
     lost, held = motion_of(399_000, 401_000, loss=Loss.CYCLE_IRREGULAR), motion_of(399_000, 401_000)
     wrong = {T1: False, T2: False}
     system = replace(asked(), does_as_assumed=wrong, brakes_at_a_stop=wrong, is_told_without_an_end=wrong)
     noted = obey(SITE, system, T1, BOUNDS, lost)
     for written in (noted.does_as_assumed, noted.brakes_at_a_stop, noted.is_told_without_an_end):
         assert written == {T1: True, T2: False}
-    assert obey(SITE, system, T1, BOUNDS, held) == system
+    assert obey(SITE, system, T1, BOUNDS, held).does_as_assumed == {T1: True, T2: False}
+    assert obey(SITE, system, T1, BOUNDS, motion_of(400_001, 402_000)) == system
     assert obey(SITE, system, T2, BOUNDS, lost) == system
     nobody = replace(system, system=replace(system.system, units={}))
     assert obey(SITE, nobody, T1, BOUNDS, lost) == nobody

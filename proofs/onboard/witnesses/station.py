@@ -159,8 +159,7 @@ class Station(Play[Survey, Joint]):
         assert len(asked) == 1
         (brake,) = asked
         event = {"train": T1, "front_least_mm": least_mm, "front_most_mm": most_mm, "brake": brake}
-        row = "obey_the_orders" if known else "obey_without_a_range"
-        self.step(row, train=T1, bounds=BOUNDS, motion=motion)
+        self.step("obey_the_orders", train=T1, bounds=BOUNDS, motion=motion)
         assert self.system.does_as_assumed[T1]
         assert self.system.brakes_at_a_stop[T1]
         assert self.system.is_told_without_an_end[T1]

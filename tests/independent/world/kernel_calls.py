@@ -47,18 +47,17 @@ from kernel.names import (
     UnitLife,
 )
 from kernel.onboard import authority_end, braking
-from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.braking import Brake
 from kernel.tag_list import TagPlan
 from kernel.tag_list_text import what_they_say, with_tag_lists
 from kernel.terminal import Terminal
 from kernel.unit import Unit
-from tests.independent.world.sight import Sight, line, moving, standstill
+from tests.independent.world.cab import BOUNDS, moving, put_on, standstill
+from tests.independent.world.sight import Sight, line
 
 Message = tuple[Any, ...]
 CENTRE = "centre"
 STANDING = Route("standing")
-BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, standstill_mm_s=100)
-"""A brake of 1 m/s² within 0.8 s, and motors as strong."""
 BEHIND_MM = 2_000
 """So far behind the front a list may end and still count: more than the odometer is ever wrong."""
 
@@ -291,6 +290,7 @@ class Calls:
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
         if board.asks_anew or not standing.tells_standing(before, epoch):
+            board.brake = put_on(board.brake, sight)
             board.unit = standing.answer(before, epoch, life, sight.blocks, standstill(sight), line(sight.whole))
         if board.unit is not before:
             board.asks_anew = False
@@ -324,6 +324,7 @@ class Calls:
         self.follow(board, sight)
 
     def change_ends(self, board: Board, sight: Sight) -> None:
+        board.brake = put_on(board.brake, sight)
         self.begin_anew(board, sight)
 
     # ---- what a train sends

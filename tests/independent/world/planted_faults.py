@@ -15,8 +15,9 @@ from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.tail_evidence import has_been_in
 from kernel.unit import Evidence
-from tests.independent.world.kernel_calls import BOUNDS, STANDING, Board, Calls, Message
-from tests.independent.world.sight import Sight
+from tests.independent.world.cab import BOUNDS, standstill
+from tests.independent.world.kernel_calls import STANDING, Board, Calls, Message
+from tests.independent.world.sight import Sight, line
 
 
 class EvidenceAhead(Calls):
@@ -137,6 +138,19 @@ class AnswersOnce(Calls):
             super().answer(board, epoch, sight)
 
 
+class AnswersUnbraked(Calls):
+    """A train that stands answers at once, whether or not its brake holds it."""
+
+    def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
+        before, life = board.unit, UnitLife(board.unit.life + 1)
+        if board.asks_anew or not standing.tells_standing(before, epoch):
+            at = replace(standstill(sight), response_cycles=0)
+            board.unit = standing.answer(before, epoch, life, sight.blocks, at, line(sight.whole))
+        if board.unit is not before:
+            board.asks_anew = False
+            self.begin_anew(board, sight)
+
+
 class KeepsWhatItHeld(Calls):
     """A centre that takes a train's word and goes on holding what it held for it."""
 
@@ -162,6 +176,7 @@ FAULTS: tuple[type[Calls], ...] = (
     RunSetAhead,
     NothingCompared,
     LifeConfirmed,
+    AnswersUnbraked,
 )
 STANDS_FOR_EVER: tuple[type[Calls], ...] = (AnswersOnce, KeepsWhatItHeld, NeverForgets)
 """Kernels that are safe, and under which something that is held is never free again."""

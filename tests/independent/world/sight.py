@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Protocol
 
 from kernel.maps import Map
 from kernel.names import Block, Cab, Route, Train
-from kernel.onboard.odometry import Motion
-from kernel.onboard.odometry import located as found_at
-from kernel.standstill import Standstill, ThroughLine
+from kernel.standstill import ThroughLine
 
 
 class Sight(Protocol):
@@ -46,6 +43,13 @@ class Sight(Protocol):
         """How fast it is."""
 
     @property
+    def braked_cycles(self) -> int:
+        """For how many cycles its brake has been on."""
+
+    def wait_braked(self) -> None:
+        """Stand with the brake on until that holds it."""
+
+    @property
     def head_cab(self) -> Cab:
         """The cab that its driver is in."""
 
@@ -53,24 +57,6 @@ class Sight(Protocol):
         """Where the start block of a route begins, and where all its blocks end; nothing if it does not lead there."""
 
 
-def standstill(sight: Sight) -> Standstill:
-    """What the odometry says of front and speed."""
-    front_least_mm, front_most_mm = sight.front_mm
-    return Standstill(
-        known=True,
-        front_least_mm=front_least_mm,
-        front_most_mm=front_most_mm,
-        speed_least_mm_s=sight.speed_mm_s,
-        speed_most_mm_s=sight.speed_mm_s,
-        standstill_mm_s=0,
-    )
-
-
 def line(whole: bool) -> ThroughLine:
     """What line, split detection and spacing say of the way to the tail."""
     return ThroughLine(answers=whole, is_intact=whole, fits=whole)
-
-
-def moving(least_mm: int, most_mm: int, speed_mm_s: int) -> Motion:
-    """What the odometry knows of a train between these places, at this speed."""
-    return replace(found_at(least_mm, most_mm, 0), speed_least_mm_s=speed_mm_s, speed_most_mm_s=speed_mm_s)

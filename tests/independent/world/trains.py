@@ -25,6 +25,9 @@ ODOMETER_MM = 400
 LOOKS_AHEAD = 4
 """A run's entry is found within so many boundaries."""
 
+LONG_CYCLES = 1_000
+"""A brake that has been on for so many cycles holds."""
+
 Happening = tuple[int, int, str, Tag | None]
 """Where the front is then, which in a row, and what happens: a boundary, a tag, the end of what is laid."""
 
@@ -46,7 +49,7 @@ class OnRails:
     lies: Mapping[Point, Position]
     way: int = 1
     speed_mm_s: int = 0
-    braked_cycles: int = 0
+    braked_cycles: int = LONG_CYCLES
     odometer_mm: int = 0
     parted_cycles: int = 0
     """Since it parted: cycles until the line's silence is noticed on board."""
@@ -66,6 +69,10 @@ class OnRails:
     @property
     def at_rest(self) -> bool:
         return self.speed_mm_s == 0
+
+    def wait_braked(self) -> None:
+        """Its brake comes to hold it while it stands."""
+        self.braked_cycles = LONG_CYCLES
 
     @property
     def whole(self) -> bool:

@@ -9,8 +9,9 @@ from random import Random
 from typing import Any
 
 from kernel.names import Block, Cab, Point, Position, Read, Record, Route, Run, Tag, Train
+from tests.independent.world.cab import BOUNDS
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
-from tests.independent.world.kernel_calls import BOUNDS, CENTRE, Calls, Message
+from tests.independent.world.kernel_calls import CENTRE, Calls, Message
 from tests.independent.world.rails import Body, Piece, Rails
 from tests.independent.world.told import Told
 from tests.independent.world.trains import ODOMETER_MM, OVERHANG_MM, WINDOW_MM, OnRails
@@ -110,9 +111,7 @@ class World:
         mine = [each for body in (train.body, *train.rest) for each in body.intervals()]
         zones = train.body.zones()
         for other in self.trains.values():
-            if other is train:
-                continue
-            for body in (other.body, *other.rest):
+            for body in (other.body, *other.rest) if other is not train else ():
                 for track, low, high in body.intervals():
                     if any(track == on and low < to and since < high for on, since, to in mine):
                         raise Hazard(COLLISION, f"{train.name} and {other.name} on {track}")
@@ -151,7 +150,7 @@ class World:
         demanded = train.demanded or train.parted_cycles > LINE_SILENT_CYCLES
         if self.calls.supervise(train.board, train, demanded, pull and not was):
             train.braked_cycles += 1
-            if was == 0:
+            if was == 0 and (train.braked_cycles > BOUNDS.response_cycles or not pull):
                 return False
             if train.braked_cycles > BOUNDS.response_cycles:
                 speed = max(0, speed - BOUNDS.slows_mm_s2 // 10)
