@@ -77,6 +77,7 @@ class Passing:
 
     ``point``: the feature's or the tag's number, the only one of its kind on the line.
     ``time_ms``: GPS time of the pass.
+    ``known``: odometry claims its ranges of front and speed; if not, the rest says nothing.
     ``front_least_mm``, ``front_most_mm``: the range of the train's front at that time, by odometry.
     ``speed_most_mm_s``: the most that the speed was then.
     """
@@ -84,6 +85,7 @@ class Passing:
     kind: PointKind
     point: int
     time_ms: int
+    known: bool
     front_least_mm: int
     front_most_mm: int
     speed_most_mm_s: int
@@ -106,7 +108,7 @@ class Length:
     contradicted: bool
 
 
-NOWHERE = Passing(PointKind.FEATURE, 0, 0, 0, 0, 0)
+NOWHERE = Passing(PointKind.FEATURE, 0, 0, False, 0, 0, 0)
 UNMEASURED = Length(head_passed=False, head=NOWHERE, measured=False, least_mm=0, most_mm=0, contradicted=False)
 """At power-on and after every change of the formation: the line's greatest length is used (P4)."""
 
@@ -114,7 +116,8 @@ UNMEASURED = Length(head_passed=False, head=NOWHERE, measured=False, least_mm=0,
 def fits(bounds: LengthBounds, passing: Passing) -> bool:
     """Tell whether a pass is within the ranges of readings, and the front known well enough (P4)."""
     return (
-        -GREATEST_PLACE_MM <= passing.front_least_mm <= passing.front_most_mm <= GREATEST_PLACE_MM
+        passing.known
+        and -GREATEST_PLACE_MM <= passing.front_least_mm <= passing.front_most_mm <= GREATEST_PLACE_MM
         and passing.front_most_mm - passing.front_least_mm <= bounds.width_mm
         and 0 <= passing.speed_most_mm_s <= GREATEST_SPEED_MM_S
     )

@@ -35,8 +35,8 @@ class Formation:
     ``state``: what the machine knows.
     The rest is history of this formation and of this life of its unit.
     ``head_passed``: the head has passed a point: ``kind``, ``point``, noted for ``time_ms``, when the front
-    was at ``front_um`` and the train ran ``speed_mm_s``; odometry gave a range ``width_mm`` wide, and at most
-    ``told_mm_s``.
+    was at ``front_um`` and the train ran ``speed_mm_s``; odometry claimed (``was_known``) a range ``width_mm`` wide,
+    and at most ``told_mm_s``.
     ``tail_passed``: the tail has passed some point.  ``both_passed``: one that the head had passed last.
     ``untold``: since the length in use was measured, vehicles were coupled or set out, and the unit was not told.
     ``measured_um``: how long the train was when that length was measured, which the errors of that measurement
@@ -52,6 +52,7 @@ class Formation:
     time_ms: int
     front_um: int
     speed_mm_s: int
+    was_known: bool
     width_mm: int
     told_mm_s: int
     tail_passed: bool
@@ -95,13 +96,13 @@ def no_train_is_longer_than_the_line_allows(site: Railway, system: Formation, le
 
 
 def the_range_contains_the_front(site: Railway, system: Formation, front_um: int, passing: Passing) -> bool:
-    """The front is within the range that odometry gave: what it claims itself, `range_contains_train` (P7)."""
-    return UM_A_MM * passing.front_least_mm <= front_um <= UM_A_MM * passing.front_most_mm
+    """The front is within the range that odometry claims, if it claims one: `range_contains_train` (P7)."""
+    return not passing.known or (UM_A_MM * passing.front_least_mm <= front_um <= UM_A_MM * passing.front_most_mm)
 
 
 def the_speed_is_no_more_than_told(site: Railway, system: Formation, speed_mm_s: int, passing: Passing) -> bool:
-    """The speed at the pass is at most what odometry gave (P1)."""
-    return 0 <= speed_mm_s <= passing.speed_most_mm_s
+    """The speed at the pass is at most what odometry claims, if it claims anything (P1)."""
+    return not passing.known or 0 <= speed_mm_s <= passing.speed_most_mm_s
 
 
 def within(value: int, bound: int) -> bool:
@@ -178,6 +179,8 @@ def can_be_compared(site: Railway, system: Formation, passing: Passing) -> bool:
     """Tell whether both ends have passed one point, with the front known well enough, all in range."""
     return (
         ends_pass_one_point(system, passing)
+        and system.was_known
+        and passing.known
         and system.width_mm <= site.bounds.width_mm
         and passing.front_most_mm - passing.front_least_mm <= site.bounds.width_mm
         and within(system.front_um, NEAR_UM)
@@ -225,6 +228,7 @@ def head_passes(site: Railway, system: Formation, front_um: int, speed_mm_s: int
         time_ms=passing.time_ms,
         front_um=front_um,
         speed_mm_s=speed_mm_s,
+        was_known=passing.known,
         width_mm=passing.front_most_mm - passing.front_least_mm,
         told_mm_s=passing.speed_most_mm_s,
     )

@@ -100,6 +100,7 @@ def passings(runs: Runs, point: int, run: int, head: int, tail: int) -> list[Pas
             kind=PointKind.FEATURE,
             point=point,
             time_ms=CYCLE_MS * cycle,
+            known=True,
             front_least_mm=int(runs.way_mm[run, cycle]),
             front_most_mm=int(runs.way_mm[run, cycle]),
             speed_most_mm_s=int(runs.speed_mm_s[run, cycle]),

@@ -144,7 +144,10 @@ def passes(reader: Any, uid: int, frames: int) -> Any:
 @compiled
 def passing(motion: Any, tag: int, cycle: int) -> Any:
     """What the length is measured by when an antenna has read a tag (T3)."""
-    return Passing(KIND_TAG, tag + 1, cycle * 100, motion.front_least_mm, motion.front_most_mm, motion.speed_most_mm_s)
+    return Passing(
+        KIND_TAG, tag + 1, cycle * 100, motion.loss == LOCATED, motion.front_least_mm, motion.front_most_mm,
+        motion.speed_most_mm_s,
+    )  # fmt: skip
 
 
 @compiled
@@ -167,12 +170,11 @@ def under_the_head(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, 
     if was_located:
         out[tally.FIX_BROKEN] += not fix.least_mm <= trace.head_m[cycle] * 1000 <= fix.most_mm
         out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
-    window, length = NONE_AWAITED, ends.length
+    window = NONE_AWAITED
     if tag + 1 < len(trace.tags_mm):
         away_mm = trace.tags_mm[tag + 1] - trace.tags_mm[tag]
         window = await_tag(away_mm, away_mm)
-    if motion.loss == LOCATED:
-        length = note_head_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
+    length = note_head_pass(LENGTH_BOUNDS, ends.length, passing(motion, tag, cycle))
     read_at = place_of_read(before, motion)
     spacing = note_head_read(ends.spacing, tag + 1, read_at)
     return motion, Ends(window, read_at, spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
@@ -188,7 +190,7 @@ def under_the_tail(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, 
         out[tally.SPACING_BROKEN] += spacing.broken
         hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
         out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
-        if motion.loss == LOCATED and is_healthy(spacing):
+        if is_healthy(spacing):
             length = note_tail_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
             out[tally.LENGTHS] += length.measured and not ends.length.measured
             out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length) or contradicts_itself(length)

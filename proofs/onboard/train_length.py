@@ -124,6 +124,7 @@ def a_pass_in_range_is_noted(site: Railway, system: Formation) -> bool:
     return (
         system.state.head_passed
         or not system.head_passed
+        or not system.was_known
         or system.width_mm > site.bounds.width_mm
         or not world.within(system.front_um, world.NEAR_UM)
         or system.told_mm_s > world.FASTEST_MM_S

@@ -27,7 +27,7 @@ BOUNDS = LengthBounds(
     window_mm=513,
     width_mm=20_000,
 )
-HEAD = Passing(PointKind.FEATURE, 7, 1_000, 0, 0, 1_000)
+HEAD = Passing(PointKind.FEATURE, 7, 1_000, True, 0, 0, 1_000)
 NOTED = note_head_pass(BOUNDS, UNMEASURED, HEAD)
 MEASURED = replace(NOTED, measured=True, least_mm=107_000, most_mm=133_000)
 

@@ -17,7 +17,7 @@ from proofs.onboard.witnesses.train_length import BOUNDS, CURVE, JUST_STARTED, S
 
 WILD = st.integers(-(2**62), 2**62)
 KINDS = st.sampled_from(PointKind)
-PASSINGS = st.builds(Passing, KINDS, st.integers(0, 2), WILD, WILD, WILD, WILD)
+PASSINGS = st.builds(Passing, KINDS, st.integers(0, 2), WILD, st.booleans(), WILD, WILD, WILD)
 
 
 @pytest.mark.parametrize("witness", WITNESSES)
@@ -82,7 +82,7 @@ def pass_somewhere(data: st.DataObject, play: Play, head: bool) -> None:  # type
     system = play.system
     kind = data.draw(KINDS)
     speed_mm_s = data.draw(st.integers(0, 40_000))
-    told = Passing(kind, data.draw(st.integers(0, 1)), data.draw(st.integers(0, 10)), 0, 0, speed_mm_s)
+    told = Passing(kind, data.draw(st.integers(0, 1)), data.draw(st.integers(0, 10)), True, 0, 0, speed_mm_s)
     cycle = 100 * max(speed_mm_s, system.speed_mm_s)
     is_tag = kind == PointKind.TAG
     off = {

@@ -29,6 +29,7 @@ JUST_STARTED = Formation(
     time_ms=0,
     front_um=0,
     speed_mm_s=0,
+    was_known=False,
     width_mm=0,
     told_mm_s=0,
     tail_passed=False,
@@ -38,7 +39,7 @@ JUST_STARTED = Formation(
     open_um=0,
     differed=False,
 )
-CURVE = Passing(PointKind.FEATURE, 7, 1_000, 0, 0, 36_112)
+CURVE = Passing(PointKind.FEATURE, 7, 1_000, True, 0, 0, 36_112)
 """The head at 130 km/h, with the front known to a millimetre."""
 TAG = replace(CURVE, kind=PointKind.TAG)
 
@@ -447,7 +448,24 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert train.step("tail_passes", **told).state.measured
 
 
+def what_is_passed_with_the_range_lost_measures_nothing() -> None:
+    """Neither by the head nor by the tail, whatever was claimed last; of that nothing is promised (P7)."""
+    train = Train()
+    train.step("head_passes", front_um=9_000_000, speed_mm_s=40_000, passing=replace(CURVE, known=False))
+    assert (train.system.was_known, train.system.state.head_passed) == (False, False)
+    train.tail(train.later(CURVE, 109_000))
+    assert not train.system.state.measured
+    train = Train()
+    train.head(CURVE)
+    stale = replace(train.later(CURVE, 43_000), known=False)
+    off = dict.fromkeys(("sampling_um", "skew_um", "averaging_um", "sensor_um"), 0)
+    train.step("tail_passes", front_um=100_000_000, speed_mm_s=40_000, passing=stale, **off)
+    assert train.system.tail_passed
+    assert not train.system.state.measured
+
+
 WITNESSES = (
+    what_is_passed_with_the_range_lost_measures_nothing,
     the_error_at_130_km_h_is_13_m,
     a_train_is_measured_at_a_curve,
     a_train_measured_as_short_as_can_be_is_not_underestimated,
