@@ -15,8 +15,10 @@ from models.onboard.joint import (
     Survey,
     list_begins_mm,
     lists_tell_the_track,
+    locate,
     no_car_gets_ahead_of_its_head,
     no_car_is_ahead_of_the_head,
+    obey_the_orders,
     the_head_runs_forward,
     the_track_goes_on_as_listed,
     the_unit_goes_by_the_centres_list,
@@ -137,10 +139,10 @@ def a_train_that_is_located_anew_has_no_list() -> None:
         begins_mm={RUN: BEGINS_MM, OTHER: BEGINS_MM},
         block_ends_mm={RUN: ENDS_MM, OTHER: ENDS_MM},
     )
-    locate = station.theory.steps["locate"]
     anew = locate(SITE, system, T1, head_mm=0, block=EAST, block_end_mm=1, front_most_mm=0)
+    kept: Map[Run, Map[Block, int]] = {OTHER: ENDS_MM}
     assert anew.begins_mm == {OTHER: BEGINS_MM}
-    assert anew.block_ends_mm == {OTHER: ENDS_MM}
+    assert anew.block_ends_mm == kept
 
 
 def what_rolled_before_its_order_was_lost_rolls_on() -> None:
@@ -175,18 +177,17 @@ def what_is_noted_of_a_train_leaves_the_other_as_it_was() -> None:
 
 def what_a_brake_did_without_a_range_is_written_down() -> None:
     """Of that train, and of the other what it did before; nothing of one that is nowhere (P7)."""
-    obey = Station().theory.steps["obey_the_orders"]
     lost, held = motion_of(399_000, 401_000, loss=Loss.CYCLE_IRREGULAR), motion_of(399_000, 401_000)
     wrong = {T1: False, T2: False}
     system = replace(asked(), does_as_assumed=wrong, brakes_at_a_stop=wrong, is_told_without_an_end=wrong)
-    noted = obey(SITE, system, T1, BOUNDS, lost)
+    noted = obey_the_orders(SITE, system, T1, BOUNDS, lost)
     for written in (noted.does_as_assumed, noted.brakes_at_a_stop, noted.is_told_without_an_end):
         assert written == {T1: True, T2: False}
-    assert obey(SITE, system, T1, BOUNDS, held).does_as_assumed == {T1: True, T2: False}
-    assert obey(SITE, system, T1, BOUNDS, motion_of(400_001, 402_000)) == system
-    assert obey(SITE, system, T2, BOUNDS, lost) == system
+    assert obey_the_orders(SITE, system, T1, BOUNDS, held).does_as_assumed == {T1: True, T2: False}
+    assert obey_the_orders(SITE, system, T1, BOUNDS, motion_of(400_001, 402_000)) == system
+    assert obey_the_orders(SITE, system, T2, BOUNDS, lost) == system
     nobody = replace(system, system=replace(system.system, units={}))
-    assert obey(SITE, nobody, T1, BOUNDS, lost) == nobody
+    assert obey_the_orders(SITE, nobody, T1, BOUNDS, lost) == nobody
 
 
 WITNESSES = (
