@@ -24,6 +24,11 @@ from models.onboard.joint import (
     the_unit_goes_by_the_centres_list,
     with_end,
 )
+from proofs.onboard.joint import (
+    a_brake_control_does_what_is_assumed_of_it,
+    a_brake_is_told_without_an_end,
+    a_train_that_no_run_lets_move_is_braked,
+)
 from proofs.onboard.witnesses.station import (
     BEGINS_MM,
     BOUNDS,
@@ -180,6 +185,13 @@ def what_a_brake_did_without_a_range_is_written_down() -> None:
     lost, held = motion_of(399_000, 401_000, loss=Loss.CYCLE_IRREGULAR), motion_of(399_000, 401_000)
     wrong = {T1: False, T2: False}
     system = replace(asked(), does_as_assumed=wrong, brakes_at_a_stop=wrong, is_told_without_an_end=wrong)
+    for claim in (
+        a_brake_control_does_what_is_assumed_of_it,
+        a_train_that_no_run_lets_move_is_braked,
+        a_brake_is_told_without_an_end,
+    ):
+        assert claim(SITE, asked())
+        assert not claim(SITE, system)
     noted = obey_the_orders(SITE, system, T1, BOUNDS, lost)
     for written in (noted.does_as_assumed, noted.brakes_at_a_stop, noted.is_told_without_an_end):
         assert written == {T1: True, T2: False}
