@@ -52,14 +52,26 @@ def _counted(solver: z3.Solver) -> int:
 
 
 def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
-    """Ask Z3 with a fresh solver."""
+    """Ask Z3 with a fresh solver; at a loss once more, in a context of its own.
+
+    In the context that all questions share, what terms are numbered by depends on what was made before, and so,
+    now and then, does whether an answer is found.  Each try has the budget; what the dearer one spent is told.
+    """
     solver = z3.Solver()
-    solver.set("rlimit", BUDGET["z3"])
-    solver.set("random_seed", seed)
     for name in sorted(part.hypotheses):
         solver.add(*part.hypotheses[name])
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
+    answer, spent = _ask_z3_once(solver, seed)
+    if answer != "unknown":
+        return answer, spent
+    answer, more = _ask_z3_once(solver.translate(z3.Context()), seed)
+    return answer, max(spent, more)
+
+
+def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
+    solver.set("rlimit", BUDGET["z3"])
+    solver.set("random_seed", seed)
     before = _counted(solver)
     verdict = solver.check()
     spent = _counted(solver) - before
