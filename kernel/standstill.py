@@ -47,9 +47,14 @@ def stands(at: Standstill) -> bool:
     return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
 
 
+def is_braked(at: Standstill) -> bool:
+    """Tell whether the brake has been on for as long as it takes to respond (T12)."""
+    return at.braked_cycles >= at.response_cycles
+
+
 def is_held(at: Standstill) -> bool:
-    """Tell whether the train certainly stands, and its brake has been on long enough to hold it there (T8, T12)."""
-    return stands(at) and at.braked_cycles >= at.response_cycles
+    """Tell whether the train certainly stands, and its brake holds it there (T8, T12)."""
+    return stands(at) and is_braked(at)
 
 
 def stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:

@@ -29,7 +29,7 @@ from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.way import UNKNOWN, Way, between
-from kernel.standstill import Standstill, ThroughLine
+from kernel.standstill import Standstill, ThroughLine, is_braked
 from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
@@ -149,7 +149,7 @@ class OnBoard:
             speed_least_mm_s=motion.speed_least_mm_s,
             speed_most_mm_s=motion.speed_most_mm_s,
             standstill_mm_s=PLAN.brake.standstill_mm_s,
-            braked_cycles=self.watch.cycles,
+            braked_cycles=self.watch.cycles if self.brake.applied else 0,
             response_cycles=PLAN.brake.response_cycles,
         )
 
@@ -212,19 +212,14 @@ class OnBoard:
         self.from_at = Way(odometry.is_located(self.motion), here, here)
 
     @property
-    def is_held(self) -> bool:
-        """Whether the brake is on, and has been for as long as it takes to respond."""
-        return self.brake.applied and self.watch.cycles >= PLAN.brake.response_cycles
-
-    @property
     def takes_hold(self) -> bool:
         """Whether the brake is on, and has yet to respond."""
-        return self.brake.applied and not self.is_held
+        return self.brake.applied and not is_braked(self.standstill)
 
     def hold(self) -> bool:
         """The driver puts the brake on, until an end of authority is taken; whether it holds the train yet (T8)."""
         self.brake = braking.withhold_end(self.brake)
-        return self.is_held
+        return is_braked(self.standstill)
 
     def made_up(self) -> None:
         """Staff has found the train whole (P5)."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.braking import Brake, BrakeBounds, withhold_end
 from kernel.onboard.odometry import Loss, Motion
 from kernel.standstill import Standstill
 from tests.independent.world.sight import Sight
@@ -38,4 +36,4 @@ def put_on(brake: Brake, sight: Sight) -> Brake:
     if not sight.at_rest:
         return brake
     sight.wait_braked()
-    return replace(brake, applied=True, withheld=True)
+    return withhold_end(brake)

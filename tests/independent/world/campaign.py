@@ -75,14 +75,16 @@ def trains_of(seed: int) -> int:
     return (3, 1, 2, 1, 2)[seed % 5]
 
 
-def live(layout: str, kernel: type[Calls], seed: int, steps: int, tally: Tally) -> Found | None:
-    """Run one world; the hazard that it ended in."""
+def live(
+    layout: str, kernel: type[Calls], seed: int, steps: int, tally: Tally, habit: str | None = None
+) -> Found | None:
+    """Run one world, by one habit or by any; the hazard that it ended in."""
     trains = trains_of(seed)
     world = World(told(layout, trains), kernel, trains, seed)
     tally.worlds += 1
     if len(world.trains) < trains:
         return None
-    schedule = Schedule(world, seed)
+    schedule = Schedule(world, seed, habit)
     events: list[Event] = []
     found = None
     ran_at, ran_mm = 0, 0
@@ -146,28 +148,38 @@ def seeds(first: int) -> Iterator[int]:
         first += 1
 
 
-def campaign(layout: str, kernel: type[Calls], steps: int, first_seed: int, most_found: int = 1) -> Tally:
-    """Worlds of one layout until so many steps are run, or so many hazards found."""
+def campaign(
+    layout: str, kernel: type[Calls], steps: int, first_seed: int, most_found: int = 1, habit: str | None = None
+) -> Tally:
+    """Worlds of one layout, of one habit or of any, until so many steps are run, or so many hazards found."""
     tally = Tally()
     for seed in seeds(first_seed):
         if tally.steps >= steps or len(tally.found) >= most_found:
             return tally
-        live(layout, kernel, seed, min(STEPS_A_LIFE, steps - tally.steps), tally)
+        live(layout, kernel, seed, min(STEPS_A_LIFE, steps - tally.steps), tally, habit)
     raise AssertionError
 
 
-def _part(task: tuple[str, type[Calls], int, int, int]) -> tuple[str, Tally]:
+def _part(task: tuple[str, type[Calls], int, int, int, str | None]) -> tuple[str, Tally]:
     return task[0], campaign(*task)
 
 
 def campaigns(
-    names: Sequence[str], kernel: type[Calls], steps: int, first_seed: int, processes: int, most_found: int = 1
+    names: Sequence[str],
+    kernel: type[Calls],
+    steps: int,
+    first_seed: int,
+    processes: int,
+    most_found: int = 1,
+    habit: str | None = None,
 ) -> dict[str, Tally]:
     """The same number of steps on each layout, in several processes."""
     parts = 4 * processes
     each = steps // len(names) // parts + 1
     tasks = [
-        (name, kernel, each, first_seed + part * SEED_A_LAYOUT, most_found) for part in range(parts) for name in names
+        (name, kernel, each, first_seed + part * SEED_A_LAYOUT, most_found, habit)
+        for part in range(parts)
+        for name in names
     ]
     tallies = {name: Tally() for name in names}
     with get_context("spawn").Pool(processes) as pool:

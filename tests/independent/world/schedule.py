@@ -10,13 +10,18 @@ from random import Random
 
 from kernel.names import Run, Stage, Train
 from tests.independent.world.rails import BETWEEN
-from tests.independent.world.trains import OnRails
+from tests.independent.world.told import TAG_MM
+from tests.independent.world.trains import LONG_CYCLES, OnRails
 from tests.independent.world.world import Event, World
 
 SAYS = ("echo", "given back", "stopped", "tail report")
-TRIES = 6
+SHUTTLES_SHORT_MM = 100
+"""So near to the place that he runs to does a driver stop who is soon to turn."""
+NEAR_MM = 40_000
+"""Farther than this he runs over no boundary before he turns."""
 MIXED_UP = 0.03
 """Of lists that arrive so many are mixed up with another by the unit, where things go wrong."""
+TRIES = 6
 """So often another actor is asked before an event that may change nothing is taken."""
 
 
@@ -30,6 +35,7 @@ ANYTHING: Habit = {
     "shuttles": (0.0, 0.0, 0.6),
     "short_mm": (0, 8_000, 8_000),
     "hesitates": (0.0, 0.0, 0.8),
+    "draws_up": (0.0, 0.0, 0.1),
     "long_routes": (0.0, 0.8, 0.8),
     "most_pending": (0, 0, 1, 4),
     "recalls": (0.0, 0.3, 3.0),
@@ -46,22 +52,24 @@ HABITS: dict[str, Habit] = {
     | {"turns": (0.01,), "halts": (0.02,), "shuttles": (0.0,), "short_mm": (8_000,), "hesitates": (0.0,)}
     | {"long_routes": (0.9,), "most_pending": (0,), "recalls": (0.0,)},
     "to and fro": QUIET
-    | {"turns": (0.3,), "halts": (0.05,), "shuttles": (0.6,), "short_mm": (8_000,), "hesitates": (0.0,)}
+    | {"turns": (0.7,), "halts": (0.05,), "shuttles": (0.8,), "short_mm": (8_000,), "hesitates": (0.0,)}
     | {"long_routes": (0.0,), "most_pending": (1,), "recalls": (0.0,)},
     "recalls": QUIET
     | {"turns": (0.05,), "shuttles": (0.0,), "short_mm": (0,), "hesitates": (0.8,)}
     | {"most_pending": (1,), "recalls": (3.0,)},
+    "draws up": QUIET | {"turns": (0.01,), "short_mm": (0,), "draws_up": (0.5,), "most_pending": (1,)},
 }
-"""Ways to run a line that wear at one place: round and round, to and fro over a boundary, routes taken back."""
+"""Ways to run a line that wear at one place: round and round, to and fro over a boundary, routes taken back, stops
+just short of a block by the driver's hand, who has yet to put the brake on."""
 
 
 class Schedule:
-    """A biased random choice of events; each seed has faults and habits of its own."""
+    """A biased random choice of events; each seed has faults of its own, and habits unless one is named."""
 
-    def __init__(self, world: World, seed: int) -> None:
+    def __init__(self, world: World, seed: int, habit_named: str | None = None) -> None:
         self.world = world
         self.random = Random(seed ^ 0x5EED)
-        habit = self.random.choice(list(HABITS.values()))
+        habit = self.random.choice(list(HABITS.values()) if habit_named is None else [HABITS[habit_named]])
         of = {name: self.random.choice(values) for name, values in (ANYTHING | habit).items()}
         world.missed_of_100 = int(of["missed_of_100"])
         self.turns = of["turns"]
@@ -73,6 +81,7 @@ class Schedule:
         self.shuttles = of["shuttles"]
         self.short_mm = int(of["short_mm"])
         self.hesitates = of["hesitates"]
+        self.draws_up = of["draws_up"]
         self.long_routes = of["long_routes"]
         self.most_pending = of["most_pending"]
         self.actors: list[tuple[Callable[[], Event | None], float]] = [
@@ -119,6 +128,8 @@ class Schedule:
         train = chance.choice(list(self.world.trains.values()))
         if train.isolated:
             return self._on_the_spot(train)
+        if train.braked_cycles == 0 and chance.random() < self.draws_up:
+            return self._by_hand(train)
         front_most = train.place + train.errors_mm[1]
         if train.at_rest and (not self.world.calls.could_start(train.board, front_most, train.demanded)):
             return self._stands(train)
@@ -140,13 +151,33 @@ class Schedule:
             and self.world.calls.end_mm(train.board) - train.place < self.short_mm
         ):
             return self._stands(train)
-        return "move", train.name, cycles, self.short_mm if pull else None, chance.getrandbits(63)
+        bits = chance.getrandbits(63)
+        if train.at_rest and self.short_mm and len(train.blocks) > 1 and chance.random() < self.shuttles:
+            return "move", train.name, LONG_CYCLES, SHUTTLES_SHORT_MM, bits, self._to_and_fro_mm(train)
+        return "move", train.name, cycles, self.short_mm if pull else None, bits
+
+    def _to_and_fro_mm(self, train: OnRails) -> int:
+        """How far a driver runs who is soon to turn: until front or rear is just over the next boundary."""
+        over = [at - train.place for at, _, kind, _ in train.happenings if kind in ("front", "rear")]
+        return min([NEAR_MM, *over]) + self.random.randrange(TAG_MM, 3 * TAG_MM)
+
+    def _by_hand(self, train: OnRails) -> Event | None:
+        """A driver draws up to the next block, is located anew there, and pulls while his brake has yet to respond."""
+        name, bits = train.name, self.random.getrandbits(63)
+        if not train.at_rest:
+            ahead_mm = train.front_block_end_mm - train.place
+            return "move", name, LONG_CYCLES, self.random.randrange(20, 300), bits, ahead_mm
+        if train.board.asks_anew:
+            return self._unless_said(("centre_challenges", name))
+        if self.world.calls.could_start(train.board, train.place + train.errors_mm[1], train.demanded):
+            return "ask_anew", name
+        return "move", name, LONG_CYCLES, 0, bits
 
     def _stands(self, train: OnRails) -> Event | None:
         """A train at rest: its driver changes ends, or it says what there is to say."""
         calls, chance = self.world.calls, self.random
         may_go = any(calls.may_proceed(train.board, run) for run in calls.orders(train.board)[-3:])
-        if not train.isolated and train.whole and chance.random() < (0.3 if may_go else self.turns):
+        if not train.isolated and train.whole and chance.random() < (max(0.3, self.turns) if may_go else self.turns):
             return "turn", train.name, chance.getrandbits(63)
         if train.demanded and chance.random() < 0.1:
             return self.random.choice(("restart_board", "ask_anew")), train.name

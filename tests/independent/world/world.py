@@ -120,31 +120,32 @@ class World:
 
     # ---- trains
 
-    def move(self, name: Train, cycles: int, short_mm: int | None, bits: int) -> bool:
+    def move(self, name: Train, cycles: int, short_mm: int | None, bits: int, runs_mm: int | None = None) -> bool:
         """A train runs for some cycles, as far as its brake lets it and its driver wants.
 
-        ``short_mm``: the driver stops so far before the end that he is shown; none: at once.
+        ``short_mm``: the driver stops so far before the end that he is shown, or ``runs_mm`` from here; none: at once.
         """
         train = self.trains[name]
         self.bits = bits
         if train.isolated or (train.at_rest and short_mm is None):
             return False
         train.errors_mm = self.draw(ODOMETER_MM), self.draw(ODOMETER_MM)
-        before = train.place
+        before, to_mm = train.place, None if runs_mm is None else train.place + runs_mm
         for _ in range(cycles):
-            if not self._cycle(train, short_mm):
+            if not self._cycle(train, short_mm, to_mm):
                 break
         if train.place == before:
             return False
         self.check_apart(train)
         return True
 
-    def _cycle(self, train: OnRails, short_mm: int | None) -> bool:
+    def _cycle(self, train: OnRails, short_mm: int | None, to_mm: int | None) -> bool:
         """A tenth of a second; whether it rolls."""
         was, speed = train.speed_mm_s, train.speed_mm_s
         pull = short_mm is not None
         if short_mm:
-            pull = train.place + (speed + 100) ** 2 // 2_000 + speed // 5 + short_mm < self.calls.end_mm(train.board)
+            end_mm = self.calls.end_mm(train.board) if to_mm is None else to_mm
+            pull = train.place + (speed + 100) ** 2 // 2_000 + speed // 5 + short_mm < end_mm
         if not train.whole:
             train.parted_cycles += 1
         demanded = train.demanded or train.parted_cycles > LINE_SILENT_CYCLES
@@ -361,18 +362,18 @@ class World:
     # ---- two persons on the spot
 
     def isolate(self, train: Train) -> bool:
-        """The procedure is opened; the first person isolates the unit of a train at rest."""
+        """The procedure is opened; the first person isolates the unit of a train at rest, and scotches it."""
         if not self.trains[train].at_rest:
             return False
         self.centre = self.calls.open_procedure(self.centre, train)
         self.restart_board(train)
+        self.trains[train].wait_braked()
         self.trains[train].isolated = True
         return True
 
     def reconnect(self, train: Train) -> bool:
         """The unit is given back its train, in the life it was isolated in."""
-        was = self.trains[train].isolated
-        self.trains[train].isolated = False
+        was, self.trains[train].isolated = self.trains[train].isolated, False
         return was
 
     def state(self, train: Train, blocks: frozenset[Block]) -> bool:
