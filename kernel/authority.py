@@ -7,7 +7,7 @@ from dataclasses import replace
 from kernel.names import Block, Run, TagList
 from kernel.standstill import Standstill, stands_between
 from kernel.tag_list import NO_WAY, TagLists
-from kernel.unit import Unit
+from kernel.unit import Order, Unit
 
 
 def may_proceed(unit: Unit, run: Run) -> bool:
@@ -59,13 +59,30 @@ def is_overlap(lists: TagLists, tag_list: TagList, block: Block) -> bool:
     return block in lists.overlap.get(tag_list, frozenset({block}))
 
 
-def note_stopped(unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
-    """Draw the end of authority back to the destination once the train stands in it (T9).
+def ends_in(lists: TagLists, tag_list: TagList, block: Block) -> bool:
+    """Tell whether the way of a list goes on from ``block`` into its overlap alone, or not at all (T9)."""
+    beyond = lists.way.get(tag_list, NO_WAY).get(block)
+    return beyond is None or is_overlap(lists, tag_list, beyond)
+
+
+def has_arrived(lists: TagLists, order: Order) -> bool:
+    """Tell whether the head has come to the end of a run's way, by its own tags under this run (T9).
+
+    A train that stands in its destination before it has run there needs the overlap yet.
+    """
+    tag_list = order.tag_list
+    return tag_list is not None and any(ends_in(lists, tag_list, block) for block in order.entered)
+
+
+def note_stopped(lists: TagLists, unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
+    """Draw the end of authority back to the destination once the train has come there and stands in it (T9).
 
     ``begin_mm``, ``end_mm``: where the destination of ``run`` begins and ends, by its tag list.
     """
     order = unit.orders.get(run)
     if order is None or not stands_between(at, begin_mm, end_mm) or not may_proceed(unit, run):
+        return unit
+    if not has_arrived(lists, order):
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, stopped=True)})
 

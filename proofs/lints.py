@@ -125,6 +125,7 @@ ASKED: Mapping[str, frozenset[str]] = {
             "a_train_within_its_destination_is_not_beyond",
             "is_genuine",
             "is_last",
+            "the_head_arrived",
             "the_head_went_on",
         }
     ),

@@ -328,18 +328,15 @@ def obey_the_orders(site: Survey, system: Joint, train: Train, bounds: BrakeBoun
     """
     if train not in system.brake or train not in system.system.units:
         return system
-    least_mm, most_mm = motion.front_least_mm, motion.front_most_mm
-    if motion.loss == Loss.NONE and not the_range_contains_the_head(system.head_mm[train], least_mm, most_mm):
-        return system
     lists, unit, before = site.site.lists, system.system.units[train], system.brake[train]
     begins_mm = list_begins_mm(system.begins_mm, train)
     ends_mm = list_ends_mm(system.block_ends_mm, train)
+    made = authority_end.obey(lists, unit, begins_mm, ends_mm, bounds, before, motion)
     if motion.loss != Loss.NONE:
-        made = authority_end.obey(lists, unit, begins_mm, ends_mm, bounds, before, motion)
         return written_down(system, train, made, all(keeps_its_end(before, brake) for brake in made), False, False)
-    # The same motion; written out, so that no solver has to ask once more whether it is lost.
-    claimed = replace(motion, loss=Loss.NONE)
-    made = authority_end.obey(lists, unit, begins_mm, ends_mm, bounds, before, claimed)
+    least_mm, most_mm = motion.front_least_mm, motion.front_most_mm
+    if not the_range_contains_the_head(system.head_mm[train], least_mm, most_mm):
+        return system
     wanted_mm = wanted_ends_mm(site, system, train, least_mm, most_mm)
     does = all(
         the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm) for brake in made

@@ -135,8 +135,12 @@ class OnBoard:
         return self.line(answers)
 
     def line(self, answers: bool) -> ThroughLine:
-        """What is known of the way to the tail; ``answers``: its signal comes over the line (T3)."""
-        return ThroughLine(answers, self.intact, antenna_spacing.is_healthy(self.spacing))
+        """What is known of the way to the tail; ``answers``: its signal comes over the line (T3).
+
+        The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).
+        """
+        fits = antenna_spacing.is_healthy(self.spacing) and not self.movement.reversed
+        return ThroughLine(answers, self.intact, fits)
 
     @property
     def standstill(self) -> Standstill:

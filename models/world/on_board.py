@@ -21,7 +21,7 @@ from models.world.assumptions import (
 )
 from models.world.evidence import as_written, unpassed
 from models.world.state import Site, System
-from models.world.truth import is_genuine, is_last, says_it_stands_between, the_head_went_on
+from models.world.truth import is_genuine, is_last, says_it_stands_between, the_head_arrived, the_head_went_on
 
 
 def with_unit(system: System, train: Train, unit: Unit) -> System:
@@ -177,14 +177,15 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
 def note_stopped(site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> System:
     """The odometry has a range of front and speed, and the list says where the run's destination is (T9).
 
-    History: whether the train has stood in it.
+    History: whether the train has stood in it, having come there under this run.
     """
     if run.train not in system.units:
         return system
     if not a_train_within_its_destination_is_not_beyond(site, system, run, at, begin_mm, end_mm):
         return system
-    unit = authority.note_stopped(system.units[run.train], run, at, begin_mm, end_mm)
-    stood = system.track.stood | {run} if says_it_stands_between(at, begin_mm, end_mm) else system.track.stood
+    unit = authority.note_stopped(site.lists, system.units[run.train], run, at, begin_mm, end_mm)
+    stands = says_it_stands_between(at, begin_mm, end_mm) and the_head_arrived(site, system, run)
+    stood = system.track.stood | {run} if stands else system.track.stood
     return replace(with_unit(system, run.train, unit), track=replace(system.track, stood=stood))
 
 

@@ -52,6 +52,15 @@ def says_it_stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
     return says_it_stands(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm
 
 
+def the_head_arrived(site: Site, system: System, run: Run) -> bool:
+    """The head has been under this run where its way goes on into its overlap alone, or not at all."""
+    way = site.layout.way.get(run.route, {})
+    return any(
+        other == run and (block not in way or way[block] in site.layout.overlap.get(run.route, frozenset()))
+        for other, block in system.track.entered
+    )
+
+
 def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:
     """The cab that leads has been in what follows ``block`` on the way of this run, or of a later one that it led."""
     return any(

@@ -295,6 +295,22 @@ def a_train_that_backs_out_leaves_what_it_came_into(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_train_has_not_stood_where_its_run_has_yet_to_lead(steps: Steps) -> Scenario:
+    """A train that stands in its destination before it has run there may slip when it comes (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    there = scenario.system.track.at | {A1: frozenset({ONE}), A2: frozenset({ONE})}
+    for entered in ((), ((runs[T1], ONE),), ((run, THROAT),)):
+        track = replace(scenario.system.track, at=there, entered=frozenset(entered))
+        made = replace(scenario.system, track=track)
+        after = scenario.steps["note_stopped"](scenario.site, made, run=run, **INSIDE)
+        scenario.must(run not in after.track.stood, "it has not stood in its destination under this run")
+        slips = scenario.steps["overrun"](scenario.site, after, run=run)
+        scenario.must(run in slips.track.slipping, "it may slip yet")
+    return scenario
+
+
 def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
     """A speed that may be above a standstill, either way, does not say that a train stands (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))

@@ -176,7 +176,7 @@ def all_at_the_first_report(
     )
 
 
-def stopped_wherever_it_is(unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
+def stopped_wherever_it_is(lists: TagLists, unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
     """Tell that the train has stopped though it can still slip."""
     order = unit.orders.get(run)
     if order is None or not order.permitted or order.given_back:

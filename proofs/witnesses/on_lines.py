@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from kernel.names import Block, Run, Stage, UnitLife
 from kernel.refusal import Refusal
+from models.simulator.senses import INSIDE
 from models.world.state import System
 from proofs.witnesses.changes import came
 from proofs.witnesses.lines import LINES, Line, Loop, boundaries, line_on, released
@@ -312,6 +313,17 @@ def a_way_back_permitted_before_the_arrival_keeps_its_loop(scenario: Scenario, l
         report(scenario, back, block, there[there.index(block) - 1])
 
 
+def a_train_that_has_yet_to_arrive_keeps_its_overlap(scenario: Scenario, line: Line) -> None:
+    """It stands where its way back is to end before it has run out: that is no arrival, and frees no overlap (T9)."""
+    standing, _ = ready(scenario)
+    out = set_route(scenario, T1, line.out, standing)
+    back = set_route(scenario, T1, line.back, out)
+    scenario.refuses("note_stopped", run=back, **INSIDE)
+    scenario.refuses("send_stop", run=back)
+    scenario.refuses("release_overlap", run=back)
+    holds(scenario, line.blocks(line.back)[-1], standing, out, back)
+
+
 def _loop_of(line: Line) -> Loop:
     """The loop of a layout that has one."""
     assert line.loop is not None, f"{line.name} has no loop"
@@ -330,6 +342,7 @@ ATTACKS: Mapping[str, Attack] = {
         Attack(a_train_with_another_list_gets_no_permit, Line.in_the_open),
         Attack(two_persons_who_name_two_places_account_for_nothing, Line.in_the_open),
         Attack(a_way_back_permitted_before_the_arrival_keeps_its_loop, Line.in_the_open),
+        Attack(a_train_that_has_yet_to_arrive_keeps_its_overlap, Line.in_the_open),
     )
 }
 """By name; each docstring says what is tried, and which requirement stops it."""

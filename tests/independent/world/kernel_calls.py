@@ -320,7 +320,7 @@ class Calls:
             return
         end_mm = ends_mm[self.layout.destination[run.route]]
         begin_mm = max((each for _, each in ends_mm.items() if each < end_mm), default=board.begins_mm[run])
-        board.unit = authority.note_stopped(board.unit, run, standstill(sight), begin_mm, end_mm)
+        board.unit = authority.note_stopped(self.lists, board.unit, run, standstill(sight), begin_mm, end_mm)
         self.follow(board, sight)
 
     def change_ends(self, board: Board, sight: Sight) -> None:

@@ -1,0 +1,27 @@
+"""What the machines on board of a simulated train say of it where it has rolled back."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.standstill import reaches_tail
+from models.concrete.rails import TAG_MM, WINDOW_MM
+from models.rides.plan import PLAN
+from models.simulation.onboard import on_board
+
+
+ROLLS_MM_S = 3_500
+"""Faster than this no train rolls back within some metres of an ascent that it can stand on."""
+
+
+def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
+    board = on_board(120_000, 500_000)
+    board.spacing = replace(board.spacing, checked=True)
+    assert reaches_tail(board.line(True))
+    board.movement = replace(board.movement, reversed=True)
+    assert not reaches_tail(board.line(True))
+
+
+def test_the_tags_of_a_boundary_lie_farther_apart_than_a_train_rolls_back_unnoticed() -> None:
+    assert PLAN.reverse.roll_back_mm + ROLLS_MM_S * CYCLE_MS // 1000 < 2 * TAG_MM - WINDOW_MM
