@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard.arithmetic import CYCLE_MS
-from kernel.standstill import reaches_tail
 from models.concrete.rails import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
 from models.simulation.onboard import on_board
-
 
 ROLLS_MM_S = 3_500
 """Faster than this no train rolls back within some metres of an ascent that it can stand on."""
@@ -18,9 +16,9 @@ ROLLS_MM_S = 3_500
 def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
     board = on_board(120_000, 500_000)
     board.spacing = replace(board.spacing, checked=True)
-    assert reaches_tail(board.line(True))
+    assert board.line(True).fits
     board.movement = replace(board.movement, reversed=True)
-    assert not reaches_tail(board.line(True))
+    assert not board.line(True).fits
 
 
 def test_the_tags_of_a_boundary_lie_farther_apart_than_a_train_rolls_back_unnoticed() -> None:

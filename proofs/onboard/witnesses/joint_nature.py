@@ -192,9 +192,10 @@ def what_a_brake_did_without_a_range_is_written_down() -> None:
     ):
         assert claim(SITE, asked())
         assert not claim(SITE, system)
-    noted = obey_the_orders(SITE, system, T1, BOUNDS, lost)
-    for written in (noted.does_as_assumed, noted.brakes_at_a_stop, noted.is_told_without_an_end):
-        assert written == {T1: True, T2: False}
+    for anywhere in (lost, motion_of(400_001, 402_000, loss=Loss.CYCLE_IRREGULAR)):
+        noted = obey_the_orders(SITE, system, T1, BOUNDS, anywhere)
+        for written in (noted.does_as_assumed, noted.brakes_at_a_stop, noted.is_told_without_an_end):
+            assert written == {T1: True, T2: False}
     assert obey_the_orders(SITE, system, T1, BOUNDS, held).does_as_assumed == {T1: True, T2: False}
     assert obey_the_orders(SITE, system, T1, BOUNDS, motion_of(400_001, 402_000)) == system
     assert obey_the_orders(SITE, system, T2, BOUNDS, lost) == system
