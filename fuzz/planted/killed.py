@@ -1,6 +1,6 @@
 """The drops in the kernel that a counterexample kills, kept beside the code: ``python -m fuzz.planted.killed``.
 
-Which they are takes the trials of all mutants (``python -m proofs.mutants``, half an hour), so their
+Which they are takes the trials of all mutants (``heisoku mutate``, half an hour), so their
 names are kept in ``killed.toml``, each with the row that its counterexample was found in.
 """
 
@@ -10,16 +10,17 @@ import argparse
 import json
 import sys
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from models.exit_codes import BAD_INPUT, HOLDS
 
 FILE = Path(__file__).with_name("killed.toml")
-TRIALS = Path("out/mutants.json")
+TRIALS = Path("out/mutate.json")
 HEAD = """# Drops in the kernel that a counterexample kills, each with the row it was found in.
-# Written by `python -m fuzz.planted.killed` from the record of `python -m proofs.mutants`.
+# Written by `python -m fuzz.planted.killed` from the record of `heisoku mutate`.
 """
 
 
@@ -39,13 +40,14 @@ def module_of(name: str) -> str:
     return name.partition(": ")[0].rpartition(".")[0]
 
 
-def text_of(trials: Mapping[str, Mapping[str, str]]) -> str:
-    """The file's text, from the outcome of every trial by the mutant's name.
+def text_of(trials: Sequence[Mapping[str, Any]]) -> str:
+    """The file's text, from the outcome of every trial.
 
     Left out are the world's mutants, and constants of modules: they are in no function that a fault is planted in.
     """
     found: dict[str, dict[str, str]] = {}
-    for name, verdict in trials.items():
+    for verdict in trials:
+        name = verdict["mutant"]
         if verdict["outcome"] == "counterexample" and name.startswith("kernel.") and ": value " not in name:
             found.setdefault(module_of(name), {})[name] = verdict["by"]
     return HEAD + "".join(_table(module, found[module]) for module in sorted(found))
@@ -66,7 +68,7 @@ def main(given: Iterable[str] | None = None) -> int:
         trials = json.loads(asked.trials.read_text(encoding="utf-8"))["mutants"]
         text = text_of(trials)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        print(f"{asked.trials}: no record of trials ({error}); make one with python -m proofs.mutants", file=sys.stderr)
+        print(f"{asked.trials}: no record of trials ({error}); make one with heisoku mutate --json", file=sys.stderr)
         return BAD_INPUT
     asked.out.write_text(text, encoding="utf-8")
     kept = tomllib.loads(text)

@@ -120,9 +120,9 @@ def test_a_constant_that_makes_no_difference_is_proved_to_make_none() -> None:
 
 def test_constants_of_modules_are_planted_in_no_function() -> None:
     killed = {"outcome": "counterexample", "by": "alarm_tone.listen"}
-    assert "CAUTION_MM" not in text_of({CAUTION: killed})
+    assert "CAUTION_MM" not in text_of([{"mutant": CAUTION, **killed}])
     name = "kernel.alarm.distance.older_ms: constant GREATEST_AGE_MS + 1: 1 is 0"
-    assert name in text_of({name: killed})
+    assert name in text_of([{"mutant": name, **killed}])
 
 
 def test_every_integer_constant_that_a_step_reads_has_mutants() -> None:

@@ -83,11 +83,11 @@ def test_a_draw_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_record_is_made_from_the_trials(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    trials = {
-        'kernel.release.release: guard if "x": y': {"outcome": "counterexample", "by": "release_block"},
-        "kernel.release.release: update z": {"outcome": "witness", "by": "some witness"},
-        "models.world.radio.send_stop: guard if w": {"outcome": "counterexample", "by": "send_stop"},
-    }
+    trials = [
+        {"mutant": 'kernel.release.release: guard if "x": y', "outcome": "counterexample", "by": "release_block"},
+        {"mutant": "kernel.release.release: update z", "outcome": "witness", "by": "some witness"},
+        {"mutant": "models.world.radio.send_stop: guard if w", "outcome": "counterexample", "by": "send_stop"},
+    ]
     source, out = tmp_path / "mutants.json", tmp_path / "killed.toml"
     source.write_text(json.dumps({"mutants": trials}), encoding="utf-8")
     assert killed.main([str(source), "--out", str(out)]) == 0
