@@ -327,10 +327,8 @@ class Service:
         vehicle, board = self.vehicle, self.vehicle.board
         if not vehicle.settled:
             return
-        if not self._leads(run.route):
-            if not self.vehicle.board.hold():
-                return
-            self._turns()
+        if not self._leads(run.route) and not self._turns():
+            return
         if not self.office.lets_depart(self.train):
             return
         self._forgets()
@@ -350,8 +348,8 @@ class Service:
         vehicle, order = self.vehicle, self.play.system.units[self.train].orders[run]
         if not vehicle.settled or order.given_back or run in vehicle.board.lists:
             return
-        if not self._leads(run.route):
-            self._turns()
+        if not self._leads(run.route) and not self._turns():
+            return
         self._survey(run)
         vehicle.demanded(self.play)
 
@@ -366,15 +364,18 @@ class Service:
         board = self.vehicle.board
         board.lists = {each: listed for each, listed in board.lists.items() if each == self.base}
 
-    def _turns(self) -> None:
-        """Change ends: the range of the rear becomes that of the front."""
+    def _turns(self) -> bool:
+        """Change ends, once the brake holds the train: the range of the rear becomes that of the front."""
         train, board = self.vehicle.on_rails, self.vehicle.board
+        if not board.hold():
+            return False
         rear_mm, motion = train.rear_mm, board.motion
         self.vehicle.pending_mm = 0.0
         train.turn()
         top_mm = train.front_mm + rear_mm
         least_mm = top_mm - motion.front_most_mm + board.length_mm
         board.locate(least_mm, top_mm - motion.front_least_mm + board.length_mm)
+        return True
 
     def _survey(self, *runs: Run) -> None:
         """Take the lists of runs that the unit has orders for, and that lead on as the train faces."""

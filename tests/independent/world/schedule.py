@@ -52,7 +52,7 @@ HABITS: dict[str, Habit] = {
     | {"turns": (0.01,), "halts": (0.02,), "shuttles": (0.0,), "short_mm": (8_000,), "hesitates": (0.0,)}
     | {"long_routes": (0.9,), "most_pending": (0,), "recalls": (0.0,)},
     "to and fro": QUIET
-    | {"turns": (0.7,), "halts": (0.05,), "shuttles": (0.8,), "short_mm": (8_000,), "hesitates": (0.0,)}
+    | {"turns": (0.4,), "halts": (0.05,), "shuttles": (0.8,), "short_mm": (8_000,), "hesitates": (0.0,)}
     | {"long_routes": (0.0,), "most_pending": (1,), "recalls": (0.0,)},
     "recalls": QUIET
     | {"turns": (0.05,), "shuttles": (0.0,), "short_mm": (0,), "hesitates": (0.8,)}
@@ -204,7 +204,8 @@ class Schedule:
         if stage == Stage.SET and self.world.told.layout.overlap[run.route] and train.at_rest:
             if calls.stopped(train.board, run) is not None:
                 return self._unless_said(("train_says", train.name, "stopped", run))
-            if train.front_block == self.world.told.layout.destination[run.route]:
+            begun = not calls.is_ahead(centre, train.board, run)
+            if begun and train.front_block == self.world.told.layout.destination[run.route]:
                 return "note_stopped", train.name, run
         return None
 
