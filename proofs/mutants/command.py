@@ -48,7 +48,7 @@ def mutate(
     writable(json)
     names = chosen(only or "", sample)
     if not names:
-        refuse(f"--only {only}: no mutant is named so; python -m proofs.mutants --help")
+        refuse(f"--only {only}: no mutant is named so; heisoku mutate --help")
     began = time.perf_counter()
 
     def progress(done: int, of: int, name: str, verdict: Mapping[str, Any]) -> None:
