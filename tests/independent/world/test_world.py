@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from kernel.names import Point, Position, Train
+from tests.independent.world.cab import BOUNDS
 from tests.independent.world.campaign import Found, Tally, campaign, campaigns, happens_again, layouts, live, shrunk
 from tests.independent.world.drawn import LAYOUTS, told
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
@@ -179,6 +180,15 @@ def test_a_block_that_is_held_for_nobody_around_a_car_is_seen() -> None:
     world.air.append(elsewhere)
     with pytest.raises(Hazard, match=FREED):
         world.happen(("deliver", elsewhere, False))
+
+
+def test_a_train_whose_unit_is_isolated_is_scotched_first() -> None:
+    """Its brake may just have been put on, and have yet to respond."""
+    world = World(told("line", 1), Calls, 1, 1)
+    (train,) = world.trains.values()
+    train.braked_cycles = 0
+    assert world.happen(("isolate", train.name))
+    assert train.braked_cycles > BOUNDS.response_cycles
 
 
 # ---- what this world finds
