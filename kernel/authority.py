@@ -78,11 +78,13 @@ def note_stopped(lists: TagLists, unit: Unit, run: Run, at: Standstill, begin_mm
     """Draw the end of authority back to the destination once the train has come there and stands in it (T9).
 
     ``begin_mm``, ``end_mm``: where the destination of ``run`` begins and ends, by its tag list.
+    The cab that led into the destination is the one whose front counts: of a train that has changed ends that may
+    stand in the destination, and its other end in the overlap.
     """
     order = unit.orders.get(run)
     if order is None or not stands_between(at, begin_mm, end_mm) or not may_proceed(unit, run):
         return unit
-    if not has_arrived(lists, order):
+    if order.led_by != unit.leading or not has_arrived(lists, order):
         return unit
     return replace(unit, orders=unit.orders | {run: replace(order, stopped=True)})
 

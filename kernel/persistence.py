@@ -36,6 +36,7 @@ UNIT: Mapping[str, tuple[Memory, str]] = {
     "life": (Memory.COUNTED, "life"),
     "answered": (Memory.LOST, "None"),
     "standing_in": (Memory.LOST, "frozenset()"),
+    "isolated_in": (Memory.LOST, "None"),
     "orders": (Memory.LOST, "{}"),
     "loop_open": (Memory.LOST, "False"),
     "leading": (Memory.LOST, "None"),

@@ -32,6 +32,7 @@ def restart_unit(unit: Unit, life: UnitLife) -> Unit:
         life=life,
         answered=None,
         standing_in=frozenset(),
+        isolated_in=None,
         orders={},
         loop_open=False,
         leading=None,

@@ -24,6 +24,7 @@ def answer(
         life=life,
         answered=epoch,
         standing_in=blocks,
+        isolated_in=None,
         orders=NO_ORDERS,
         loop_open=False,
         leading=unit.leading,

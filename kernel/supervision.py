@@ -3,6 +3,9 @@
 The first isolates the unit, which begins a new life that no authority reaches, and states
 where the train stands; the second looks for himself and confirms the place.  Only if both say the
 same, and only while the signaller keeps the procedure open, is it taken for the train's own word.
+
+A life counts for the epoch of the centre in which it began, which the unit shows beside it.  A centre that has
+restarted does not know which lives it has granted runs to: for its word the unit is isolated anew.
 """
 
 from __future__ import annotations
@@ -14,6 +17,20 @@ from kernel.layout import Layout
 from kernel.names import Block, Cause, Epoch, Run, Train, UnitLife
 from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
+from kernel.restarts import restart_unit
+from kernel.unit import Unit
+
+
+def isolate(unit: Unit, epoch: Epoch, life: UnitLife) -> Unit:
+    """Isolate the unit: it drops every authority and begins a new life, in the epoch that the signaller names (T8)."""
+    if life <= unit.life:
+        return unit
+    return replace(restart_unit(unit, life), isolated_in=epoch)
+
+
+def shows(unit: Unit, epoch: Epoch, life: UnitLife) -> bool:
+    """Tell whether this is the life that an isolated unit shows, and the epoch (T8)."""
+    return unit.life == life and unit.isolated_in == epoch
 
 
 def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:
@@ -28,7 +45,7 @@ def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:
 
 
 def note_statement(centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]) -> Centre:
-    """Note what the first person states: the life the isolated unit shows, and where the train stands (T8)."""
+    """Note what the first person states: life and epoch as the isolated unit shows them, and the place (T8)."""
     if train not in centre.supervised or epoch != centre.epoch:
         return centre
     return replace(centre, statements=centre.statements | {train: Statement(life=life, blocks=blocks)})

@@ -57,6 +57,7 @@ class Unit:
     ``life``: counts the restarts of the unit.
     ``answered``: the epoch of the centre whose challenge this life has answered.
     ``standing_in``: what it answered, the blocks it stood in.
+    ``isolated_in``: the epoch in which this life began by isolating the unit; it shows this beside ``life``.
     ``orders``: the runs told to this life.
     ``loop_open``: second loop; a tag came that was not the expected one, or not in its place (T5).
     ``leading``: the cab at the head, by the driver's choice of direction; none until he has chosen (T2).
@@ -68,6 +69,7 @@ class Unit:
     life: UnitLife
     answered: Epoch | None
     standing_in: frozenset[Block]
+    isolated_in: Epoch | None
     orders: Map[Run, Order]
     loop_open: bool
     leading: Cab | None

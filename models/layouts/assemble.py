@@ -16,6 +16,7 @@ from models.layouts.findings import Findings
 from models.layouts.following import Path
 from models.layouts.granting import Granted, grant, hold_flank
 from models.layouts.numbers import LARGEST_BLOCK_NUMBER, number_blocks, records_for
+from models.layouts.reading import escaped
 from models.layouts.results import Imported, Places
 from models.layouts.told import Told
 from models.layouts.track import Cut, Heading
@@ -93,8 +94,8 @@ class Tags:
 
 
 def tag_name(mark: str, block: Block) -> Tag:
-    """The tag at a detector, on the side of a block."""
-    return Tag(f"{mark}@{block}")
+    """The tag at a detector, on the side of a block; no two have one name, whatever these are called."""
+    return Tag(f"{escaped(mark)}@{block}")
 
 
 def tags_in_order(route: Granted) -> list[Tag]:

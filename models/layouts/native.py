@@ -86,6 +86,8 @@ class NativeReader:
             else:
                 self._plain_node(node, ends, tracks, junctions, marks)
         for point, kind in kinds.items():
+            if point in junctions:
+                raise self.bad(f"points.{point}", f"a node where two tracks join has the name '{point}'", "rename it")
             for leg in kind.ports:
                 if leg not in legs[point]:
                     what = f"leg '{leg}' meets no track"

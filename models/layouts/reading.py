@@ -167,6 +167,11 @@ def identifier(file: str, place: str, name: str) -> str:
     return name
 
 
+def escaped(name: str) -> str:
+    """A name in which the marks that join names do not occur, different for different names."""
+    return name.replace("%", "%25").replace("@", "%40").replace("|", "%7C")
+
+
 def by_name(file: str, place: str, items: Sequence[Mapping[str, Any]]) -> dict[str, Mapping[str, Any]]:
     """The items of a list by their ``id``, none of which may stand twice."""
     found: dict[str, Mapping[str, Any]] = {}

@@ -14,6 +14,7 @@ from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
 from models.layouts.findings import Findings
 from models.layouts.numbers import number_blocks, records_for
+from models.layouts.reading import escaped
 from models.layouts.results import Imported, Places
 from models.layouts.told import Told, Wanted
 from models.layouts.track import LOW
@@ -225,7 +226,7 @@ def _released_after(row: Row) -> dict[Block, Block]:
 
 def tags(first: Block, second: Block) -> tuple[Tag, Tag]:
     """The tags at the boundary of two blocks, on the side of the first and of the second."""
-    low, high = sorted((first, second))
+    low, high = (escaped(block) for block in sorted((first, second)))
     return Tag(f"{low}|{high}@{first}"), Tag(f"{low}|{high}@{second}")
 
 

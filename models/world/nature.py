@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel import change_of_ends
+from kernel import change_of_ends, supervision
 from kernel.authority import may_leave, may_proceed
 from kernel.names import Block, Cab, Car, Epoch, Run, Tag, Train, UnitLife
-from kernel.restarts import restart_unit as restarted_unit
 from models.world.assumptions import (
     a_train_obeys_its_authority,
     a_train_runs_forward_along_its_run,
@@ -184,17 +183,23 @@ def take_over(
     site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife, blocks: frozenset[Block]
 ) -> System:
     """The first person isolates a unit at rest, in a new life, and states, rightly or not, where the train is (T8)."""
-    if train not in system.units or epoch not in system.radio.challenges or life <= system.units[train].life:
+    if train not in system.units or epoch not in system.radio.challenges:
         return system
-    isolated = replace(system, units=system.units | {train: restarted_unit(system.units[train], life)})
+    unit = supervision.isolate(system.units[train], epoch, life)
+    if unit == system.units[train]:
+        return system
+    isolated = replace(system, units=system.units | {train: unit})
     return _stated(isolated, site, train, (train, life, epoch), blocks)
 
 
 def correct_statement(
     site: Site, system: System, train: Train, epoch: Epoch, life: UnitLife, blocks: frozenset[Block]
 ) -> System:
-    """The first person states another place; what he stated first may have been taken down by then (T8)."""
-    if (train, life, epoch) not in system.radio.statements:
+    """The first person states a place again, of what the unit shows, maybe after a restart of the centre (T8).
+
+    What he stated before may have been taken down by then.
+    """
+    if train not in system.units or not supervision.shows(system.units[train], epoch, life):
         return system
     if not two_persons_do_not_both_err(site, system, train, blocks, (train, life, epoch), system.track.second_erred):
         return system

@@ -21,7 +21,14 @@ from models.world.assumptions import (
 )
 from models.world.evidence import as_written, unpassed
 from models.world.state import Site, System
-from models.world.truth import is_genuine, is_last, says_it_stands_between, the_head_arrived, the_head_went_on
+from models.world.truth import (
+    is_genuine,
+    is_last,
+    its_front_leads,
+    says_it_stands_between,
+    the_head_arrived,
+    the_head_went_on,
+)
 
 
 def with_unit(system: System, train: Train, unit: Unit) -> System:
@@ -184,7 +191,11 @@ def note_stopped(site: Site, system: System, run: Run, at: Standstill, begin_mm:
     if not a_train_within_its_destination_is_not_beyond(site, system, run, at, begin_mm, end_mm):
         return system
     unit = authority.note_stopped(site.lists, system.units[run.train], run, at, begin_mm, end_mm)
-    stands = says_it_stands_between(at, begin_mm, end_mm) and the_head_arrived(site, system, run)
+    stands = (
+        says_it_stands_between(at, begin_mm, end_mm)
+        and its_front_leads(site, system, run)
+        and the_head_arrived(site, system, run)
+    )
     stood = system.track.stood | {run} if stands else system.track.stood
     return replace(with_unit(system, run.train, unit), track=replace(system.track, stood=stood))
 

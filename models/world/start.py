@@ -61,6 +61,7 @@ def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, P
         life=UnitLife(0),
         answered=None,
         standing_in=frozenset(),
+        isolated_in=None,
         orders=NO_ORDERS,
         loop_open=False,
         leading=None,

@@ -12,13 +12,17 @@ def is_genuine(site: Site, read: Read) -> bool:
     return site.records.record.get(read.tag) == read.record
 
 
+def its_front_leads(site: Site, system: System, run: Run) -> bool:
+    """The cab leads that leads in this run: the train has not changed ends since, or twice."""
+    return run in site.formation.front and system.track.facing.get(run.train) == site.formation.front[run]
+
+
 def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
     """The car is the last of a whole train that runs as in ``run``."""
     return (
         run in site.formation.last
         and site.formation.last[run] == car
-        and run in site.formation.front
-        and system.track.facing.get(run.train) == site.formation.front[run]
+        and its_front_leads(site, system, run)
         and run.train not in system.track.parted
     )
 
@@ -80,7 +84,6 @@ def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
     run = system.track.under[car][block]
     return (
         run.route in site.layout.routes
-        and run in site.formation.front
-        and system.track.facing.get(run.train) == site.formation.front[run]
+        and its_front_leads(site, system, run)
         and not the_head_went_on(site, system, run, block)
     )

@@ -20,6 +20,7 @@ def everything_has_just_restarted(site: Site, system: System) -> bool:
         and all(point in system.centre.lost_points for point in site.layout.points)
         and all(
             unit.answered is None
+            and unit.isolated_in is None
             and unit.leading is None
             and unit.head_tag is None
             and unit.tail_read is None

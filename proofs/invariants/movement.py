@@ -212,11 +212,11 @@ def a_run_not_yet_begun_expects_its_first_tags(site: Site, system: System) -> bo
 
 
 def a_run_that_has_begun_is_led_by_its_front(site: Site, system: System) -> bool:
-    """A run of a route begins only with the cab leading that leads in it (T2, T5)."""
+    """A run of a route begins with the cab leading that leads in it, before a block is entered under it (T2, T5)."""
     return all(
         run.route not in site.layout.routes
-        or not order.begun
-        or (run in site.formation.front and order.led_by == site.formation.front[run])
+        or (not order.begun and not any(True for _ in order.entered))
+        or (order.begun and run in site.formation.front and order.led_by == site.formation.front[run])
         for train in system.units
         for run, order in system.units[train].orders.items()
     )
@@ -347,6 +347,14 @@ def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
             stands_within(site, system, train, unit.standing_in)
             and all(run.train != train or run.life < unit.life for run in system.radio.offers)
         )
+        for train, unit in system.units.items()
+    )
+
+
+def what_an_isolated_unit_shows_was_stated(site: Site, system: System) -> bool:
+    """The first person has stated where the train is as soon as he had isolated its unit (T8)."""
+    return all(
+        unit.isolated_in is None or (train, unit.life, unit.isolated_in) in system.radio.statements
         for train, unit in system.units.items()
     )
 

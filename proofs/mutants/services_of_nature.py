@@ -162,6 +162,24 @@ def another_train_may_follow_into_a_block_that_was_left(steps: Steps) -> Scenari
     return scenario
 
 
+def a_car_that_is_yet_to_leave_is_seen(steps: Steps) -> Scenario:
+    """No pair is read over a boundary that the last car stands across, though it came there under no run (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    last = scenario.site.formation.last[run]
+    if last != A1:
+        running.follows(scenario, last, A1, THROAT)
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    running.tail_reads_first(scenario, run, first)
+    scenario.refuses("tail_reads", **running.tail_read(scenario, run, second))
+    for car in running.in_order(scenario, run):
+        running.leaves(scenario, car, WEST)
+    scenario.does("tail_reads", **running.tail_read(scenario, run, second))
+    return scenario
+
+
 def a_tag_that_another_train_passed_pairs_with_nothing(steps: Steps) -> Scenario:
     """One train has passed both tags of a boundary, the next one's tail reads the second alone: no pair (T2)."""
     scenario, runs = telling.recovered(steps, {**standing(TWO), B1: frozenset({WEST})})
@@ -296,13 +314,20 @@ def a_train_that_backs_out_leaves_what_it_came_into(steps: Steps) -> Scenario:
 
 
 def a_train_has_not_stood_where_its_run_has_yet_to_lead(steps: Steps) -> Scenario:
-    """A train that stands in its destination before it has run there may slip when it comes (T9)."""
+    """A train that stands in its destination before it has run there, or has turned, may slip when it comes (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.roll(scenario, run)
     there = scenario.system.track.at | {A1: frozenset({ONE}), A2: frozenset({ONE})}
-    for entered in ((), ((runs[T1], ONE),), ((run, THROAT),)):
-        track = replace(scenario.system.track, at=there, entered=frozenset(entered))
+    facing = scenario.system.track.facing
+    other = next(scenario.site.formation.cab[car] for car in (A1, A2) if scenario.site.formation.cab[car] != facing[T1])
+    for leads, entered in (
+        (facing[T1], ()),
+        (facing[T1], ((runs[T1], ONE),)),
+        (facing[T1], ((run, THROAT),)),
+        (other, ((run, ONE),)),
+    ):
+        track = replace(scenario.system.track, at=there, entered=frozenset(entered), facing=facing | {T1: leads})
         made = replace(scenario.system, track=track)
         after = scenario.steps["note_stopped"](scenario.site, made, run=run, **INSIDE)
         scenario.must(run not in after.track.stood, "it has not stood in its destination under this run")
@@ -323,6 +348,10 @@ def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
         scenario.refuses("note_stopped", run=run, **{**INSIDE, "at": at})
     for elsewhere in (ON_THE_WAY, BEYOND):
         scenario.refuses("note_stopped", run=run, **elsewhere)
+    before = scenario.system
+    scenario.does("window_passes", train=T1)
+    scenario.does("note_stopped", {"track": {"stood": came(run)}}, run=run, **INSIDE)
+    scenario.system = before
     scenario.does("note_stopped", run=run, **INSIDE)
     return scenario
 

@@ -48,6 +48,7 @@ def unit_keeps_its_life(unit: Unit, life: UnitLife) -> Unit:
         life=unit.life,
         answered=None,
         standing_in=frozenset(),
+        isolated_in=None,
         orders={},
         loop_open=False,
         leading=None,

@@ -10,7 +10,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from kernel.names import Block, Run, Stage, UnitLife
+from kernel.names import Block, Epoch, Run, Stage, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import INSIDE
 from models.world.state import System
@@ -324,6 +324,41 @@ def a_train_that_has_yet_to_arrive_keeps_its_overlap(scenario: Scenario, line: L
     holds(scenario, line.blocks(line.back)[-1], standing, out, back)
 
 
+def a_train_that_has_turned_frees_no_overlap(scenario: Scenario, line: Line) -> None:
+    """Once it has arrived and changed ends its other end may lie in the overlap: its front says nothing of it (T9)."""
+    standing, _ = ready(scenario)
+    out = set_route(scenario, T1, line.out, standing)
+    roll(scenario, out)
+    pass_through(scenario, out, *line.blocks(line.out))
+    rest(scenario, out)
+    led, cabs = scenario.site.formation.front[out], scenario.site.formation.carried_by
+    other = next(cab for cab, car in cabs.items() if cab != led and scenario.site.formation.train_of[car] == T1)
+    scenario.does("change_ends", train=T1, cab=other)
+    scenario.refuses("note_stopped", run=out, **INSIDE)
+    scenario.refuses("send_stop", run=out)
+    scenario.does("change_ends", train=T1, cab=led)
+    scenario.does("note_stopped", run=out, **INSIDE)
+
+
+def a_life_stated_before_the_centre_restarted_is_stated_no_more(scenario: Scenario, line: Line) -> None:
+    """A centre that has restarted has forgotten what it granted that life: the unit must be isolated anew (T8)."""
+    ready(scenario)
+    there, life, epoch = frozenset(line.blocks(line.out)[:1]), UnitLife(3), scenario.system.centre.epoch
+    scenario.does("open_procedure", train=T1)
+    state(scenario, life, epoch, there)
+    event = {"train": T1, "epoch": epoch, "life": life}
+    scenario.does("confirm_statement", **event, blocks=there)
+    scenario.does("note_statement_confirmed", run=next_run(scenario, T1, NO_ROUTE, life), **event)
+    later = Epoch(epoch + 1)
+    scenario.does("restart_centre", epoch=later)
+    scenario.does("send_challenge", epoch=later)
+    scenario.does("open_procedure", train=T1)
+    scenario.refuses("note_statement", **event)
+    scenario.refuses("correct_statement", train=T1, epoch=later, life=life, blocks=there)
+    scenario.refuses("take_over", train=T1, epoch=later, life=life, blocks=there)
+    state(scenario, UnitLife(4), later, there)
+
+
 def _loop_of(line: Line) -> Loop:
     """The loop of a layout that has one."""
     assert line.loop is not None, f"{line.name} has no loop"
@@ -343,6 +378,8 @@ ATTACKS: Mapping[str, Attack] = {
         Attack(two_persons_who_name_two_places_account_for_nothing, Line.in_the_open),
         Attack(a_way_back_permitted_before_the_arrival_keeps_its_loop, Line.in_the_open),
         Attack(a_train_that_has_yet_to_arrive_keeps_its_overlap, Line.in_the_open),
+        Attack(a_train_that_has_turned_frees_no_overlap, Line.in_the_open),
+        Attack(a_life_stated_before_the_centre_restarted_is_stated_no_more, Line.in_the_open),
     )
 }
 """By name; each docstring says what is tried, and which requirement stops it."""

@@ -8,6 +8,7 @@ from kernel.centre import Statement
 from kernel.names import Block, Cause, Epoch, Run, Stage, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.restarts import restart_unit
+from kernel.supervision import isolate
 from models.simulator.senses import INSIDE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.running import (
@@ -299,7 +300,7 @@ def two_persons_release_a_dead_train(steps: Steps) -> Scenario:
 def state(scenario: Scenario, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]) -> None:
     """The first person isolates the first train's unit and states where it is; the centre notes it."""
     unit = scenario.system.units[T1]
-    reborn = restart_unit(unit, life)
+    reborn = isolate(unit, epoch, life)
     effect: dict[str, Any] = {
         "units": {T1: reborn if not unit.orders else {**_fields(reborn), "orders": dict.fromkeys(unit.orders, GONE)}},
         "radio": {"statements": {(T1, life, epoch): blocks}},

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from models.layouts import BadInput, load
+from models.layouts import BadInput, load, load_text
 from models.layouts.generate import as_toml
 from tests.layouts.stations import SHARED, needs_shared, plain_station, railjson_of
 
@@ -198,3 +198,66 @@ def test_truncated_real_file_is_refused(cut: int, tmp_path: Path) -> None:
     file.write_bytes((SHARED / "osrd-tiny_infra.json").read_bytes()[:-cut])
     with pytest.raises(BadInput, match="is not JSON"):
         load(file)
+
+
+JOINED_NAMES = """
+format = "heisoku-layout-1"
+name = "Marks and blocks whose names, joined, are the same"
+trains = ["T1"]
+held_by_authority = "rest"
+[tracks.line]
+from = "west end"
+to = "east end"
+length_mm = 3_000_000
+boundaries = { "x@y" = 1_000_000, "b" = 1_300_000, "x" = 2_000_000, "c" = 2_500_000 }
+[blocks]
+"z" = { track = "line", at_mm = 100_000 }
+"w" = { track = "line", at_mm = 1_100_000 }
+"y@z" = { track = "line", at_mm = 1_600_000 }
+"y@w" = { track = "line", at_mm = 2_100_000 }
+[routes."through"]
+from = "x@y"
+direction = "forward"
+to = "c"
+"""
+
+
+def test_tags_of_two_boundaries_are_never_one() -> None:
+    layout = load_text("joined.toml", JOINED_NAMES).layout
+    assert len(layout.tag_in) == 2 * 4
+    assert all(layout.tag_in[tag] != layout.tag_in[layout.partner[tag]] for tag in layout.tag_in)
+
+
+def test_a_point_does_not_take_the_place_of_a_joint() -> None:
+    text = """
+format = "heisoku-layout-1"
+name = "A point called like a joint"
+trains = ["T1"]
+held_by_authority = "rest"
+[tracks.west]
+from = "west end"
+to = "joint n.tip"
+length_mm = 1_000_000
+[tracks.main]
+from = "joint n.normal"
+to = "east end"
+length_mm = 1_000_000
+boundaries = { B = 100_000 }
+[tracks.branch]
+from = "joint n.reverse"
+to = "n"
+length_mm = 200_000
+[tracks.siding]
+from = "n"
+to = "siding stop"
+length_mm = 1_000_000
+[points]
+"joint n" = {}
+[routes."through"]
+from = "west end"
+direction = "forward"
+to = "east end"
+points = { "joint n" = "normal" }
+"""
+    with pytest.raises(BadInput, match="a node where two tracks join has the name 'joint n'"):
+        load_text("joint.toml", text)

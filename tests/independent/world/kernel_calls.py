@@ -95,21 +95,22 @@ class Calls:
 
     def new_centre(self) -> Centre:
         """A centre that has just been switched on."""
-        nothing = Centre(Epoch(0), Serial(0), {}, {}, {}, {}, frozenset(), frozenset(), {}, frozenset(), {})
-        return self.restart_centre(nothing)
+        none = frozenset[Any]()
+        return self.restart_centre(Centre(Epoch(0), Serial(0), {}, {}, {}, {}, none, none, {}, none, {}))
 
     def restart_centre(self, centre: Centre) -> Centre:
         return restarts.restart_centre(self.layout, centre, Epoch(centre.epoch + 1))
 
     def new_board(self, front_mm: int, cab: Cab) -> Board:
-        nothing = Unit(UnitLife(0), None, frozenset(), {}, False, None, None, None, frozenset())
+        nothing = Unit(UnitLife(0), None, frozenset(), None, {}, False, None, None, None, frozenset())
         unit = change_of_ends.change_ends(self.lists, restarts.restart_unit(nothing, UnitLife(1)), cab)
         return Board(unit, braking.stand_still(front_mm))
 
-    def restart_board(self, board: Board, sight: Sight) -> None:
-        """After a restart the driver chooses his direction anew."""
-        board.asks_anew = False
-        board.unit = restarts.restart_unit(board.unit, UnitLife(board.unit.life + 1))
+    def restart_board(self, board: Board, sight: Sight, isolated_in: Epoch | None = None) -> None:
+        """After a restart, or once isolated, the driver chooses his direction anew."""
+        board.asks_anew, life = False, UnitLife(board.unit.life + 1)
+        anew = restarts.restart_unit(board.unit, life)
+        board.unit = anew if isolated_in is None else supervision.isolate(board.unit, isolated_in, life)
         self.begin_anew(board, sight)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:

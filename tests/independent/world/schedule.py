@@ -373,6 +373,8 @@ class Schedule:
         what = chance.random()
         if self.world.calls.is_accounted(world.centre, train.board, name):
             return None if what < 0.9 else ("reconnect", name)
+        if train.board.unit.isolated_in != world.centre.epoch:
+            return "isolate", name
         if what < 0.4 and name in world.statements:
             return "confirm", name
         if what < 0.45:

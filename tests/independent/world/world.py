@@ -8,7 +8,7 @@ from __future__ import annotations
 from random import Random
 from typing import Any
 
-from kernel.names import Block, Cab, Point, Position, Read, Record, Route, Run, Tag, Train
+from kernel.names import Block, Cab, Epoch, Point, Position, Read, Record, Route, Run, Tag, Train
 from tests.independent.world.cab import BOUNDS
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
 from tests.independent.world.kernel_calls import CENTRE, Calls, Message
@@ -282,9 +282,9 @@ class World:
         train.happenings = [each for each in train.happenings if each[2] not in ("tail", "rear")]
         return True
 
-    def restart_board(self, name: Train) -> bool:
+    def restart_board(self, name: Train, isolated_in: Epoch | None = None) -> bool:
         train = self.trains[name]
-        self.calls.restart_board(train.board, train)
+        self.calls.restart_board(train.board, train, isolated_in)
         train.demanded = False
         return True
 
@@ -366,7 +366,7 @@ class World:
         if not self.trains[train].at_rest:
             return False
         self.centre = self.calls.open_procedure(self.centre, train)
-        self.restart_board(train)
+        self.restart_board(train, self.centre.epoch)
         self.trains[train].wait_braked()
         self.trains[train].isolated = True
         return True
@@ -377,10 +377,10 @@ class World:
         return was
 
     def state(self, train: Train, blocks: frozenset[Block]) -> bool:
-        """The first person states where it stands, rightly or not; he may correct himself."""
+        """The first person states what its unit shows, and where it stands, rightly or not; he may correct himself."""
         if not self.trains[train].isolated:
             return False
-        said = (train, self.trains[train].board.unit.life, self.centre.epoch, blocks)
+        said = (train, (unit := self.trains[train].board.unit).life, unit.isolated_in, blocks)
         self.statements[train] = said
         return self._send(("statement", CENTRE, *said))
 
