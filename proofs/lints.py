@@ -126,6 +126,7 @@ ASKED: Mapping[str, frozenset[str]] = {
             "is_genuine",
             "is_last",
             "the_head_arrived",
+            "its_front_leads",
             "the_head_went_on",
         }
     ),

@@ -164,19 +164,15 @@ def another_train_may_follow_into_a_block_that_was_left(steps: Steps) -> Scenari
 
 def a_car_that_is_yet_to_leave_is_seen(steps: Steps) -> Scenario:
     """No pair is read over a boundary that the last car stands across, though it came there under no run (T2)."""
-    scenario, runs = telling.recovered(steps, standing(WEST))
-    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    running.roll(scenario, run)
-    running.head_passes(scenario, run, WEST, THROAT)
-    last = scenario.site.formation.last[run]
-    if last != A1:
-        running.follows(scenario, last, A1, THROAT)
+    at = {A1: frozenset({THROAT}), A2: frozenset({WEST, THROAT})}
+    scenario = telling.opened(steps, at)
+    nowhere = replace(scenario.system.track, under={A1: {}, A2: {}})
+    scenario.system = replace(scenario.system, track=nowhere)
+    run = telling.next_run(scenario, T1, WEST_TO_ONE)
+    scenario.does("change_ends", train=T1, cab=running.head_cab(scenario, run))
     first, second = running.pair(scenario.site.layout, WEST, THROAT)
-    running.tail_reads_first(scenario, run, first)
+    scenario.does("tail_reads", **running.tail_read(scenario, run, first))
     scenario.refuses("tail_reads", **running.tail_read(scenario, run, second))
-    for car in running.in_order(scenario, run):
-        running.leaves(scenario, car, WEST)
-    scenario.does("tail_reads", **running.tail_read(scenario, run, second))
     return scenario
 
 
