@@ -1,10 +1,10 @@
-"""Where the train stands: a unit's answer to the centre's challenge (T8, ours)."""
+"""Where the train stands: a unit's answer to the centre's challenge, and what it shows once isolated (T8, ours)."""
 
 from __future__ import annotations
 
 from kernel.names import Block, Epoch, UnitLife
 from kernel.standstill import Standstill, ThroughLine, is_held, is_whole
-from kernel.unit import NO_ORDERS, Unit
+from kernel.unit import NO_BLOCKS, NO_ORDERS, Unit
 
 
 def answer(
@@ -37,3 +37,26 @@ def answer(
 def tells_standing(unit: Unit, epoch: Epoch) -> bool:
     """Tell whether the unit sends what it answered in ``epoch`` (T8)."""
     return unit.answered == epoch
+
+
+def isolate(unit: Unit, epoch: Epoch, life: UnitLife) -> Unit:
+    """Isolate the unit: it drops every authority and begins a new life, in the epoch that the signaller names (T8)."""
+    if life <= unit.life:
+        return unit
+    return Unit(
+        life=life,
+        answered=None,
+        standing_in=NO_BLOCKS,
+        isolated_in=epoch,
+        orders=NO_ORDERS,
+        loop_open=False,
+        leading=None,
+        head_tag=None,
+        tail_read=None,
+        occupied=NO_BLOCKS,
+    )
+
+
+def shows(unit: Unit, epoch: Epoch, life: UnitLife) -> bool:
+    """Tell whether this is the life that an isolated unit shows, and the epoch (T8)."""
+    return unit.life == life and unit.isolated_in == epoch

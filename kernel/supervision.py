@@ -17,20 +17,6 @@ from kernel.layout import Layout
 from kernel.names import Block, Cause, Epoch, Run, Train, UnitLife
 from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
-from kernel.restarts import restart_unit
-from kernel.unit import Unit
-
-
-def isolate(unit: Unit, epoch: Epoch, life: UnitLife) -> Unit:
-    """Isolate the unit: it drops every authority and begins a new life, in the epoch that the signaller names (T8)."""
-    if life <= unit.life:
-        return unit
-    return replace(restart_unit(unit, life), isolated_in=epoch)
-
-
-def shows(unit: Unit, epoch: Epoch, life: UnitLife) -> bool:
-    """Tell whether this is the life that an isolated unit shows, and the epoch (T8)."""
-    return unit.life == life and unit.isolated_in == epoch
 
 
 def open_procedure(layout: Layout, centre: Centre, train: Train) -> Centre:

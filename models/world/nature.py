@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel import change_of_ends, supervision
+from kernel import change_of_ends, standing
 from kernel.authority import may_leave, may_proceed
 from kernel.names import Block, Cab, Car, Epoch, Run, Tag, Train, UnitLife
 from models.world.assumptions import (
@@ -185,8 +185,8 @@ def take_over(
     """The first person isolates a unit at rest, in a new life, and states, rightly or not, where the train is (T8)."""
     if train not in system.units or epoch not in system.radio.challenges:
         return system
-    unit = supervision.isolate(system.units[train], epoch, life)
-    if unit == system.units[train]:
+    unit = standing.isolate(system.units[train], epoch, life)
+    if unit.life == system.units[train].life:
         return system
     isolated = replace(system, units=system.units | {train: unit})
     return _stated(isolated, site, train, (train, life, epoch), blocks)
@@ -199,7 +199,7 @@ def correct_statement(
 
     What he stated before may have been taken down by then.
     """
-    if train not in system.units or not supervision.shows(system.units[train], epoch, life):
+    if train not in system.units or not standing.shows(system.units[train], epoch, life):
         return system
     if not two_persons_do_not_both_err(site, system, train, blocks, (train, life, epoch), system.track.second_erred):
         return system

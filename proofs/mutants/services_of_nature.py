@@ -13,7 +13,7 @@ from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLi
 from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, ON_THE_WAY, WHOLE
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
-from proofs.witnesses.changes import came, went
+from proofs.witnesses.changes import GONE, came, went
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
     A1,
@@ -399,3 +399,24 @@ def _reads_a_pair_unbound(scenario: Scenario, run: Run, car: Car) -> None:
             scenario.system = replace(scenario.system, units=scenario.system.units | {T1: half})
             read = running.genuine(scenario, tag)
             scenario.does("tail_reads", {"units": {T1: {"tail_read": None}}}, line=line, read=read, **event)
+
+
+def an_isolated_unit_has_forgotten_all_but_its_life(steps: Steps) -> Scenario:
+    """A unit that is isolated astray begins a new life, in which nothing is left of the old one (T8)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    scenario.does("change_ends", train=T1, cab=scenario.site.formation.cab[A1])
+    scenario.does("window_passes", train=T1)
+    epoch, life, there = scenario.system.centre.epoch, UnitLife(runs[T1].life + 1), frozenset({WEST})
+    nothing: dict[str, object] = {
+        "life": life,
+        "answered": None,
+        "standing_in": frozenset(),
+        "isolated_in": epoch,
+        "orders": {runs[T1]: GONE},
+        "loop_open": False,
+        "leading": None,
+        "occupied": frozenset(),
+    }
+    effect = {"units": {T1: nothing}, "radio": {"statements": {(T1, life, epoch): there}}}
+    scenario.does("take_over", effect, train=T1, epoch=epoch, life=life, blocks=there)
+    return scenario

@@ -8,7 +8,7 @@ from kernel.centre import Statement
 from kernel.names import Block, Cause, Epoch, Run, Stage, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.restarts import restart_unit
-from kernel.supervision import isolate
+from kernel.standing import isolate
 from models.simulator.senses import INSIDE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.running import (

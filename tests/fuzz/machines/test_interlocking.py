@@ -155,10 +155,13 @@ def test_jolts_land_only_where_all_that_is_claimed_holds_and_break_nothing() -> 
 
 
 def test_jolts_find_what_no_short_run_leads_to() -> None:
-    """A unit that says it has stopped though it has not: the message that would show it is not sent otherwise."""
+    """A unit that says it has stopped though it has not: the message that would show it is not sent otherwise.
+
+    Of walks from drawn seeds about one in twenty comes upon it.
+    """
     sources = planted("kernel.authority.tells_stopped: and-operand order.stopped")
     with pytest.raises(Broken, match="what_has_stopped_does_not_slip"):
-        jolted_walks(20, sources)
+        jolted_walks(60, sources)
 
 
 def jolted_walks(walks: int, sources: Sources) -> None:

@@ -94,7 +94,6 @@ class Calls:
     # ---- beginnings and restarts: what survives is docs/persistence.md
 
     def new_centre(self) -> Centre:
-        """A centre that has just been switched on."""
         none = frozenset[Any]()
         return self.restart_centre(Centre(Epoch(0), Serial(0), {}, {}, {}, {}, none, none, {}, none, {}))
 
@@ -110,7 +109,7 @@ class Calls:
         """After a restart, or once isolated, the driver chooses his direction anew."""
         board.asks_anew, life = False, UnitLife(board.unit.life + 1)
         anew = restarts.restart_unit(board.unit, life)
-        board.unit = anew if isolated_in is None else supervision.isolate(board.unit, isolated_in, life)
+        board.unit = anew if isolated_in is None else standing.isolate(board.unit, isolated_in, life)
         self.begin_anew(board, sight)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
