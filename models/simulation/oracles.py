@@ -122,4 +122,6 @@ class Oracles:
             self.must("range_contains_the_train", so, f"{train} is at {front_mm:.0f} mm, claimed is {claimed}")
         inside = vehicle.front_mm <= board.brake.end_mm + TOLERANCE_MM or not board.lists
         self.must("the_head_stays_inside_authority", inside, f"{train} is past {board.brake.end_mm} mm")
-        self.must("brakes_keep_their_bounds", not board.watch.broken, f"{train} gains more, or brakes less")
+        self.must(
+            "brakes_keep_their_bounds", not board.computer.known.watch.broken, f"{train} gains more, or brakes less"
+        )

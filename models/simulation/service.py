@@ -130,7 +130,7 @@ class Service:
             self._rests()
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
             return True
-        if board.split.split and not vehicle.on_rails.standing:
+        if board.computer.known.wholeness.split and not vehicle.on_rails.standing:
             board.made_up()
             self.diary.note(STAFF, self.train, "is found whole by its staff")
         if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):
@@ -336,7 +336,7 @@ class Service:
         board.begin_way()
         vehicle.run = run
         vehicle.demanded(self.play)
-        board.supervise(vehicle.demanded(self.play), True)
+        board.decide(vehicle.demanded(self.play), True)
         self.play.take("change_ends", train=self.train, cab=self.play.site.formation.front[run])
         self.play.take("start_rolling", run=run)
         vehicle.advance(self.line)
@@ -417,7 +417,7 @@ class Service:
         """At rest under authority: it goes on, or has arrived, or its range is too wide to go on with."""
         vehicle, board = self.vehicle, self.vehicle.board
         if board.brake.applied and not self.waits_for_staff:
-            board.supervise(vehicle.demanded(self.play), True)
+            board.decide(vehicle.demanded(self.play), True)
         wide = board.motion.front_most_mm - board.motion.front_least_mm > WIDE_MM
         if self.waits_for_staff or (wide and (board.brake.applied or vehicle.is_barred)):
             told = "cannot go on with so wide a range, and is located anew"

@@ -84,7 +84,8 @@ class Vehicle:
     # ---- a cycle of 100 ms
 
     def cycle(self, line: Line) -> None:
-        """Let the train move, its sensors read and its machines decide."""
+        """Let its computer decide on the brake, the train move, and its sensors read."""
+        self.board.decide(self.demanded(line.play), False)
         before = self.speed_mm_s
         self._drive()
         moved_mm = (before + self.speed_mm_s) / 2 * CYCLE_S
@@ -93,10 +94,10 @@ class Vehicle:
         self.way_mm += moved_mm
         readings = self.sensors.read(self.speed_mm_s, gained_mm_s2)
         tail_mm_s2 = -before / CYCLE_S if self.on_rails.standing and before else gained_mm_s2
-        self.board.cycle(readings, self.sensors.tail(readings, tail_mm_s2), self.demanded(line.play))
+        self.board.sense(readings, self.sensors.tail(readings, tail_mm_s2))
         if self.pending_mm >= self.next_mm or (self.stands and self.pending_mm >= 1):
             self.advance(line)
-        if self.board.window.passed and not self.restarted:
+        if self.board.computer.known.window.passed and not self.restarted:
             line.play.take("window_passes", train=self.on_rails.name)
         self.at_rest_cycles = self.at_rest_cycles + 1 if self.stands else 0
 

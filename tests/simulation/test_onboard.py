@@ -5,11 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 from random import Random
 
+import pytest
+
 from kernel.onboard.arithmetic import CYCLE_MS
 from models.concrete.rails import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
 from models.simulation.onboard import OnBoard, on_board
 from models.simulation.sensors import Sensors
+from models.simulation.simulation import Simulation
+from models.simulation.vehicle import Line, Vehicle
+from models.simulator.play import Play
+from tests.simulation.lines import plan
 
 ROLLS_MM_S = 3_500
 """Faster than this no train rolls back within some metres of an ascent that it can stand on."""
@@ -19,7 +25,9 @@ def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
     board = on_board(120_000, 500_000)
     board.spacing = replace(board.spacing, checked=True)
     assert board.line(True).fits
-    board.movement = replace(board.movement, reversed=True)
+    known = board.computer.known
+    rolled = replace(known, movement=replace(known.movement, reversed=True))
+    board.computer = replace(board.computer, known=rolled)
     assert not board.line(True).fits
 
 
@@ -32,7 +40,8 @@ def standing(board: OnBoard, cycles: int) -> None:
     sensors = Sensors(Random(1), 0.0, 0.0, 0.0)
     for _ in range(cycles):
         head = sensors.read(0.0, 0.0)
-        board.cycle(head, sensors.tail(head, 0.0), True)
+        board.decide(True, False)
+        board.sense(head, sensors.tail(head, 0.0))
 
 
 def test_a_brake_holds_the_train_once_it_has_been_on_for_its_response() -> None:
@@ -47,5 +56,30 @@ def test_a_brake_that_is_released_has_been_on_for_no_cycle() -> None:
     board = on_board(120_000, 500_000)
     standing(board, PLAN.brake.response_cycles + 1)
     assert board.standstill.braked_cycles > 0
-    board.brake = replace(board.brake, applied=False)
+    board.computer = replace(board.computer, brake=replace(board.brake, applied=False))
     assert board.standstill.braked_cycles == 0
+
+
+def test_the_brake_is_asked_where_the_train_is_and_not_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    """While the train stands still between two cycles its orders are read, and the brake is decided on."""
+    asked, decided = list[bool](), list[bool]()
+
+    def is_there(vehicle: Vehicle) -> bool:
+        place = vehicle.board.place
+        return not place.known or place.least_mm - 1 <= vehicle.front_mm <= place.most_mm + 1
+
+    def demanded(vehicle: Vehicle, play: Play) -> bool:
+        asked.append(is_there(vehicle))
+        return asks(vehicle, play)
+
+    def cycle(vehicle: Vehicle, line: Line) -> None:
+        decided.append(is_there(vehicle))
+        goes(vehicle, line)
+
+    asks, goes = Vehicle.demanded, Vehicle.cycle
+    monkeypatch.setattr(Vehicle, "demanded", demanded)
+    monkeypatch.setattr(Vehicle, "cycle", cycle)
+    Simulation(plan("passing_station", seed=3, chosen={})).run()
+    assert len(asked) > 1_000
+    assert all(asked)
+    assert all(decided)
