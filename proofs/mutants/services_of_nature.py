@@ -402,9 +402,11 @@ def _reads_a_pair_unbound(scenario: Scenario, run: Run, car: Car) -> None:
 
 
 def an_isolated_unit_has_forgotten_all_but_its_life(steps: Steps) -> Scenario:
-    """A unit that is isolated astray begins a new life, in which nothing is left of the old one (T8)."""
+    """A unit that restarts or is isolated, astray, begins a new life in which nothing is left of the old one (T8)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     scenario.does("change_ends", train=T1, cab=scenario.site.formation.cab[A1])
+    halved = replace(scenario.system.units[T1], tail_read=Read(STRAY, Record("half a pair")))
+    scenario.system = replace(scenario.system, units=scenario.system.units | {T1: halved})
     scenario.does("window_passes", train=T1)
     epoch, life, there = scenario.system.centre.epoch, UnitLife(runs[T1].life + 1), frozenset({WEST})
     nothing: dict[str, object] = {
@@ -415,8 +417,13 @@ def an_isolated_unit_has_forgotten_all_but_its_life(steps: Steps) -> Scenario:
         "orders": {runs[T1]: GONE},
         "loop_open": False,
         "leading": None,
+        "tail_read": None,
         "occupied": frozenset(),
     }
+    before = scenario.system
+    restarted = {name: value for name, value in nothing.items() if name != "isolated_in"}
+    scenario.does("restart_unit", {"units": {T1: restarted}}, train=T1, life=life)
+    scenario.system = before
     effect = {"units": {T1: nothing}, "radio": {"statements": {(T1, life, epoch): there}}}
     scenario.does("take_over", effect, train=T1, epoch=epoch, life=life, blocks=there)
     return scenario
