@@ -8,8 +8,10 @@ from random import Random
 import pytest
 
 from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.way import Way
 from models.concrete.rails import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
+from models.simulation import computer
 from models.simulation.onboard import OnBoard, on_board
 from models.simulation.sensors import Sensors
 from models.simulation.simulation import Simulation
@@ -58,6 +60,20 @@ def test_a_brake_that_is_released_has_been_on_for_no_cycle() -> None:
     assert board.standstill.braked_cycles > 0
     board.computer = replace(board.computer, brake=replace(board.brake, applied=False))
     assert board.standstill.braked_cycles == 0
+
+
+def test_a_train_is_located_anew_only_while_its_brake_holds_it() -> None:
+    """What was found of a faulty brake stays."""
+    board = on_board(120_000, 500_000)
+    standing(board, PLAN.brake.response_cycles + 1)
+    known = board.computer.known
+    found = replace(board.computer, known=replace(known, watch=replace(known.watch, broken=True)))
+    released = replace(found, brake=replace(found.brake, applied=False))
+    assert computer.locate(board.limits, released, 900_000, 901_000) == released
+    anew = computer.locate(board.limits, found, 900_000, 901_000)
+    assert computer.place(anew) == Way(True, 900_000, 901_000)
+    assert anew.known.watch.broken
+    assert anew.brake.applied
 
 
 def test_the_brake_is_asked_where_the_train_is_and_not_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
