@@ -137,6 +137,17 @@ def _listed(names: Sequence[str]) -> str:
     return ", ".join(f"`{name}`" for name in names)
 
 
+def _counted(found: Sequence[Assumption]) -> str:
+    """Say on how many assumptions the interlocking rests."""
+    of = {kind: sum(one.kind == kind for one in found) for kind in ("world", "premise", "axiom", "built_in")}
+    idle = sum(one.kind == "axiom" and not proofs_naming(one.name) for one in found)
+    return (
+        f"The interlocking rests on {sum(of.values()) - idle}: {of['world']} of nature, brake, sensors and people,"
+        f" {of['premise']} of a site, {of['axiom'] - idle} of a layout and {of['built_in']} in how its world is built."
+        f" {idle} more of a layout are used in no proof; each says why it is checked all the same."
+    )
+
+
 def page() -> str:
     """Give the whole page."""
     lines = [
@@ -147,6 +158,7 @@ def page() -> str:
         f"*Monitor* is what would notice a breach at run time. In *used*, `{START}` is the start.",
     ]
     found = read()
+    lines += ["", _counted(found)]
     for kind, (title, about) in KINDS.items():
         mine = [assumption for assumption in found if assumption.kind == kind]
         lines += ["", f"## {title}", "", about]
