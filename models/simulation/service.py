@@ -130,7 +130,8 @@ class Service:
             self._rests()
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
             return True
-        if board.computer.known.wholeness.split and not vehicle.on_rails.standing:
+        wholeness = board.computer.known.wholeness
+        if (wholeness.split or wholeness.lost) and not vehicle.on_rails.standing:
             board.made_up()
             self.diary.note(STAFF, self.train, "is found whole by its staff")
         if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):

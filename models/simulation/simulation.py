@@ -164,7 +164,7 @@ class Simulation:
 
     def _second_of(self, vehicle: Vehicle) -> None:
         for _ in range(CYCLES):
-            if vehicle.settled and (vehicle.holds or vehicle.is_there) and not vehicle.board.takes_hold:
+            if vehicle.is_idle:
                 return
             vehicle.cycle(self.line)
             self.oracles.on_board(vehicle.on_rails.name, vehicle)

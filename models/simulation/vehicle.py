@@ -72,6 +72,12 @@ class Vehicle:
         return self.stands and motion.trusted and motion.speed_most_mm_s <= PLAN.brake.standstill_mm_s
 
     @property
+    def is_idle(self) -> bool:
+        """Whether nothing on board changes any more: it rests, its brake has responded, and its tail was heard."""
+        rests = self.settled and (self.holds or self.is_there)
+        return rests and not self.board.takes_hold and (self.board.intact or bool(self.on_rails.standing))
+
+    @property
     def is_there(self) -> bool:
         """Whether it is so near to where its driver wants to stop that it goes no nearer."""
         return self.target_mm - self.front_mm < NEAR_END_MM

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kernel.names import Run
+from kernel.names import Run, Train
 from models.layouts import BadInput, load
 from models.simulation.beginning import Plan
 from models.simulation.each_fault import each, left_locked
@@ -166,3 +166,18 @@ def test_a_timetable_that_locks_itself_is_told_as_such() -> None:
     found = simulated(Plan(load(SHARED / "osrd-one_line.json"), 3, 6, 1.5, NO_FAULT, 2))
     assert not found.broken
     assert found.sim.ended or (found.deadlocks and found.timetable_to_blame)
+
+
+@pytest.mark.parametrize("found", ["split", "lost"])
+def test_staff_finds_a_whole_train_whole_and_it_runs_on(found: str) -> None:
+    """Its tail was not heard for too long, or it was taken for split; at rest staff looks, and its tail is heard."""
+    simulation = Simulation(plan("passing_station", trains=1, chosen=NO_FAULT, trips=2, hours=1.0))
+    vehicle = simulation.vehicles[Train("T01")]
+    while not vehicle.speed_mm_s:
+        simulation.second()
+    computer = vehicle.board.computer
+    wholeness = replace(computer.known.wholeness, **{found: True})
+    vehicle.board.computer = replace(computer, known=replace(computer.known, wholeness=wholeness))
+    simulation.run()
+    assert vehicle.board.intact
+    assert simulation.ended
