@@ -176,7 +176,7 @@ def test_staff_finds_a_whole_train_whole_and_it_runs_on(found: str) -> None:
     while not vehicle.speed_mm_s:
         simulation.second()
     computer = vehicle.board.computer
-    wholeness = replace(computer.known.wholeness, **{found: True})
+    wholeness = replace(computer.known.wholeness, split=found == "split", lost=found == "lost")
     vehicle.board.computer = replace(computer, known=replace(computer.known, wholeness=wholeness))
     simulation.run()
     assert vehicle.board.intact
