@@ -82,6 +82,8 @@ def a_list_binds_the_way_of_its_own_train_alone() -> None:
     assert the_track_goes_on_as_listed(SITE, replace(system, block_ends_mm={}), T1, ELSEWHERE, 999_000)
     on_another_lap = replace(system, block_end_mm={T1: ENDS_MM[WEST] + 900_000})
     assert the_track_goes_on_as_listed(SITE, on_another_lap, T1, ELSEWHERE, 999_000)
+    nowhere = replace(SITE, site=replace(SITE.site, layout=replace(SITE.site.layout, way={})))
+    assert the_track_goes_on_as_listed(nowhere, system, T1, ELSEWHERE, 999_000)
 
 
 def a_list_tells_of_its_own_train_alone() -> None:
