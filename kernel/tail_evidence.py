@@ -21,19 +21,17 @@ def has_been_in(lists: TagLists, order: Order, block: Block) -> bool:
     )
 
 
-def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block, beyond: Block) -> bool:
-    """Tell whether the head has gone on from ``block`` to ``beyond`` under this run or a later one, led as now (T2).
+def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
+    """Tell whether the head has gone on out of ``block`` under this run or a later one, led as now (T2).
 
-    On a ring the head may have come round into the block that the tail is just leaving; and on another track of it,
-    it may have gone on elsewhere.
+    On a ring the head may have come round into the block that the tail is just leaving.
     """
     return any(
         other.serial >= run.serial
         and order.begun
         and order.led_by == unit.leading
         and order.tag_list is not None
-        and lists.way.get(order.tag_list, NO_WAY).get(block) == beyond
-        and beyond in order.entered
+        and lists.way.get(order.tag_list, NO_WAY).get(block) in order.entered
         for other, order in unit.orders.items()
     )
 
@@ -49,23 +47,20 @@ def backs_out(lists: TagLists, unit: Unit, order: Order, block: Block) -> bool:
     return beyond not in order.entered or beyond in order.left
 
 
-def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block, beyond: Block) -> bool:
-    """Tell whether a tail that gets from ``block`` to ``beyond`` leaves it for a run (T2, T6).
-
-    The head was there, and went on, or the train backs out of it.
+def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) -> bool:
+    """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
 
     A train that stood there has told so.
     """
     return has_been_in(lists, order, block) and (
-        order.tag_list is None or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block, beyond)
+        order.tag_list is None or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block)
     )
 
 
-def has_come_round(lists: TagLists, unit: Unit, block: Block, beyond: Block) -> bool:
+def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
     """Tell whether the head may be in the ``block`` that the tail leaves: it came there, and has not gone on (T2)."""
     return any(
-        block in order.entered and not has_left(lists, unit, run, order, block, beyond)
-        for run, order in unit.orders.items()
+        block in order.entered and not has_left(lists, unit, run, order, block) for run, order in unit.orders.items()
     )
 
 
@@ -91,10 +86,10 @@ def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, line: T
     return replace(
         unit,
         tail_read=read,
-        occupied=unit.occupied if has_come_round(lists, unit, block, entered) else unit.occupied - {block},
+        occupied=unit.occupied if has_come_round(lists, unit, block) else unit.occupied - {block},
         orders={
             run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_left(lists, unit, run, order, block, entered)
+            if has_left(lists, unit, run, order, block)
             else order
             for run, order in unit.orders.items()
         },

@@ -65,26 +65,25 @@ def the_head_arrived(site: Site, system: System, run: Run) -> bool:
     )
 
 
-def the_head_went_on(site: Site, system: System, run: Run, block: Block, beyond: Block) -> bool:
-    """The cab that leads went on from ``block`` to ``beyond`` along the way of this run, or of a later one it led."""
+def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The cab that leads has been in what follows ``block`` on the way of this run, or of a later one that it led."""
     return any(
         other.serial >= run.serial
         and other in site.formation.front
         and system.track.facing.get(run.train) == site.formation.front[other]
         and other.route in site.layout.way
         and site.layout.way[other.route].get(block) == beyond
-        and entered == beyond
-        for other, entered in system.track.entered
+        for other, beyond in system.track.entered
     )
 
 
-def came_round(site: Site, system: System, car: Car, block: Block, beyond: Block) -> bool:
-    """The car came into ``block`` under a run of the leading cab, which has not gone on from there to ``beyond``."""
+def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
+    """The car came into ``block`` under a run of the leading cab, which has not gone on under it or a later one."""
     if car not in system.track.under or block not in system.track.under[car]:
         return False
     run = system.track.under[car][block]
     return (
         run.route in site.layout.routes
         and its_front_leads(site, system, run)
-        and not the_head_went_on(site, system, run, block, beyond)
+        and not the_head_went_on(site, system, run, block)
     )

@@ -23,7 +23,7 @@ STILL_GOOD = (
 """The guard by which the head, passing a boundary, makes what the tail read there before worth nothing."""
 HAS_LEFT = (
     "kernel.tail_evidence.has_left: condition has_been_in(lists, order, block) and (order.tag_list is None "
-    "or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block, beyond))"
+    "or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block))"
 )
 """The guard by which a tail leaves a block only for the runs under which the head was there and has gone on."""
 

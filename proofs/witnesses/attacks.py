@@ -5,15 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from kernel.names import Block, Car, Stage
+from kernel.names import Stage
 from kernel.refusal import Refusal
-from models.world.formations import formation
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
     enters,
-    follows,
     head_cab,
     head_passes,
     leaves,
@@ -23,19 +19,15 @@ from proofs.witnesses.running import (
     reported,
     rest,
     roll,
-    tail_passes,
     tail_read,
     tail_reads_first,
 )
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import (
     at_stage,
-    echo,
     holds,
     keep,
-    offer,
     open_first_loop,
-    permit,
     prove_all,
     recall,
     reserve,
@@ -46,28 +38,20 @@ from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
-    CROSS,
     EAST,
     HERE,
-    INTO_THE_LOOP,
     MIDDLE,
     MIDDLE_TO_NORTH,
     MIDDLE_TO_SOUTH,
     NORTH,
     NORTH_TO_MIDDLE,
-    OUT_OF_THE_LOOP,
     PLAIN_LINE,
-    ROUND_THE_LOOP,
     T1,
-    T2,
-    TURNING_LOOP,
     WEST,
     WEST_TO_ONE,
     WEST_TO_TWO,
-    site_of,
-    standing_at,
 )
-from proofs.witnesses.telling import all_tell, hear_terminals, next_run, recover, recovered
+from proofs.witnesses.telling import recovered
 
 IN_THE_NORTH = {A1: frozenset({NORTH}), A2: frozenset({NORTH}), B1: frozenset({HERE})}
 
@@ -152,61 +136,4 @@ def a_train_that_keeps_another_list_gets_no_permit(steps: Steps) -> Scenario:
     recall(scenario, run)
     return_it(scenario, run)
     at_stage(scenario, run, Stage.OVER)
-    return scenario
-
-
-def a_tail_leaves_the_track_that_its_head_went_on_over(steps: Steps) -> Scenario:
-    """A train as long as a turning loop comes back through a block on its other track, and goes on from there.
-
-    Its tail leaves the first track over the boundary that its head went on over long before; a car of it is on the
-    other track, under runs whose head went on elsewhere: for these the block stays held, and its point locked (T2).
-    """
-    k0, k, m, e, back, n = map(Block, ("k0", "k", "m", "e", "l", "n"))
-    front, middle, rear = Car("front"), Car("middle"), Car("rear")
-    cars = {T1: (front, middle, rear), T2: (B1,)}
-    site = replace(site_of(TURNING_LOOP, cars), formation=formation(cars, lambda _: True))
-    at = {front: frozenset({k}), middle: frozenset({k}), rear: frozenset({k}), B1: frozenset({k0})}
-    scenario = Scenario(steps, site, standing_at(site, at, {}))
-    runs = all_tell(scenario)
-    hear_terminals(scenario)
-    recover(scenario)
-    into = set_route(scenario, T1, INTO_THE_LOOP, runs[T1])
-    around = reserve(scenario, T1, ROUND_THE_LOOP, into)
-    prove_all(scenario, around)
-    offer(scenario, around)
-    echo(scenario, around)
-    out = set_route(scenario, T1, OUT_OF_THE_LOOP, around)
-    roll(scenario, into)
-    head_passes(scenario, into, k, m)
-    head_passes(scenario, into, m, e)
-    permit(scenario, around)
-    roll(scenario, around)
-    roll(scenario, out)
-    follows(scenario, middle, front, m)
-    follows(scenario, rear, front, m)
-    follows(scenario, middle, front, e)
-    leaves(scenario, front, k)
-    head_passes(scenario, around, e, back)
-    leaves(scenario, front, m)
-    follows(scenario, middle, front, back)
-    leaves(scenario, middle, k)
-    head_passes(scenario, around, back, m)
-    leaves(scenario, front, e)
-    leaves(scenario, middle, m)
-    leaves(scenario, rear, k)
-    tail_passes(scenario, into, k, m)
-    follows(scenario, middle, front, m)
-    head_passes(scenario, out, m, n)
-    leaves(scenario, front, back)
-    leaves(scenario, front, m)
-    follows(scenario, rear, middle, e)
-    leaves(scenario, rear, m)
-    tail_passes(scenario, into, m, e)
-    scenario.must(m in scenario.system.track.at[middle], "a car is on the other track of the block")
-    report(scenario, into, m, e)
-    for later in (around, out):
-        scenario.refuses("send_tail_report", **(reported(scenario, into, m, e) | {"run": later}))
-    holds(scenario, m, around, out)
-    cross = next_run(scenario, T2, CROSS)
-    scenario.refuses("request", Refusal.BLOCK_HELD_FOR_ANOTHER, run=cross, base=runs[T2])
     return scenario

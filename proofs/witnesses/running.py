@@ -201,11 +201,7 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
         for other, order in orders.items()
         if order.begun
         and (block in order.entered or layout.start.get(other.route) == block)
-        and (
-            other.route not in layout.way
-            or _has_gone_on(scenario, other, block, target)
-            or _is_back(scenario, other, block)
-        )
+        and (other.route not in layout.way or _has_gone_on(scenario, other, block) or _is_back(scenario, other, block))
     ]
     front = scenario.site.formation.front
     led_so = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
@@ -233,14 +229,13 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
     scenario.does("tail_reads", effect, **event)
 
 
-def _has_gone_on(scenario: Scenario, run: Run, block: Block, target: Block) -> bool:
+def _has_gone_on(scenario: Scenario, run: Run, block: Block) -> bool:
     """Whether the cab that leads has come into what follows on a run's way, or on a later one's."""
     unit, way = scenario.system.units[run.train], scenario.site.layout.way
     return any(
         later.serial >= run.serial
         and order.led_by == unit.leading
-        and way.get(later.route, {}).get(block) == target
-        and target in order.entered
+        and way.get(later.route, {}).get(block) in order.entered
         for later, order in unit.orders.items()
     )
 
