@@ -45,5 +45,7 @@ NO_POINTS: Map[Point, Position] = {}
 """What a list needs of which nothing is known."""
 NO_WAY: Map[Block, Block] = {}
 """The way of a list of which nothing is known."""
+NO_TAGS: Map[Tag, Tag] = {}
+"""The order of the tags of a list of which nothing is known."""
 NO_PARTS: Map[Block, Block] = {}
 """Where nothing is known of it every block is released alone."""

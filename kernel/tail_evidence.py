@@ -7,7 +7,7 @@ from dataclasses import replace
 from kernel.names import Block, Cab, Read, Run
 from kernel.second_loop import open_loop
 from kernel.standstill import ThroughLine, reaches_tail
-from kernel.tag_list import NO_PARTS, NO_WAY, TagLists, TagPlan
+from kernel.tag_list import NO_PARTS, NO_TAGS, NO_WAY, TagLists, TagPlan
 from kernel.unit import Evidence, Order, Unit
 
 
@@ -21,10 +21,11 @@ def has_been_in(lists: TagLists, order: Order, block: Block) -> bool:
     )
 
 
-def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
-    """Tell whether the head has gone on out of ``block`` under this run or a later one, led as now (T2).
+def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block, over: Evidence) -> bool:
+    """Tell whether the head has gone on out of ``block`` over that boundary, under this run or a later one (T2).
 
-    On a ring the head may have come round into the block that the tail is just leaving.
+    On a ring the head may have come round into the block that the tail is just leaving; and where a block has two
+    tracks, it may have gone on from the other one, over another boundary.  What the other cab led does not count.
     """
     return any(
         other.serial >= run.serial
@@ -32,6 +33,7 @@ def has_gone_on(lists: TagLists, unit: Unit, run: Run, block: Block) -> bool:
         and order.led_by == unit.leading
         and order.tag_list is not None
         and lists.way.get(order.tag_list, NO_WAY).get(block) in order.entered
+        and lists.tag_after.get(order.tag_list, NO_TAGS).get(over.left.tag) == over.entered.tag
         for other, order in unit.orders.items()
     )
 
@@ -47,20 +49,21 @@ def backs_out(lists: TagLists, unit: Unit, order: Order, block: Block) -> bool:
     return beyond not in order.entered or beyond in order.left
 
 
-def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block) -> bool:
-    """Tell whether a tail that leaves ``block`` leaves it for a run: the head was there, and is so no more (T2, T6).
+def has_left(lists: TagLists, unit: Unit, run: Run, order: Order, block: Block, over: Evidence) -> bool:
+    """Tell whether a tail that gets out of ``block`` over that boundary leaves it for a run (T2, T6).
 
-    A train that stood there has told so.
+    The head was there, and went on over it, or the train backs out.  A train that stood there has told so.
     """
     return has_been_in(lists, order, block) and (
-        order.tag_list is None or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block)
+        order.tag_list is None or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block, over)
     )
 
 
-def has_come_round(lists: TagLists, unit: Unit, block: Block) -> bool:
+def has_come_round(lists: TagLists, unit: Unit, block: Block, over: Evidence) -> bool:
     """Tell whether the head may be in the ``block`` that the tail leaves: it came there, and has not gone on (T2)."""
     return any(
-        block in order.entered and not has_left(lists, unit, run, order, block) for run, order in unit.orders.items()
+        block in order.entered and not has_left(lists, unit, run, order, block, over)
+        for run, order in unit.orders.items()
     )
 
 
@@ -83,13 +86,14 @@ def note_tail_read(plan: TagPlan, lists: TagLists, unit: Unit, cab: Cab, line: T
     block = plan.tag_in.get(before.tag)
     if block is None:
         return replace(unit, tail_read=read)
+    over = Evidence(left=before, entered=read)
     return replace(
         unit,
         tail_read=read,
-        occupied=unit.occupied if has_come_round(lists, unit, block) else unit.occupied - {block},
+        occupied=unit.occupied if has_come_round(lists, unit, block, over) else unit.occupied - {block},
         orders={
-            run: replace(order, left=order.left | {block: Evidence(left=before, entered=read)})
-            if has_left(lists, unit, run, order, block)
+            run: replace(order, left=order.left | {block: over})
+            if has_left(lists, unit, run, order, block, over)
             else order
             for run, order in unit.orders.items()
         },

@@ -83,14 +83,14 @@ def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run,
     their order.  It holds while the train runs in one direction, and while its head does not pass
     the same boundary in between, as on a loop.  On a loop the head may have come round into that
     block, and other cars after it: they came under a run that it leads and under which it has not yet
-    gone on.  Only genuine records are bound by it.
+    gone on over that boundary.  Only genuine records are bound by it.
     """
     if not is_last(site, system, run, car) or not is_genuine(site, read):
         return True
     return all(
         block not in system.track.at[other]
         or site.formation.train_of.get(other) != run.train
-        or came_round(site, system, other, block)
+        or came_round(site, system, other, block, tag, read.tag)
         for train, tag in system.track.passed
         if train == run.train and tag in site.ground.laid_leaves and read.tag in site.ground.laid_leaves[tag]
         for block in site.ground.laid_leaves[tag][read.tag]

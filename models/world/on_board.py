@@ -167,7 +167,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
         for train, tag in system.track.passed
         if train == run.train and tag in site.ground.laid_leaves and read.tag in site.ground.laid_leaves[tag]
         for block in site.ground.laid_leaves[tag][read.tag]
-        if the_head_went_on(site, system, other, block)
+        if the_head_went_on(site, system, other, block, tag, read.tag)
     )
     return replace(
         with_unit(system, run.train, unit),

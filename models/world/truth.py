@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.names import Block, Car, Read, Run, Train
+from kernel.names import Block, Car, Read, Run, Tag, Train
 from kernel.standstill import Standstill
 from models.world.state import Site, System
 
@@ -65,25 +65,27 @@ def the_head_arrived(site: Site, system: System, run: Run) -> bool:
     )
 
 
-def the_head_went_on(site: Site, system: System, run: Run, block: Block) -> bool:
-    """The cab that leads has been in what follows ``block`` on the way of this run, or of a later one that it led."""
+def the_head_went_on(site: Site, system: System, run: Run, block: Block, left: Tag, entered: Tag) -> bool:
+    """The cab that leads went on out of ``block`` over the boundary of those tags under this run, or a later one."""
     return any(
         other.serial >= run.serial
         and other in site.formation.front
         and system.track.facing.get(run.train) == site.formation.front[other]
         and other.route in site.layout.way
         and site.layout.way[other.route].get(block) == beyond
+        and other.route in site.layout.tag_after
+        and site.layout.tag_after[other.route].get(left) == entered
         for other, beyond in system.track.entered
     )
 
 
-def came_round(site: Site, system: System, car: Car, block: Block) -> bool:
-    """The car came into ``block`` under a run of the leading cab, which has not gone on under it or a later one."""
+def came_round(site: Site, system: System, car: Car, block: Block, left: Tag, entered: Tag) -> bool:
+    """The car came into ``block`` under a run of the leading cab, which has not gone on over the boundary there."""
     if car not in system.track.under or block not in system.track.under[car]:
         return False
     run = system.track.under[car][block]
     return (
         run.route in site.layout.routes
         and its_front_leads(site, system, run)
-        and not the_head_went_on(site, system, run, block)
+        and not the_head_went_on(site, system, run, block, left, entered)
     )

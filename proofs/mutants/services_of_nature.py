@@ -221,6 +221,21 @@ def what_the_other_cab_led_is_no_way_on(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_head_that_was_elsewhere_has_not_gone_on(steps: Steps) -> Scenario:
+    """A run whose way leads over the boundary counts only once its head has been in what lies beyond it (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    ahead = setting.set_route(scenario, T1, ONE_TO_EAST, run)
+    running.roll(scenario, run)
+    running.pass_boundary(scenario, run, WEST, THROAT)
+    later = Run(Serial(ahead.serial + 1), T1, ahead.life, WEST_TO_TWO)
+    _has_gone_on(scenario, later, scenario.site.formation.front[run], ONE)
+    for tag in running.pair(scenario.site.layout, WEST, THROAT):
+        scenario.does("tail_reads", **running.tail_read(scenario, run, tag))
+    scenario.must((ahead, WEST) not in scenario.system.track.gone, "no head went on from there under it")
+    return scenario
+
+
 def _has_gone_on(scenario: Scenario, run: Run, leads: Cab, block: Block) -> None:
     """History is given: under such a run, led by that cab, a head has been in a block."""
     formation, track = scenario.site.formation, scenario.system.track

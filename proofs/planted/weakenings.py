@@ -23,9 +23,14 @@ STILL_GOOD = (
 """The guard by which the head, passing a boundary, makes what the tail read there before worth nothing."""
 HAS_LEFT = (
     "kernel.tail_evidence.has_left: condition has_been_in(lists, order, block) and (order.tag_list is None "
-    "or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block))"
+    "or backs_out(lists, unit, order, block) or has_gone_on(lists, unit, run, block, over))"
 )
 """The guard by which a tail leaves a block only for the runs under which the head was there and has gone on."""
+OVER_IT = (
+    "kernel.tail_evidence.has_gone_on: and-operand "
+    "lists.tag_after.get(order.tag_list, NO_TAGS).get(over.left.tag) == over.entered.tag"
+)
+"""The guard by which a head has gone on only over the boundary that the tail gets over, and in that direction."""
 
 TURNED_ASTRIDE = Fault(
     "the tail's last read is good after two changes of ends",
@@ -41,8 +46,9 @@ LAP_BEFORE = Fault(
     "a pair of reads may be of two passages",
     "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
     "head_reads",
-    dropped=(STILL_GOOD,),
+    dropped=(STILL_GOOD, OVER_IT),
 )
+"""Two guards: such a pair is also of a way back over the boundary, and no head went on that way."""
 BLOCK_AHEAD = Fault(
     "a block ahead counts as left",
     "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",

@@ -5,11 +5,15 @@
 
 from __future__ import annotations
 
-from kernel.names import Stage
+from dataclasses import replace
+
+from kernel.names import Block, Car, Route, Run, Stage
 from kernel.refusal import Refusal
+from models.world.formations import formation
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
     enters,
+    follows,
     head_cab,
     head_passes,
     leaves,
@@ -19,15 +23,19 @@ from proofs.witnesses.running import (
     reported,
     rest,
     roll,
+    tail_passes,
     tail_read,
     tail_reads_first,
 )
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import (
     at_stage,
+    echo,
     holds,
     keep,
+    offer,
     open_first_loop,
+    permit,
     prove_all,
     recall,
     reserve,
@@ -38,20 +46,28 @@ from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
+    CROSS,
     EAST,
     HERE,
+    INTO_THE_LOOP,
     MIDDLE,
     MIDDLE_TO_NORTH,
     MIDDLE_TO_SOUTH,
     NORTH,
     NORTH_TO_MIDDLE,
+    OUT_OF_THE_LOOP,
     PLAIN_LINE,
+    ROUND_THE_LOOP,
+    SPIRAL,
     T1,
+    T2,
     WEST,
     WEST_TO_ONE,
     WEST_TO_TWO,
+    site_of,
+    standing_at,
 )
-from proofs.witnesses.telling import recovered
+from proofs.witnesses.telling import all_tell, hear_terminals, next_run, recover, recovered
 
 IN_THE_NORTH = {A1: frozenset({NORTH}), A2: frozenset({NORTH}), B1: frozenset({HERE})}
 
@@ -137,3 +153,71 @@ def a_train_that_keeps_another_list_gets_no_permit(steps: Steps) -> Scenario:
     return_it(scenario, run)
     at_stage(scenario, run, Stage.OVER)
     return scenario
+
+
+def a_tail_leaves_the_track_that_its_head_went_on_over(steps: Steps) -> Scenario:
+    """A train longer than a loop comes back into a block on its other track, and goes on there into the same next one.
+
+    Its tail leaves the first track over the boundary that its head went on over long before; a car of it is on the
+    other track, under runs whose head went on over the other boundary: for these the block stays held, and its
+    point locked (T2).
+    """
+    k0, k, m, e, back, n = map(Block, ("k0", "k", "m", "e", "l", "n"))
+    front, middle, rear = Car("front"), Car("middle"), Car("rear")
+    cars = {T1: (front, middle, rear), T2: (B1,)}
+    site = replace(site_of(SPIRAL, cars), formation=formation(cars, lambda _: True))
+    at = {front: frozenset({k}), middle: frozenset({k}), rear: frozenset({k}), B1: frozenset({k0})}
+    scenario = Scenario(steps, site, standing_at(site, at, {}))
+    runs = all_tell(scenario)
+    hear_terminals(scenario)
+    recover(scenario)
+    into = set_route(scenario, T1, INTO_THE_LOOP, runs[T1])
+    around = _offered_and_echoed(scenario, ROUND_THE_LOOP, into)
+    out = _offered_and_echoed(scenario, OUT_OF_THE_LOOP, around)
+    roll(scenario, into)
+    head_passes(scenario, into, k, m)
+    head_passes(scenario, into, m, e)
+    permit(scenario, around)
+    roll(scenario, around)
+    follows(scenario, middle, front, m)
+    follows(scenario, rear, front, m)
+    follows(scenario, middle, front, e)
+    leaves(scenario, front, k)
+    head_passes(scenario, around, e, back)
+    permit(scenario, out)
+    roll(scenario, out)
+    leaves(scenario, front, m)
+    follows(scenario, middle, front, back)
+    leaves(scenario, middle, k)
+    head_passes(scenario, around, back, m)
+    leaves(scenario, front, e)
+    leaves(scenario, middle, m)
+    leaves(scenario, rear, k)
+    tail_passes(scenario, into, k, m)
+    follows(scenario, rear, middle, e)
+    follows(scenario, middle, front, m)
+    leaves(scenario, middle, e)
+    head_passes(scenario, out, m, e)
+    leaves(scenario, front, back)
+    head_passes(scenario, out, e, n)
+    leaves(scenario, front, m)
+    leaves(scenario, front, e)
+    leaves(scenario, rear, m)
+    tail_passes(scenario, into, m, e)
+    scenario.must(m in scenario.system.track.at[middle], "a car is on the other track of the block")
+    report(scenario, into, m, e)
+    for later in (around, out):
+        scenario.refuses("send_tail_report", **(reported(scenario, into, m, e) | {"run": later}))
+    holds(scenario, m, around, out)
+    cross = next_run(scenario, T2, CROSS)
+    scenario.refuses("request", Refusal.BLOCK_HELD_FOR_ANOTHER, run=cross, base=runs[T2])
+    return scenario
+
+
+def _offered_and_echoed(scenario: Scenario, route: Route, base: Run) -> Run:
+    """A route is set for T1 up to the permit, which comes later."""
+    run = reserve(scenario, T1, route, base)
+    prove_all(scenario, run)
+    offer(scenario, run)
+    echo(scenario, run)
+    return run

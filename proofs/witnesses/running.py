@@ -12,6 +12,7 @@ from kernel.unit import Evidence, Order
 from models.simulator.senses import INSIDE, WHOLE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
+from proofs.witnesses.stations import NO_ROUTE
 from proofs.witnesses.telling import blocks_of
 
 
@@ -129,7 +130,7 @@ def in_order(scenario: Scenario, run: Run) -> list[Car]:
 
 def head_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
     """The head reads the first tag of a boundary, comes into the next block, and reads the second there."""
-    first, second = pair(scenario.site.layout, block, target)
+    first, second = pair(scenario.site.layout, block, target, run.route)
     head_reads(scenario, run, first)
     enters(scenario, run, in_order(scenario, run)[0], block, target)
     head_reads(scenario, run, second)
@@ -191,7 +192,7 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
     the train backs.
     """
     layout = scenario.site.layout
-    first, second = pair(layout, block, target)
+    first, second = pair(layout, block, target, run.route)
     tail_reads_first(scenario, run, first)
     event = tail_read(scenario, run, second)
     evidence = Evidence(genuine(scenario, first), event["read"])
@@ -201,12 +202,19 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
         for other, order in orders.items()
         if order.begun
         and (block in order.entered or layout.start.get(other.route) == block)
-        and (other.route not in layout.way or _has_gone_on(scenario, other, block) or _is_back(scenario, other, block))
+        and (
+            other.route not in layout.way
+            or _has_gone_on(scenario, other, block, first, second)
+            or _is_back(scenario, other, block)
+        )
     ]
     front = scenario.site.formation.front
     led_so = [r for r in scenario.system.radio.permits if r.train == run.train and front[r] == front[run]]
     led_on = [
-        r for r in led_so if layout.way[r.route].get(block) == target and (r, target) in scenario.system.track.entered
+        r
+        for r in led_so
+        if layout.tag_after[r.route].get(first) == second
+        and (r, layout.way[r.route].get(block)) in scenario.system.track.entered
     ]
     gone = [r for r in led_so if any(r.serial <= later.serial for later in led_on)]
     effect: dict[str, Any] = {
@@ -229,13 +237,14 @@ def tail_passes(scenario: Scenario, run: Run, block: Block, target: Block) -> No
     scenario.does("tail_reads", effect, **event)
 
 
-def _has_gone_on(scenario: Scenario, run: Run, block: Block) -> bool:
-    """Whether the cab that leads has come into what follows on a run's way, or on a later one's."""
-    unit, way = scenario.system.units[run.train], scenario.site.layout.way
+def _has_gone_on(scenario: Scenario, run: Run, block: Block, first: Tag, second: Tag) -> bool:
+    """Whether the cab that leads has gone on over those tags on a run's way, or on a later one's."""
+    unit, layout = scenario.system.units[run.train], scenario.site.layout
     return any(
         later.serial >= run.serial
         and order.led_by == unit.leading
-        and way.get(later.route, {}).get(block) in order.entered
+        and layout.way.get(later.route, {}).get(block) in order.entered
+        and layout.tag_after[later.route].get(first) == second
         for later, order in unit.orders.items()
     )
 
@@ -276,7 +285,7 @@ def report(scenario: Scenario, run: Run, block: Block, target: Block) -> None:
 
 def reported(scenario: Scenario, run: Run, block: Block, target: Block) -> dict[str, Any]:
     """The event of a genuine tail report."""
-    left, entered = (genuine(scenario, tag) for tag in pair(scenario.site.layout, block, target))
+    left, entered = (genuine(scenario, tag) for tag in pair(scenario.site.layout, block, target, run.route))
     return {"run": run, "block": block, "left": left, "entered": entered}
 
 
@@ -316,11 +325,13 @@ def genuine(scenario: Scenario, tag: Tag) -> Read:
     return Read(tag, scenario.site.records.record[tag])
 
 
-def pair(layout: Layout, block: Block, target: Block) -> tuple[Tag, Tag]:
-    """Both tags of the boundary between two blocks, in running order."""
-    first = next(
+def pair(layout: Layout, block: Block, target: Block, route: Route = NO_ROUTE) -> tuple[Tag, Tag]:
+    """Both tags of the boundary between two blocks, in running order; where there are two, of the one on the route."""
+    firsts = [
         tag for tag, place in layout.tag_in.items() if place == block and layout.tag_in[layout.partner[tag]] == target
-    )
+    ]
+    after = layout.tag_after.get(route, {})
+    first = next((tag for tag in firsts if after.get(tag) == layout.partner[tag]), firsts[0])
     return first, layout.partner[first]
 
 

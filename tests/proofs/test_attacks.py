@@ -66,7 +66,7 @@ def pairs(chosen: list[tuple[str, bool]]) -> list[object]:
 WATCHED = {
     "a_head_that_has_come_round_keeps_its_block": (
         "kernel.tail_evidence.has_left: and-operand order.tag_list is None or backs_out(lists, unit, order, block) "
-        "or has_gone_on(lists, unit, run, block)"
+        "or has_gone_on(lists, unit, run, block, over)"
     ),
     "a_run_that_another_leads_on_from_is_asked_back_last": (
         "kernel.cancellation.cancel_refusal: guard if leads_on(layout, centre, run): Refusal.A_RUN_LEADS_ON"

@@ -47,14 +47,14 @@ class EvidenceAcrossTurns(Calls):
         before = board.unit
         super().tail_reads(board, cab, healthy, read, sight)
         was = before.tail_read
-        if was is not None and board.unit.occupied != before.occupied:
+        if was is not None and healthy and not board.unit.loop_open and self.plan.partner[was.tag] == read.tag:
             self._left_as_once(board, self.layout.tag_in[was.tag], Evidence(left=was, entered=read))
             self.follow(board, sight)
         if board.unit.tail_read is not None:
             board.kept = cab, board.unit.tail_read
 
     def _left_as_once(self, board: Board, block: Block, evidence: Evidence) -> None:
-        """Once a run that the other cab had led was left without a look at where the head is."""
+        """Once a block was left, under runs that the other cab had led too, without a look at where the head is."""
         unit = board.unit
         orders = {
             run: replace(order, left=order.left | {block: evidence})
@@ -62,7 +62,7 @@ class EvidenceAcrossTurns(Calls):
             else order
             for run, order in unit.orders.items()
         }
-        board.unit = replace(unit, orders=orders)
+        board.unit = replace(unit, occupied=unit.occupied - {block}, orders=orders)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
         if not any(True for _ in board.unit.orders):
