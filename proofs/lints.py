@@ -48,6 +48,7 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
                 {
                     "track",
                     "track.astray",
+                    "track.begun",
                     "track.entered",
                     "track.facing",
                     "track.last_read",
@@ -55,7 +56,7 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
                     "ground.laid_in",
                 }
             ),
-            frozenset({"entered", "last_read", "passed", "astray"}),
+            frozenset({"begun", "entered", "last_read", "passed", "astray"}),
             "writes the history on: where a head has been, what it read, and whether that was to come; which cab"
             " the driver has chosen says which antenna is at the head",
             frozenset({"track.facing"}),
@@ -128,6 +129,7 @@ ASKED: Mapping[str, frozenset[str]] = {
             "the_head_arrived",
             "its_front_leads",
             "the_head_went_on",
+            "reads_both_first",
         }
     ),
     "models/world/at_a_point.py": frozenset({"detection_is_true"}),

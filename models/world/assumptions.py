@@ -15,6 +15,7 @@ from models.world.truth import (
     is_genuine,
     is_last,
     its_front_leads,
+    reads_both_first,
     says_it_is_held,
     says_it_stands_between,
     stands_within,
@@ -67,10 +68,7 @@ def a_run_is_led_by_its_front(site: Site, system: System, train: Train, cab: Cab
     """Whoever reads both tags at the end of a run's start block, one right after the other, leads as that run does."""
     return all(
         run.train != train
-        or run.route not in site.layout.first_tag
-        or run.route not in site.layout.tag_after
-        or system.track.last_read.get(train) != site.layout.first_tag[run.route]
-        or site.layout.tag_after[run.route].get(site.layout.first_tag[run.route]) != tag
+        or not reads_both_first(site, system, train, run, tag)
         or (run in site.formation.front and site.formation.front[run] == cab)
         for run in system.radio.permits
     )

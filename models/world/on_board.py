@@ -25,6 +25,7 @@ from models.world.truth import (
     is_genuine,
     is_last,
     its_front_leads,
+    reads_both_first,
     says_it_stands_between,
     the_head_arrived,
     the_head_went_on,
@@ -86,6 +87,9 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
     if not a_run_is_led_by_its_front(site, system, train, cab, tag):
         return system
     unit = system.units[train]
+    begun = system.track.begun | frozenset(
+        run for run in system.radio.permits if run.train == train and reads_both_first(site, system, train, run, tag)
+    )
     to_come = in_window and any(
         order.permitted and not order.given_back and order.expected == tag for _, order in unit.orders.items()
     )
@@ -93,10 +97,11 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
         with_unit(system, train, second_loop.note_head_read(site.plan, site.lists, unit, cab, tag, in_window)),
         track=replace(
             system.track,
+            begun=begun,
             entered=system.track.entered
             | frozenset(
                 (run, site.ground.laid_in[tag])
-                for run in system.radio.permits
+                for run in begun
                 if run in site.formation.front
                 and site.formation.front[run] == cab
                 and run.route in site.layout.routes

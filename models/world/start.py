@@ -92,6 +92,7 @@ def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, P
             at=dict(at),
             under={},
             run_into=frozenset(),
+            begun=frozenset(),
             entered=frozenset(),
             gone=frozenset(),
             behind=frozenset(),

@@ -108,7 +108,8 @@ class Track:
     ``at``: the blocks each car is in.
     ``under``: history: the run under which a car came into a block it has been in.
     ``run_into``: history: runs under which some car has moved.
-    ``entered``: history: for each run the blocks that the head has been in while it was permitted.
+    ``begun``: history: runs at whose start the head has read both tags, one right after the other.
+    ``entered``: history: for each run the blocks that the head has been in since it began.
     ``gone``: history: for each run the blocks that the train has gone out of while it was permitted.
     ``behind``: history: for each run the blocks that its tail has been seen to leave, by what is written in their tags.
     ``rolling``: runs in which the train can no longer stop before the blocks they cover.
@@ -130,6 +131,7 @@ class Track:
     at: Map[Car, frozenset[Block]]
     under: Map[Car, Map[Block, Run]]
     run_into: frozenset[Run]
+    begun: frozenset[Run]
     entered: frozenset[tuple[Run, Block]]
     gone: frozenset[tuple[Run, Block]]
     behind: frozenset[tuple[Run, Block]]

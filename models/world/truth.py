@@ -17,6 +17,16 @@ def its_front_leads(site: Site, system: System, run: Run) -> bool:
     return run in site.formation.front and system.track.facing.get(run.train) == site.formation.front[run]
 
 
+def reads_both_first(site: Site, system: System, train: Train, run: Run, tag: Tag) -> bool:
+    """The head of a train has read the first tag of a run's list last, and now the second (T5)."""
+    return (
+        run.route in site.layout.first_tag
+        and run.route in site.layout.tag_after
+        and system.track.last_read.get(train) == site.layout.first_tag[run.route]
+        and site.layout.tag_after[run.route].get(site.layout.first_tag[run.route]) == tag
+    )
+
+
 def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
     """The car is the last of a whole train that runs as in ``run``."""
     return (

@@ -74,6 +74,7 @@ def trains_stand_apart_on_locked_points(site: Site, system: System) -> bool:
         and not any(True for _ in system.track.first_erred)
         and not any(True for _ in system.track.second_erred)
         and not any(True for _ in system.track.run_into)
+        and not any(True for _ in system.track.begun)
         and not any(True for _ in system.track.entered)
         and not any(True for _ in system.track.gone)
         and not any(True for _ in system.track.behind)

@@ -216,7 +216,12 @@ def a_run_that_has_begun_is_led_by_its_front(site: Site, system: System) -> bool
     return all(
         run.route not in site.layout.routes
         or (not order.begun and not any(True for _ in order.entered))
-        or (order.begun and run in site.formation.front and order.led_by == site.formation.front[run])
+        or (
+            order.begun
+            and run in system.track.begun
+            and run in site.formation.front
+            and order.led_by == site.formation.front[run]
+        )
         for train in system.units
         for run, order in system.units[train].orders.items()
     )

@@ -14,6 +14,8 @@ from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, ON_THE_WAY,
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import GONE, came, went
+from proofs.witnesses.lines import line_on
+from proofs.witnesses.on_lines import ready
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
     A1,
@@ -218,6 +220,34 @@ def what_the_other_cab_led_is_no_way_on(steps: Steps) -> Scenario:
     for tag in (first, second):
         scenario.does("tail_reads", **running.tail_read(scenario, run, tag))
     scenario.must((ahead, WEST) not in scenario.system.track.gone, "nobody has led it on from there")
+    return scenario
+
+
+def a_train_comes_home_on_a_way_permitted_before_it_left(steps: Steps) -> Scenario:
+    """On a ring a train is permitted to run home before it leaves: it has not been home under that run (T2, T5)."""
+    line = line_on("a_ring")
+    assert line.loop is not None
+    scenario = Scenario(steps, line.site, line.on_the_loop())
+    standing, _ = ready(scenario)
+    out = setting.set_route(scenario, T1, line.loop.round, standing)
+    home = setting.set_route(scenario, T1, line.loop.home, out)
+    for run in (out, home):
+        running.roll(scenario, run)
+    running.pass_through(scenario, out, *line.blocks(line.loop.round))
+    running.pass_through(scenario, home, *line.blocks(line.loop.home))
+    running.rest(scenario, home)
+    return scenario
+
+
+def a_pair_is_not_passed_with_a_car_before_it(steps: Steps) -> Scenario:
+    """While a car stands where the train began, its last antenna has not passed both tags behind it (T2, T6)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
+    running.head_passes(scenario, run, WEST, THROAT)
+    first, second = running.pair(scenario.site.layout, WEST, THROAT)
+    running.tail_reads_first(scenario, run, first)
+    scenario.refuses("tail_reads", **running.tail_read(scenario, run, second))
     return scenario
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Block, Car, Route, Run, Stage
+from kernel.names import Block, Car, Stage
 from kernel.refusal import Refusal
 from models.world.formations import formation
 from proofs.witnesses.changes import came
@@ -30,12 +30,9 @@ from proofs.witnesses.running import (
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import (
     at_stage,
-    echo,
     holds,
     keep,
-    offer,
     open_first_loop,
-    permit,
     prove_all,
     recall,
     reserve,
@@ -172,20 +169,17 @@ def a_tail_leaves_the_track_that_its_head_went_on_over(steps: Steps) -> Scenario
     hear_terminals(scenario)
     recover(scenario)
     into = set_route(scenario, T1, INTO_THE_LOOP, runs[T1])
-    around = _offered_and_echoed(scenario, ROUND_THE_LOOP, into)
-    out = _offered_and_echoed(scenario, OUT_OF_THE_LOOP, around)
-    roll(scenario, into)
+    around = set_route(scenario, T1, ROUND_THE_LOOP, into)
+    out = set_route(scenario, T1, OUT_OF_THE_LOOP, around)
+    for run in (into, around, out):
+        roll(scenario, run)
     head_passes(scenario, into, k, m)
     head_passes(scenario, into, m, e)
-    permit(scenario, around)
-    roll(scenario, around)
     follows(scenario, middle, front, m)
     follows(scenario, rear, front, m)
     follows(scenario, middle, front, e)
     leaves(scenario, front, k)
     head_passes(scenario, around, e, back)
-    permit(scenario, out)
-    roll(scenario, out)
     leaves(scenario, front, m)
     follows(scenario, middle, front, back)
     leaves(scenario, middle, k)
@@ -212,12 +206,3 @@ def a_tail_leaves_the_track_that_its_head_went_on_over(steps: Steps) -> Scenario
     cross = next_run(scenario, T2, CROSS)
     scenario.refuses("request", Refusal.BLOCK_HELD_FOR_ANOTHER, run=cross, base=runs[T2])
     return scenario
-
-
-def _offered_and_echoed(scenario: Scenario, route: Route, base: Run) -> Run:
-    """A route is set for T1 up to the permit, which comes later."""
-    run = reserve(scenario, T1, route, base)
-    prove_all(scenario, run)
-    offer(scenario, run)
-    echo(scenario, run)
-    return run

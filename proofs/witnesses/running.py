@@ -163,16 +163,36 @@ def head_reads(scenario: Scenario, run: Run, tag: Tag) -> None:
     tail_read = scenario.system.units[train].tail_read
     if tail_read is not None and tag in (tail_read.tag, layout.partner[tail_read.tag]):
         read["tail_read"] = None
+    beginning = _begin(scenario, train, tag)
     there = [
         (other, block)
-        for other in scenario.system.radio.permits
+        for other in scenario.system.track.begun | beginning
         if other.train == train
         and scenario.site.formation.front[other] == cab
         and block in _beyond_start(layout, other.route)
     ]
     passed = ((train, other) for other in (tag, layout.partner[tag]))
-    track = {"entered": came(*there), "last_read": {train: tag}, "passed": went(*passed)}
+    track = {
+        "begun": came(*beginning),
+        "entered": came(*there),
+        "last_read": {train: tag},
+        "passed": went(*passed),
+    }
     scenario.does("head_reads", {"units": {train: read}, "track": track}, train=train, cab=cab, tag=tag, in_window=True)
+
+
+def _begin(scenario: Scenario, train: Train, tag: Tag) -> frozenset[Run]:
+    """The runs that begin as the head reads this tag: it has read their first one last, and this one is their next."""
+    layout, last_read = scenario.site.layout, scenario.system.track.last_read.get(train)
+    if last_read is None:
+        return frozenset()
+    return frozenset(
+        run
+        for run in scenario.system.radio.permits
+        if run.train == train
+        and last_read == layout.first_tag.get(run.route)
+        and layout.tag_after.get(run.route, {}).get(last_read) == tag
+    )
 
 
 def expects(order: Order, tag: Tag) -> bool:
