@@ -50,7 +50,7 @@ SELDOM_SENT = frozenset(
     )
 )
 """Messages that are one part together."""
-SELDOM_WRITTEN = frozenset(("slipping", "stood", "first_erred", "second_erred", "parted"))
+SELDOM_WRITTEN = frozenset(("begun", "slipping", "stood", "first_erred", "second_erred", "parted"))
 """What of the track seldom changes, which is one part together."""
 PARTS: tuple[str, ...] = (
     *(f"centre_{field.name}" for field in fields(Centre)),
