@@ -56,6 +56,8 @@ READINGS: Mapping[str, str] = {
     "head_reads.in_window": "what the unit's own window of expectation says; any is allowed for",
     "braking.run_a_cycle.acknowledged": "a button that the driver presses",
     "braking.run_a_cycle.demanded": "what other machines of the unit demand; any is allowed for",
+    "train.run_a_cycle.may_proceed": "what the unit's own orders say; any is allowed for",
+    "train.run_a_cycle.acknowledged": "a button that the driver presses",
     "brake_watch.run_a_cycle.applied": "what the unit itself tells its brake; any is allowed for",
     "alarm_tone.hear_list.servers_well": "what the servers say of themselves",
     "alarm_tone.look_at_the_battery.battery_well": "what the gauge of the battery says",

@@ -26,6 +26,7 @@ from proofs.onboard import (
     tag_fix,
     tag_reader,
     tag_window,
+    train,
     train_length,
 )
 from proofs.theory import READING, START, Theory
@@ -48,6 +49,7 @@ IN_ORDER: tuple[Theory, ...] = (
     tag_window.THEORY,
     antenna_spacing.THEORY,
     feature.THEORY,
+    train.THEORY,
     alarm_distance.THEORY,
     alarm_tone.THEORY,
     arrival.THEORY,

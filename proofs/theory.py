@@ -33,6 +33,7 @@ class Theory:
     ``premises``: what is assumed of the site.
     ``axioms``: what is assumed of ``site.layout`` and ``site.ground``.
     ``promises``: what comes about at last, by name.
+    ``parts``: the theories whose machines and worlds it puts together.
     ``quantified``: it speaks of any number of things; then a transition is stated by the fields it
     defines anew.  Plain arithmetic is easier where new values stand in place of those fields.
     """
@@ -48,6 +49,7 @@ class Theory:
     axioms: Mapping[str, Predicate] = field(default_factory=dict)
     promises: Mapping[str, Promise] = field(default_factory=dict)
     quantified: bool = False
+    parts: tuple[str, ...] = ()
 
     @property
     def read(self) -> dict[str, Predicate]:

@@ -12,7 +12,9 @@ from functools import lru_cache
 from kernel.maps import Map
 from kernel.names import Block, Run, Tag, TagList
 from kernel.onboard import antenna_spacing, authority_end, braking, odometry, split
+from kernel.onboard import computer as computing
 from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.computer import Computer, Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
@@ -23,9 +25,7 @@ from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
 from models.concrete.rails import ANTENNA_MM
 from models.rides.plan import PLAN, TAG_ERROR_MM
-from models.simulation import computer as computing
 from models.simulation.ahead import Ahead
-from models.simulation.computer import Computer, Limits
 
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""

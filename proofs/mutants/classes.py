@@ -97,11 +97,16 @@ def objection(entry: Entry) -> str:
 
 
 def not_implied(mutant: Mutant, because: list[str]) -> str:
-    """Say in which transition the drop could make a difference, as far as is proved."""
+    """Say in which transition the drop could make a difference, as far as is proved.
+
+    A machine that is proved alone is asked where it is: what puts it together with others rests on that.
+    """
     told = [name for theory in THEORIES.values() for name, claim in theory.read.items() if asks(claim, mutant)]
     if mutant.is_of_a_module and told:
         return f"{told[0]} reads it, and so becomes another with it"
-    for transition in rows_of(mutant):
+    rows = rows_of(mutant)
+    alone = [row for row in rows if not theory_of(row)[0].parts]
+    for transition in alone or rows:
         home, name = theory_of(transition)
         theory = home.name
         missed = [each["canary"] for each in canaries.seen(("z3", "cvc5"), theory) if not each["noticed"]]

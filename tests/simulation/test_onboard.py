@@ -7,11 +7,11 @@ from random import Random
 
 import pytest
 
+from kernel.onboard import computer
 from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.way import Way
 from models.concrete.rails import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
-from models.simulation import computer
 from models.simulation.onboard import OnBoard, on_board
 from models.simulation.sensors import Sensors
 from models.simulation.simulation import Simulation

@@ -1,0 +1,237 @@
+"""One train from its sensors to its brake: what happens to it, and all that its computer makes of that (P7, T12).
+
+Each world takes its own step, as it is proved there: had it refused one, its train would have stayed behind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import brake_demand, computer
+from kernel.onboard import braking as brake_control
+from kernel.onboard.odometry import Readings, is_located
+from kernel.onboard.split import Readings as TailReadings
+from kernel.onboard.way import Way
+from models.onboard import brake_watch, braking, odometry
+from models.onboard.train_nature import (
+    Train,
+    Whole,
+    a_brake_that_has_responded_keeps_its_bound,
+    a_cycle_begins_when_the_one_before_was_sensed,
+    a_cycle_is_sensed_once,
+    a_rolling_wheel_measures,
+    a_tachometer_sticks_at_a_speed,
+    a_tag_is_read_in_the_read_window,
+    a_tag_lies_where_it_is_listed,
+    a_train_whose_computer_is_off_is_held,
+    a_wheel_that_keeps_pace_rolls,
+    approach,
+    braked,
+    leaving_the_creep_takes_a_jolt,
+    line,
+    running,
+    the_head_is_no_faster_than_at_the_ends_of_a_cycle,
+    the_inertial_sensor_keeps_its_bound,
+    the_rest_of_the_cycle_follows_the_speed,
+    the_train_gains_no_more,
+    the_train_stands_where_it_is_said_to,
+    the_train_stays_within_its_powers,
+    the_way_follows_the_speed,
+    watched,
+    watched_over,
+)
+
+
+def run_a_cycle(
+    site: Train, system: Whole, may_proceed: bool, acknowledged: bool, to_nm: int, speed_um_s: int
+) -> Whole:
+    """The computer decides on the brake, and the train runs for a cycle (T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not the_head_is_no_faster_than_at_the_ends_of_a_cycle(system, to_nm, speed_um_s):
+        return system
+    if not the_train_gains_no_more(site, system, speed_um_s):
+        return system
+    decided = computer.decide(site.limits, system.computer, may_proceed, acknowledged)
+    if not a_brake_that_has_responded_keeps_its_bound(site, system, decided.brake.applied, speed_um_s):
+        return system
+    at = system.computer.known.motion
+    demanded = brake_demand.is_demanded(site.limits.train, system.computer.known, may_proceed)
+    return replace(
+        system,
+        front_nm=to_nm,
+        speed_um_s=speed_um_s,
+        from_nm=system.front_nm,
+        from_um_s=system.speed_um_s,
+        runs=True,
+        approach=braking.run_a_cycle(
+            braked(site),
+            approach(system),
+            at.front_most_mm,
+            at.speed_least_mm_s,
+            at.speed_most_mm_s,
+            demanded,
+            acknowledged,
+            to_nm,
+            speed_um_s,
+        ),
+        computer=decided,
+    )
+
+
+def sense_the_cycle(
+    site: Train,
+    system: Whole,
+    readings: Readings,
+    tail: TailReadings,
+    gradient_mm_s2: int,
+    slips: bool,
+    sticks: bool,
+) -> Whole:
+    """At its end the sensors say what they say of it (P1, P7)."""
+    if not a_cycle_is_sensed_once(system):
+        return system
+    if not the_way_follows_the_speed(system, readings):
+        return system
+    if not the_train_stays_within_its_powers(site, system, readings):
+        return system
+    if not the_inertial_sensor_keeps_its_bound(site, system, readings, gradient_mm_s2):
+        return system
+    if not a_tachometer_sticks_at_a_speed(system, readings, sticks):
+        return system
+    if not a_rolling_wheel_measures(site, system, readings, slips, sticks):
+        return system
+    if not leaving_the_creep_takes_a_jolt(site, system, readings, slips, sticks):
+        return system
+    if not a_wheel_that_keeps_pace_rolls(site, system, readings, slips, sticks):
+        return system
+    sensed = computer.sense(site.limits, system.computer, readings, tail)
+    at = sensed.known.motion
+    return replace(
+        system,
+        runs=False,
+        running=odometry.run_a_cycle(
+            line(site), running(system), readings, system.front_nm, system.speed_um_s, gradient_mm_s2, slips, sticks
+        ),
+        watched=brake_watch.run_a_cycle(
+            watched_over(site),
+            watched(system),
+            system.computer.brake.applied,
+            is_located(at),
+            at.speed_least_mm_s,
+            at.speed_most_mm_s,
+            system.speed_um_s,
+        ),
+        computer=sensed,
+    )
+
+
+def read_a_tag(site: Train, system: Whole, place_mm: int, lies_nm: int, read_at_nm: int) -> Whole:
+    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, P7)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_tag_lies_where_it_is_listed(site, place_mm, lies_nm):
+        return system
+    if not a_tag_is_read_in_the_read_window(site, lies_nm, read_at_nm):
+        return system
+    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
+        return system
+    fix = computer.fix(site.limits, system.computer, place_mm)
+    return replace(
+        system,
+        running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
+        computer=computer.take_fix(site.limits, system.computer, place_mm),
+    )
+
+
+def take_end(site: Train, system: Whole, end_mm: int) -> Whole:
+    """The orders give any end of authority at all; while no range is claimed none is taken (T4, T9)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    at = system.computer.known.motion
+    if not is_located(at):
+        return withhold_end(site, system)
+    brake = brake_control.take_end(
+        site.limits.train.brake, system.computer.brake, at.front_most_mm, at.speed_most_mm_s, end_mm
+    )
+    return replace(
+        system,
+        approach=braking.take_end(
+            braked(site), approach(system), at.front_most_mm, at.speed_least_mm_s, at.speed_most_mm_s, end_mm
+        ),
+        computer=replace(system.computer, brake=brake),
+    )
+
+
+def withhold_end(site: Train, system: Whole) -> Whole:
+    """The orders give no end of authority, or the driver puts the brake on, at any moment (T4, T9)."""
+    return replace(
+        system,
+        approach=braking.withhold_end(braked(site), approach(system)),
+        computer=computer.withhold_end(system.computer),
+    )
+
+
+def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
+    """At rest somebody says where the front is, and the computer begins anew (P7, T8)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
+        return system
+    located = computer.locate(site.limits, system.computer, least_mm, most_mm)
+    if located == system.computer:
+        return system
+    return _at_rest(site, replace(system, computer=located), least_mm, most_mm)
+
+
+def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
+    """At rest the computer begins, or begins again: the train is inspected, and somebody says where it is (P7, T8)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_train_whose_computer_is_off_is_held(site, system):
+        return system
+    if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
+        return system
+    inspected = replace(
+        system,
+        watched=replace(system.watched, kept=True, too_fast=False),
+        computer=computer.put_into_service(site.limits, least_mm, most_mm),
+    )
+    return _at_rest(site, inspected, least_mm, most_mm)
+
+
+def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
+    """Each world begins anew with its computer: the train stands, held, with its front in this range."""
+    return replace(
+        system,
+        from_um_s=system.speed_um_s,
+        running=odometry.locate_anew(
+            line(site), running(system), least_mm, most_mm, system.computer.known.motion.way_mm
+        ),
+        approach=replace(
+            approach(system),
+            response_cycles=0,
+            worst_um_s=0,
+            reach_nm=system.front_nm,
+            left_nm=0,
+            demanded=False,
+            wanted=False,
+        ),
+        watched=replace(watched(system), allowed_mm_s=0),
+    )
+
+
+def await_tag(site: Train, system: Whole, at: Way, least_mm: int, most_mm: int) -> Whole:
+    """The orders say which tag comes next, and how far from where the front was at the last one (T5)."""
+    told = computer.await_tag(computer.begin_way(system.computer, at), least_mm, most_mm)
+    return replace(system, computer=told)
+
+
+def await_none(site: Train, system: Whole) -> Whole:
+    """No order says which tag comes next (T5)."""
+    return replace(system, computer=computer.await_none(system.computer))
+
+
+def find_whole(site: Train, system: Whole) -> Whole:
+    """The staff has found the train whole (P5)."""
+    return replace(system, computer=computer.made_up(site.limits, system.computer))

@@ -1,0 +1,240 @@
+"""One train as each world sees it, and what is assumed of nature: of odometry, brake, brake watch and tags (P7, T12).
+
+The worlds of odometry, brake control and brake watch see this train each in its own way; here there is one
+front, one speed and one computer.  What they assume of each other's machines is not assumed here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from kernel.onboard.computer import Computer, Limits
+from kernel.onboard.odometry import Readings
+from models.onboard import brake_watch, braking, odometry, tag_fix
+from models.onboard.brake_watch import Watched
+from models.onboard.braking import Approach
+from models.onboard.odometry import Line, Running
+from models.onboard.tag_fix import Antenna
+
+
+@dataclass(frozen=True)
+class Train:
+    """What does not change.
+
+    ``limits``: as written, and as the computer reckons with.
+    ``jolt_mm_s2``, ``pace_cycles``, ``length_mm``: of wheel and train, as in :class:`models.onboard.odometry.Line`.
+    ``laid_within_mm``, ``read_within_mm``: of tags, as in :class:`models.onboard.tag_fix.Antenna`.
+    """
+
+    limits: Limits
+    jolt_mm_s2: int
+    pace_cycles: int
+    length_mm: int
+    laid_within_mm: int
+    read_within_mm: int
+
+
+@dataclass(frozen=True)
+class Whole:
+    """One moment.
+
+    ``front_nm``, ``speed_um_s``: where the front is, and how fast; ``from_nm``, ``from_um_s``: when the cycle began.
+    ``runs``: the train has run for a cycle that its computer has yet to sense.
+    ``running``, ``approach``, ``watched``: the train as odometry, brake control and brake watch are proved with it.
+    ``computer``: what its computer remembers.
+    """
+
+    front_nm: int
+    speed_um_s: int
+    from_nm: int
+    from_um_s: int
+    runs: bool
+    running: Running
+    approach: Approach
+    watched: Watched
+    computer: Computer
+
+
+# ---- how each world sees the train
+
+
+def line(site: Train) -> Line:
+    """Give the site of the odometry's world."""
+    return Line(
+        bounds=site.limits.sensors,
+        jolt_mm_s2=site.jolt_mm_s2,
+        pace_cycles=site.pace_cycles,
+        length_mm=site.length_mm,
+        length_used_mm=site.limits.train.length_mm,
+    )
+
+
+def braked(site: Train) -> braking.Vehicle:
+    """Give the site of the brake control's world."""
+    return braking.Vehicle(bounds=site.limits.train.brake)
+
+
+def watched_over(site: Train) -> brake_watch.Vehicle:
+    """Give the site of the brake watch's world."""
+    return brake_watch.Vehicle(bounds=site.limits.train.brake)
+
+
+def antenna(site: Train) -> Antenna:
+    """Give the site of the world of tags."""
+    return Antenna(limits=site.limits.tags, laid_within_mm=site.laid_within_mm, read_within_mm=site.read_within_mm)
+
+
+def running(system: Whole) -> Running:
+    """Give the train as the odometry's world saw it before the newest cycle, or sees it after (P7)."""
+    return replace(before(system), motion=system.computer.known.motion)
+
+
+def before(system: Whole) -> Running:
+    """Give how it ran then, whatever its computer says."""
+    return replace(
+        system.running,
+        front_nm=system.from_nm if system.runs else system.front_nm,
+        speed_um_s=system.from_um_s if system.runs else system.speed_um_s,
+    )
+
+
+def approach(system: Whole) -> Approach:
+    """Give it as the brake control's world sees it (T12)."""
+    return replace(coming(system), brake=system.computer.brake)
+
+
+def coming(system: Whole) -> Approach:
+    """Give how it comes to its end of authority, whatever its computer does."""
+    return replace(system.approach, head_nm=system.front_nm, speed_um_s=system.speed_um_s)
+
+
+def watched(system: Whole) -> Watched:
+    """Give it as the brake watch's world saw it before the newest cycle, or sees it after (T12)."""
+    return replace(
+        system.watched,
+        speed_um_s=system.from_um_s if system.runs else system.speed_um_s,
+        watch=system.computer.known.watch,
+    )
+
+
+# ---- premises
+
+
+def the_odometrys_bounds_fit(site: Train) -> bool:
+    """What the odometry's proof asks of the written bounds (P1, P4)."""
+    return (
+        odometry.bounds_are_not_negative(line(site))
+        and odometry.a_jolt_stands_out(line(site))
+        and odometry.agreement_takes_longer_than_a_chance_pace(line(site))
+        and odometry.the_length_used_is_no_less(line(site))
+    )
+
+
+def the_brakes_bounds_fit(site: Train) -> bool:
+    """What the proofs of brake control and brake watch ask of the written bounds (T12)."""
+    return braking.the_brake_slows(braked(site)) and brake_watch.motors_do_not_slow(watched_over(site))
+
+
+def the_tags_bounds_fit(site: Train) -> bool:
+    """What the proof of the tag's fix asks of the written bounds (T2)."""
+    return tag_fix.the_error_covers_laying_and_read_window(antenna(site))
+
+
+# ---- assumptions
+
+
+def a_cycle_begins_when_the_one_before_was_sensed(system: Whole) -> bool:
+    """The computer's one task decides, lets the train run, and senses; what it is told comes in between (P7)."""
+    return not system.runs
+
+
+def a_cycle_is_sensed_once(system: Whole) -> bool:
+    """And it senses what was run, once (P7)."""
+    return system.runs
+
+
+def the_head_is_no_faster_than_at_the_ends_of_a_cycle(system: Whole, to_nm: int, speed_um_s: int) -> bool:
+    """In no cycle, whatever its clock says, the head gets farther than 100 ms at the greater of those speeds (P1)."""
+    return braking.the_way_follows_the_speed(coming(system), to_nm, speed_um_s)
+
+
+def the_train_gains_no_more(site: Train, system: Whole, speed_um_s: int) -> bool:
+    """In a cycle it gains no more speed than the brake control reckons with (T12)."""
+    return braking.the_train_gains_no_more(braked(site), coming(system), speed_um_s)
+
+
+def a_brake_that_has_responded_keeps_its_bound(site: Train, system: Whole, applied: bool, speed_um_s: int) -> bool:
+    """A brake that has been commanded for as long as it takes to respond slows the train as is guaranteed (T12)."""
+    return (
+        not applied
+        or system.watched.cycles < site.limits.train.brake.response_cycles
+        or braking.the_brake_keeps_its_bound(braked(site), coming(system), speed_um_s)
+    )
+
+
+def the_way_follows_the_speed(system: Whole, readings: Readings) -> bool:
+    """Within one cycle the train runs at speeds between those at its ends; in one of another length anywhere (P1)."""
+    return odometry.the_way_follows_the_speed(before(system), readings, system.front_nm, system.speed_um_s)
+
+
+def the_train_stays_within_its_powers(site: Train, system: Whole, readings: Readings) -> bool:
+    """In a cycle it gains and loses no more speed than motors, brakes and the steepest gradient allow (P1)."""
+    return odometry.the_train_stays_within_its_powers(line(site), before(system), readings, system.speed_um_s)
+
+
+def the_inertial_sensor_keeps_its_bound(site: Train, system: Whole, readings: Readings, gradient_mm_s2: int) -> bool:
+    """A valid reading is acceleration and gravity along the track, within the error; the line is no steeper (P1)."""
+    return odometry.the_inertial_sensor_keeps_its_bound(
+        line(site), before(system), readings, system.speed_um_s, gradient_mm_s2
+    )
+
+
+def a_tachometer_sticks_at_a_speed(system: Whole, readings: Readings, sticks: bool) -> bool:
+    """One that fails and calls itself valid repeats speed and pulses of the cycle before; none fails at rest (P1)."""
+    return odometry.a_tachometer_sticks_at_a_speed(before(system), readings, sticks)
+
+
+def a_rolling_wheel_measures(site: Train, system: Whole, readings: Readings, slips: bool, sticks: bool) -> bool:
+    """Of a wheel that rolls, valid readings show speed and way within creep, diameter and a pulse (P1)."""
+    told = odometry.is_told(before(system), readings, sticks)
+    return odometry.a_rolling_wheel_measures(
+        line(site), before(system), readings, system.front_nm, system.speed_um_s, told and not slips
+    )
+
+
+def leaving_the_creep_takes_a_jolt(site: Train, system: Whole, readings: Readings, slips: bool, sticks: bool) -> bool:
+    """A wheel that begins to slip or slide changes its speed otherwise than the train, by the jolt at least (P1)."""
+    told = odometry.is_told(before(system), readings, sticks)
+    return odometry.leaving_the_creep_takes_a_jolt(line(site), before(system), readings, system.speed_um_s, slips, told)
+
+
+def a_wheel_that_keeps_pace_rolls(site: Train, system: Whole, readings: Readings, slips: bool, sticks: bool) -> bool:
+    """A wheel that has kept pace with its train for the written number of cycles on end does not slip (P1)."""
+    told = odometry.is_told(before(system), readings, sticks)
+    paced_cycles = odometry.paced_cycles_after(line(site), before(system), readings, system.speed_um_s, told)
+    return odometry.a_wheel_that_keeps_pace_rolls(line(site), paced_cycles, slips)
+
+
+def a_tag_lies_where_it_is_listed(site: Train, place_mm: int, lies_nm: int) -> bool:
+    """A tag is laid within the error of the place that the list has for it (T1)."""
+    return tag_fix.a_tag_lies_where_it_is_listed(antenna(site), place_mm, lies_nm)
+
+
+def a_tag_is_read_in_the_read_window(site: Train, lies_nm: int, read_at_nm: int) -> bool:
+    """An antenna reads a tag while it is no farther from it than its read window reaches (T2, T16)."""
+    return tag_fix.a_tag_is_read_in_the_read_window(antenna(site), lies_nm, read_at_nm)
+
+
+def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> bool:
+    """From where a tag was read the train runs on in the newest cycle no farther than its speeds allow (P1)."""
+    return tag_fix.the_way_follows_the_speed(read_at_nm, system.front_nm, system.from_um_s, system.speed_um_s)
+
+
+def the_train_stands_where_it_is_said_to(system: Whole, least_mm: int, most_mm: int) -> bool:
+    """Who locates a train anew sees it stand, and its front within what he says (P7, T8)."""
+    return odometry.the_train_stands_where_it_is_said_to(before(system), least_mm, most_mm)
+
+
+def a_train_whose_computer_is_off_is_held(site: Train, system: Whole) -> bool:
+    """Without its computer the brake is on, and has been for as long as it takes to respond when that begins (T12)."""
+    return system.watched.cycles >= site.limits.train.brake.response_cycles
