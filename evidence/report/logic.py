@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import inspect
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
@@ -83,7 +84,7 @@ def called(function: Predicate) -> list[Predicate]:
     for node in ast.walk(definition_of(function)):
         if isinstance(node, ast.Call):
             target = _resolved(function, node.func)
-            if inspect.isfunction(target):
+            if inspect.isfunction(target) and target is not replace:
                 found.append(target)
     return list(dict.fromkeys(found))
 
@@ -276,11 +277,19 @@ class _Reader:
                 found, other = self.entry(base, key), self.term(default)
                 known = Related((self.term(key), self.term(base)), ("∈",))
                 return found if other == EMPTY else Chosen(known, found, other)
+            case ast.Call(func=ast.Name(id="replace"), args=[base], keywords=[_, *_]):
+                return Applied(f"{self.term(base).flat()} with ", self.fields(node))
+            case ast.Call(args=[], keywords=[_, *_]) if inspect.isclass(made := _resolved(self.function, node.func)):
+                return Applied(made.__name__, self.fields(node))
             case ast.Call(keywords=[]) if inspect.isfunction(target := _resolved(self.function, node.func)):
                 told = [each for each in node.args if not (isinstance(each, ast.Name) and each.id in SITED)]
                 said = tuple(self.term(each) for each in told)
                 return Applied(target.__name__, said) if said else Atom(target.__name__)
         raise self.unread(node)
+
+    def fields(self, node: ast.Call) -> tuple[Term, ...]:
+        """The fields that a record is given by name."""
+        return tuple(Related((Atom(each.arg or ""), self.term(each.value)), ("=",)) for each in node.keywords)
 
     def quantified(self, sign: str, each: ast.GeneratorExp) -> Term:
         """A quantifier over one range or several; what they ask beside stands before the arrow, or before ∧."""
