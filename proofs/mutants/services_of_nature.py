@@ -192,14 +192,20 @@ def a_tag_that_another_train_passed_pairs_with_nothing(steps: Steps) -> Scenario
     return scenario
 
 
-def a_false_record_is_no_way_out(steps: Steps) -> Scenario:
-    """A tail that reads the second tag with another record has gone out of no block by it (T2, T6)."""
+def _with_its_tail_at_the_boundary(steps: Steps) -> tuple[Scenario, Run, Tag]:
+    """The head is over the first boundary, and the tail has read the first tag there; the second is to come."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.roll(scenario, run)
     running.head_passes(scenario, run, WEST, THROAT)
     first, second = running.pair(scenario.site.layout, WEST, THROAT)
     running.tail_reads_first(scenario, run, first)
+    return scenario, run, second
+
+
+def a_false_record_is_no_way_out(steps: Steps) -> Scenario:
+    """A tail that reads the second tag with another record has gone out of no block by it (T2, T6)."""
+    scenario, run, second = _with_its_tail_at_the_boundary(steps)
     event = running.tail_read(scenario, run, second) | {"read": Read(second, Record("another"))}
     scenario.does("tail_reads", **event)
     scenario.must((run, WEST) not in scenario.system.track.gone, "the train is still there")
@@ -241,12 +247,7 @@ def a_train_comes_home_on_a_way_permitted_before_it_left(steps: Steps) -> Scenar
 
 def a_pair_is_not_passed_with_a_car_before_it(steps: Steps) -> Scenario:
     """While a car stands where the train began, its last antenna has not passed both tags behind it (T2, T6)."""
-    scenario, runs = telling.recovered(steps, standing(WEST))
-    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    running.roll(scenario, run)
-    running.head_passes(scenario, run, WEST, THROAT)
-    first, second = running.pair(scenario.site.layout, WEST, THROAT)
-    running.tail_reads_first(scenario, run, first)
+    scenario, run, second = _with_its_tail_at_the_boundary(steps)
     scenario.refuses("tail_reads", **running.tail_read(scenario, run, second))
     return scenario
 
