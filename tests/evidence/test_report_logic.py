@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from evidence.report.logic import Predicate, Unread, called, heading, notation, term_of, words
 from evidence.report.terms import lines
+from models.onboard import train_nature
 from proofs.mutants.edits import mutants_of
 from proofs.theories import THEORIES
 
@@ -30,9 +31,10 @@ def test_every_invariant_and_every_word_is_logic_and_nothing_in_it_is_python() -
         assert PYTHON.search(told) is None, f"{function.__module__}.{function.__name__}: {told}"
 
 
-def test_what_is_dropped_in_an_invariant_is_seen_in_its_notation() -> None:
+def test_what_is_dropped_in_an_invariant_or_a_word_is_seen_in_its_notation() -> None:
     tried = 0
-    for name, function in INVARIANTS.items():
+    said_in = {f"{word.__module__}.{word.__name__}": word for word in words(list(INVARIANTS.values()))}
+    for name, function in (INVARIANTS | said_in).items():
         own = notation(function)
         for mutant in mutants_of(function):
             tried += 1
@@ -46,6 +48,11 @@ def test_a_quantifier_says_what_it_ranges_over_and_what_it_excludes() -> None:
         "    block ∈ track.at(other)",
         "  → formation.train_of(car) = formation.train_of(other)",
     ]
+
+
+def test_a_record_is_written_with_its_fields() -> None:
+    assert notation(train_nature.watched_over) == ["Vehicle(bounds = limits.train.brake)"]
+    assert notation(train_nature.running) == ["before with (motion = computer.known.motion)"]
 
 
 def test_words_are_called_as_they_are_written() -> None:
