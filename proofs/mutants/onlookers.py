@@ -29,7 +29,9 @@ ONLOOKERS: Mapping[str, Witness] = {
         name: value
         for module in (services, services_of_nature, services_on_board)
         for name, value in vars(module).items()
-        if inspect.isfunction(value) and list(inspect.signature(value).parameters) == ["steps"]
+        if inspect.isfunction(value)
+        and not name.startswith("_")
+        and list(inspect.signature(value).parameters) == ["steps"]
     },
 }
 """Every witness by name: those that show what the system does, and those for the guards that safety does not need."""
