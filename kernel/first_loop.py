@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.names import Run, TagList
+from kernel.standstill import Standstill, is_held
 from kernel.tag_list import TagLists
 from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Order, Unit
 
@@ -104,15 +105,18 @@ def is_followed(lists: TagLists, unit: Unit, run: Run) -> bool:
     )
 
 
-def give_back(lists: TagLists, unit: Unit, run: Run, held_end_mm: int, start_end_mm: int) -> Unit:
-    """Give a run back that was recalled, once the brake keeps the train out of it (接近鎖錠; T9, T12).
+def give_back(lists: TagLists, unit: Unit, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int) -> Unit:
+    """Give a run back that was recalled, once the train stands and its brake keeps it out of it (接近鎖錠; T9, T12).
 
     ``held_end_mm``: the end of authority that the brake control holds.  ``start_end_mm``: where the block
-    that the run starts in ends, on the same kilometrage.  The train may still be moving: the head does
-    not pass the end that the brake holds.  The runs that lead on from this one are given back first.
+    that the run starts in ends, on the same kilometrage.  A train that still moves might brake worse than its
+    bounds, and beyond the place where it is to stop there may be no overlap any more.
+    The runs that lead on from this one are given back first.
     """
     order = unit.orders.get(run)
-    if order is None or not order.recalled or order.begun or held_end_mm > start_end_mm:
+    if order is None or not order.recalled or order.begun:
+        return unit
+    if not is_held(at) or held_end_mm > start_end_mm:
         return unit
     if is_followed(lists, unit, run):
         return unit

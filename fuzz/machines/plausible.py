@@ -11,7 +11,7 @@ from typing import Any
 
 from kernel.names import Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
 from models.simulator.messages import NO_ROUTE
-from models.simulator.senses import AT_REST, BROKEN, INSIDE, WHOLE
+from models.simulator.senses import AT_REST, BROKEN, INSIDE, NOT_HELD, WHOLE
 from models.world.state import Site, System
 
 Event = Mapping[str, Any]
@@ -86,12 +86,13 @@ def _requests(site: Site, system: System) -> Events:
 
 
 def _given_back(site: Site, system: System) -> Events:
-    """The brake holds the end before a recalled run, or one beyond it."""
+    """The train stands, or not, and its brake holds the end before a recalled run, or one beyond it."""
     for train in sorted(system.units):
         for run, order in sorted(system.units[train].orders.items()):
             if order.recalled:
-                yield {"run": run, "held_end_mm": 0, "start_end_mm": 0}
-                yield {"run": run, "held_end_mm": 1, "start_end_mm": 0}
+                yield {"run": run, "at": AT_REST, "held_end_mm": 0, "start_end_mm": 0}
+                yield {"run": run, "at": AT_REST, "held_end_mm": 1, "start_end_mm": 0}
+                yield {"run": run, "at": NOT_HELD, "held_end_mm": 0, "start_end_mm": 0}
 
 
 def _granted(site: Site, system: System) -> Events:

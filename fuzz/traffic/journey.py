@@ -67,9 +67,9 @@ from fuzz.traffic.places import (
     WAKE,
     WANTED,
 )
-from fuzz.traffic.senses import put_stopped
+from fuzz.traffic.senses import put_standing, put_stopped
 from fuzz.traffic.standing import AFRESH, accounted, adopt_points, tell
-from fuzz.traffic.steps import put3, route_of, set_train, take1, take_beyond, train_word
+from fuzz.traffic.steps import route_of, set_train, take1, take_beyond, train_word
 from fuzz.traffic.tables import (
     CANCEL,
     COME_TO_REST,
@@ -263,7 +263,7 @@ def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
         take1(memory, desk, CANCEL, run)
         take1(memory, desk, SEND_RECALL, run)
         take1(memory, desk, RECALL, run)
-        put3(memory, desk, run, 0, 0)
+        put_standing(memory, desk[EVENT], run, 1, 0, 0)
         desk[BY] = FALSELY_SHORT
         take_beyond(memory, desk, GIVE_BACK)
         take1(memory, desk, SEND_RETURN, run)

@@ -45,7 +45,7 @@ from fuzz.traffic.places import (
     UNITS_PERMITTED,
     UNITS_TAG_LIST,
 )
-from fuzz.traffic.senses import put_stopped
+from fuzz.traffic.senses import put_standing, put_stopped
 from fuzz.traffic.steps import (
     list_of,
     put2,
@@ -250,9 +250,9 @@ def ask_back(memory_at: Any, desk_at: Any, train: Any, run: Any, short: Any) -> 
     memory[desk[EVENT]] = run
     arrive(memory, desk, RECALL, train)
     if not short or strikes(desk, DOUBT, train):
-        put3(memory, desk, run, 1, 0)
+        put_standing(memory, desk[EVENT], run, 1, 1, 0)
     else:
-        put3(memory, desk, run, 0, 0)
+        put_standing(memory, desk[EVENT], run, 0 if strikes(desk, DOUBT, train) else 1, 0, 0)
     take(memory, desk, GIVE_BACK)
     take1(memory, desk, SEND_RETURN, run)
     memory[desk[EVENT]] = run

@@ -26,9 +26,15 @@ def put_line(memory: Any, at: Any, healthy: Any) -> None:
 
 
 @compiled
-def put_stopped(memory: Any, desk_event: Any, run: Any, known: Any) -> None:
-    """Write the event that a train stands with its front inside its destination, as far as it knows its place."""
+def put_standing(memory: Any, desk_event: Any, run: Any, known: Any, first_mm: Any, second_mm: Any) -> None:
+    """Write an event of a train that stands, as far as it knows its place, with two places that it is told."""
     memory[desk_event] = run
     put_standstill(memory, desk_event + 1, known)
-    memory[desk_event + 1 + STANDSTILL_WORDS] = 0
-    memory[desk_event + 2 + STANDSTILL_WORDS] = 0
+    memory[desk_event + 1 + STANDSTILL_WORDS] = first_mm
+    memory[desk_event + 2 + STANDSTILL_WORDS] = second_mm
+
+
+@compiled
+def put_stopped(memory: Any, desk_event: Any, run: Any, known: Any) -> None:
+    """Write the event that a train stands with its front inside its destination, as far as it knows its place."""
+    put_standing(memory, desk_event, run, known, 0, 0)

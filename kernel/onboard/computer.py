@@ -49,7 +49,7 @@ class Computer:
     """What the computer remembers.
 
     ``known``: what its machines know at the end of the newest cycle.
-    ``before``: what the odometry knew a cycle earlier.
+    ``before``: what the odometry knew a cycle earlier; it claims nothing once the train has been located anew.
     ``way_began``: where the front was when the way to the awaited tag began.
     ``brake``: what the brake control knows.
     """
@@ -72,7 +72,7 @@ def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
             wholeness=split.made_up(limits.split),
             window=NONE_AWAITED,
         ),
-        before=motion,
+        before=odometry.past(motion),
         way_began=UNKNOWN,
         brake=braking.stand_still(most_mm),
     )
@@ -154,7 +154,12 @@ def fix(limits: Limits, computer: Computer, place_mm: int) -> Fix:
 
 
 def take_fix(limits: Limits, computer: Computer, place_mm: int) -> Computer:
-    """Narrow the range by such a tag (P7)."""
+    """Narrow the range by such a tag (P7).
+
+    One that was read before the train was located says nothing any more: it has run on since, by who knows how much.
+    """
+    if not place_of_read(computer).known:
+        return computer
     found = fix(limits, computer, place_mm)
     motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
     return replace(computer, known=replace(computer.known, motion=motion))
@@ -191,7 +196,8 @@ def withhold_end(computer: Computer) -> Computer:
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
 
-    What was found of motors, brake and wholeness stays.
+    What was found of motors, brake and wholeness stays.  Restrictions lay on the kilometrage of before: until the next
+    tag all of them hold.
     """
     if not is_braked(standstill(limits, computer)):
         return computer
@@ -202,9 +208,10 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
             motion=motion,
             watch=replace(watch, limit_mm_s=0),
             movement=LOCATED,
+            limit=NO_TRACK_KNOWN,
             window=NONE_AWAITED,
         ),
-        before=motion,
+        before=odometry.past(motion),
         way_began=UNKNOWN,
         brake=braking.stand_still(most_mm),
     )

@@ -84,6 +84,8 @@ class Loss(Enum):
     """The processor's clock did not go on by one cycle."""
     CONTRADICTED = 2
     """A fix lay outside the range: some sensor or tag is worse than its bound."""
+    LOCATED_ANEW = 3
+    """The train was located anew since: what was known before says nothing of where it is on the new kilometrage."""
 
 
 @dataclass(frozen=True)
@@ -130,6 +132,11 @@ def located(least_mm: int, most_mm: int, way_mm: int) -> Motion:
         gradient_mm_s2=0,
         loss=Loss.NONE,
     )
+
+
+def past(motion: Motion) -> Motion:
+    """Give what was known a cycle ago of a train that has been located anew since: nothing is claimed by it (P7)."""
+    return replace(motion, loss=Loss.LOCATED_ANEW)
 
 
 def is_located(motion: Motion) -> bool:

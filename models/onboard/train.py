@@ -136,11 +136,14 @@ def read_a_tag(site: Train, system: Whole, place_mm: int, lies_nm: int, read_at_
         return system
     if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
         return system
+    told = computer.take_fix(site.limits, system.computer, place_mm)
+    if told == system.computer:
+        return system
     fix = computer.fix(site.limits, system.computer, place_mm)
     return replace(
         system,
         running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
-        computer=computer.take_fix(site.limits, system.computer, place_mm),
+        computer=told,
     )
 
 
@@ -204,7 +207,6 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
     """Each world begins anew with its computer: the train stands, held, with its front in this range."""
     return replace(
         system,
-        from_um_s=system.speed_um_s,
         running=odometry.locate_anew(
             line(site), running(system), least_mm, most_mm, system.computer.known.motion.way_mm
         ),

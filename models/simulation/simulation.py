@@ -74,7 +74,7 @@ class Simulation:
         ]
         self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
-        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._sensed, self._held_before)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._sensed, self._asked_for)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
         roads = [WaysToRoad(self.rails, road) for road in plan.roads]
@@ -127,8 +127,8 @@ class Simulation:
         vehicle = self.services[train].vehicle
         return vehicle.board.standstill, vehicle.board.line(vehicle.line_answers(self.line.now_ms))
 
-    def _held_before(self, run: Run) -> tuple[int, int] | None:
-        return self.services[run.train].held_before(run)
+    def _asked_for(self, run: Run) -> tuple[Standstill, int, int] | None:
+        return self.services[run.train].asked_for(run)
 
     # ---- a second
 

@@ -12,7 +12,7 @@ from typing import Any
 from kernel.centre import Grant
 from kernel.link import Party
 from kernel.names import Block, Epoch, Point, Run, Serial, Stage, Train
-from kernel.standstill import Standstill, ThroughLine
+from kernel.standstill import Standstill, ThroughLine, is_held
 from models.simulation.links import CENTRE, Links
 from models.simulation.motors import Motors
 from models.simulation.parts import Joined, in_parts
@@ -24,8 +24,8 @@ MayAnswer = Callable[[Train], bool]
 """Whether a train is to tell where it stands."""
 Sensed = Callable[[Train], tuple[Standstill, ThroughLine]]
 """What odometry, line and the machines on board say of a train's standstill and of the way to its tail."""
-HeldBefore = Callable[[Run], tuple[int, int] | None]
-"""Which end the brake of a run's train holds, and where the block ends that the run starts in."""
+AskedFor = Callable[[Run], tuple[Standstill, int, int] | None]
+"""How a run's train stands, which end its brake holds, and where the block ends that the run starts in."""
 
 STEPS: Mapping[str, str] = {
     "relayed life": "note_terminal_life",
@@ -42,14 +42,14 @@ class Talk:
     """The conversations of every train."""
 
     def __init__(
-        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, sensed: Sensed, held_before: HeldBefore
+        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, sensed: Sensed, asked_for: AskedFor
     ) -> None:
         self.play = play
         self.links = links
         self.motors = motors
         self.may_answer = may_answer
         self.sensed = sensed
-        self.held_before = held_before
+        self.asked_for = asked_for
         self._offered, self._echoed = Joined(), Joined()
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
         self._acts: Mapping[str, Callable[[Train, Fields], object]] = {
@@ -175,7 +175,7 @@ class Talk:
             self.with_train(train)
 
     def _recall(self, run: Run) -> None:
-        """The centre wants the run back; the train gives it back once its brake holds the end before it (T9)."""
+        """The centre wants the run back; the train gives it back at rest, its brake holding the end before it (T9)."""
         play, order = self.play, self.play.system.units[run.train].orders.get(run)
         play.take("send_recall", run=run)
         if order is None:
@@ -189,12 +189,13 @@ class Talk:
 
     def _gives_back(self, run: Run) -> None:
         """The unit asks its brake control; what the brake lets the train into no more it does not roll into."""
-        held = self.held_before(run)
-        if held is None:
+        said = self.asked_for(run)
+        if said is None:
             return
-        if held[0] <= held[1]:
+        at, held_end_mm, start_end_mm = said
+        if is_held(at) and held_end_mm <= start_end_mm:
             self.play.take("come_to_rest", run=run)
-        self.play.take("give_back", run=run, held_end_mm=held[0], start_end_mm=held[1])
+        self.play.take("give_back", run=run, at=at, held_end_mm=held_end_mm, start_end_mm=start_end_mm)
 
     def _is_offered(self, train: Train, fields: Fields) -> None:
         """The unit keeps the list as it came; where it comes in parts, once it has them all (T4)."""

@@ -9,6 +9,7 @@ from random import Random
 from kernel.names import Block, Route, Run, Stage
 from models.simulator import messages
 from models.simulator.play import Play
+from models.simulator.senses import AT_REST
 from models.simulator.train import OnTrack, front_passes, rear_must_follow, rear_passes
 
 
@@ -143,7 +144,7 @@ class Journey:
         play.take("cancel", run=run)
         play.take("send_recall", run=run)
         play.take("recall", run=run)
-        play.take("give_back", run=run, held_end_mm=0, start_end_mm=0)
+        play.take("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
         play.take("send_return", run=run)
         given = play.take("note_given_back", run=run)
         messages.retire_what_is_over(play, self.train.train)

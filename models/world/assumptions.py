@@ -15,6 +15,7 @@ from models.world.truth import (
     is_genuine,
     is_last,
     its_front_leads,
+    keeps_before,
     reads_both_first,
     says_it_is_held,
     says_it_stands_between,
@@ -117,20 +118,13 @@ def a_healthy_line_reaches_the_tail(
 
 
 def a_head_runs_no_farther_than_its_brake_lets_it(
-    system: System, run: Run, held_end_mm: int, start_end_mm: int
+    system: System, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int
 ) -> bool:
-    """While the brake holds an end no farther than the run's start block ends, the train keeps out of what follows.
+    """A train at rest keeps out of what lies beyond the end that its brake holds, and that holds it there.
 
-    It does not roll into it, and no car is in a block that it came into under this run.  The joint proves it.
+    Nothing is assumed of one that moves: it may brake worse than its bounds.  The joint proves what is said of the end.
     """
-    return held_end_mm > start_end_mm or (
-        run not in system.track.rolling
-        and all(
-            other != run or block not in system.track.at.get(car, frozenset())
-            for car in system.track.under
-            for block, other in system.track.under[car].items()
-        )
-    )
+    return not says_it_is_held(at) or keeps_before(system, run, held_end_mm, start_end_mm)
 
 
 def a_train_within_its_destination_is_not_beyond(

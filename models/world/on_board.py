@@ -58,13 +58,13 @@ def recall(site: Site, system: System, run: Run) -> System:
     return with_unit(system, run.train, first_loop.recall(system.units[run.train], run))
 
 
-def give_back(site: Site, system: System, run: Run, held_end_mm: int, start_end_mm: int) -> System:
+def give_back(site: Site, system: System, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int) -> System:
     """The brake control tells which end of authority it holds, and the list where the run's start block ends (T9)."""
     if run.train not in system.units:
         return system
-    if not a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm):
+    if not a_head_runs_no_farther_than_its_brake_lets_it(system, run, at, held_end_mm, start_end_mm):
         return system
-    unit = first_loop.give_back(site.lists, system.units[run.train], run, held_end_mm, start_end_mm)
+    unit = first_loop.give_back(site.lists, system.units[run.train], run, at, held_end_mm, start_end_mm)
     return with_unit(system, run.train, unit)
 
 

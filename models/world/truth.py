@@ -51,6 +51,21 @@ def stands_within(site: Site, system: System, train: Train, blocks: frozenset[Bl
     )
 
 
+def keeps_before(system: System, run: Run, held_end_mm: int, start_end_mm: int) -> bool:
+    """Held to an end no farther than a run's start block ends, the train neither rolls in that run nor is in it.
+
+    It is in it with any car that is in a block which it came into under this run.
+    """
+    return held_end_mm > start_end_mm or (
+        run not in system.track.rolling
+        and all(
+            other != run or block not in system.track.at.get(car, frozenset())
+            for car in system.track.under
+            for block, other in system.track.under[car].items()
+        )
+    )
+
+
 def says_it_stands(at: Standstill) -> bool:
     """The odometry claims a range of speed that is a standstill."""
     return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s

@@ -110,7 +110,7 @@ def a_run_is_given_back_only_when_asked_for(steps: Steps) -> Scenario:
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     scenario.refuses("recall", run=run)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     return scenario
 
 
@@ -150,7 +150,7 @@ def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Sce
     scenario.does("recall", run=run)
     running.roll(scenario, again)
     running.head_passes(scenario, again, WEST, THROAT)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     scenario.refuses("start_rolling", run=run)
     return scenario
 

@@ -20,7 +20,8 @@ from models.onboard.joint import (
     the_unit_goes_by_the_centres_list,
     unit_changes,
 )
-from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it, a_train_obeys_its_authority
+from models.world.assumptions import a_train_obeys_its_authority
+from models.world.truth import keeps_before
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -67,7 +68,7 @@ def a_train_keeps_out_of_what_its_brake_holds_it_from(site: Survey, system: Join
     """While a brake holds an end before a run's blocks its train neither is in them nor rolls there (T9, T12)."""
     return all(
         run.train in system.brake
-        and a_head_runs_no_farther_than_its_brake_lets_it(
+        and keeps_before(
             system.system,
             run,
             system.brake[run.train].end_mm,

@@ -53,10 +53,9 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and not system.watched.watch.broken
         and not system.watched.too_fast
         and system.watched.kept
-        and system.from_um_s == 0
         and system.computer.known.motion == system.running.motion
         and system.computer.known.watch == system.watched.watch
-        and system.computer.before == system.running.motion
+        and system.computer.before.loss == Loss.LOCATED_ANEW
         and system.computer.brake == system.approach.brake
     )
 
@@ -154,15 +153,16 @@ def no_fix_was_false(site: Train, system: Whole) -> bool:
 
 
 def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
-    """A range that is claimed was claimed a cycle ago, and the speed was in its range then (P1, P7)."""
+    """If a range is claimed, and was a cycle ago, the speed was in its range then (P1, P7).
+
+    What was claimed then is claimed no more once the train has been located anew.
+    """
     then = system.computer.before
     return (
         system.runs
         or system.computer.known.motion.loss != Loss.NONE
-        or (
-            then.loss == Loss.NONE
-            and UM_A_MM * then.speed_least_mm_s <= system.from_um_s <= UM_A_MM * then.speed_most_mm_s
-        )
+        or then.loss != Loss.NONE
+        or UM_A_MM * then.speed_least_mm_s <= system.from_um_s <= UM_A_MM * then.speed_most_mm_s
     )
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from kernel.cancellation import asks_back
 from kernel.first_loop import is_followed
 from kernel.names import Run
+from kernel.standstill import Standstill
 from models.world import at_the_centre, on_board, radio
 from models.world.assumptions import a_head_runs_no_farther_than_its_brake_lets_it
 from models.world.state import Site, System
+from models.world.truth import says_it_is_held
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import can_be_told, lives, order_of
 
@@ -50,11 +52,14 @@ def it_is_recalled(site: Site, system: System, run: Run) -> bool:
     return order is not None and order.recalled
 
 
-def its_brake_keeps_it_out(site: Site, system: System, run: Run, held_end_mm: int, start_end_mm: int) -> bool:
-    """The brake holds an end before the run's blocks, the train is out of them, and no later run leads on."""
+def its_brake_keeps_it_out(
+    site: Site, system: System, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int
+) -> bool:
+    """The train stands, its brake holds it and an end before the run's blocks, and no later run leads on."""
     return (
-        held_end_mm <= start_end_mm
-        and a_head_runs_no_farther_than_its_brake_lets_it(system, run, held_end_mm, start_end_mm)
+        says_it_is_held(at)
+        and held_end_mm <= start_end_mm
+        and a_head_runs_no_farther_than_its_brake_lets_it(system, run, at, held_end_mm, start_end_mm)
         and run.train in system.units
         and not is_followed(site.lists, system.units[run.train], run)
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.names import Run, Stage
 from kernel.refusal import Refusal
+from models.simulator.senses import AT_REST
 from proofs.witnesses.restarts import restart_centre_now
 from proofs.witnesses.running import (
     everything_is_free,
@@ -109,7 +110,7 @@ def _a_run_is_cancelled(scenario: Scenario, second: Run) -> None:
     run = set_route(scenario, T2, TWO_TO_WEST, second)
     roll(scenario, run)
     recall(scenario, run)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     scenario.refuses("send_permit", run=next_run(scenario, T2, TWO_TO_WEST))
     rest(scenario, run)
     holds(scenario, THROAT, run)

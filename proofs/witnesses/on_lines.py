@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from kernel.names import Block, Epoch, Run, Stage, UnitLife
 from kernel.refusal import Refusal
-from models.simulator.senses import INSIDE
+from models.simulator.senses import AT_REST, INSIDE, ROLLING
 from models.world.state import System
 from proofs.witnesses.changes import came
 from proofs.witnesses.lines import LINES, Line, Loop, boundaries, line_on, released
@@ -230,20 +230,24 @@ def a_read_from_before_two_turns_pairs_with_nothing(scenario: Scenario, line: Li
 
 
 def a_train_that_rolls_in_gives_nothing_back(scenario: Scenario, line: Line) -> None:
-    """Asked for a run that its brake no longer keeps it out of, a train keeps it, and the blocks stay its own (T9)."""
+    """Asked for a run that its brake no longer keeps it out of, a train keeps it, and the blocks stay its own (T9).
+
+    It keeps it too while it moves, though its brake holds the end before it: it may brake too late.
+    """
     standing, _ = ready(scenario)
     there = line.blocks(line.out)
     run = set_route(scenario, T1, line.out, standing)
     roll(scenario, run)
     recall(scenario, run)
     scenario.does("recall", {"units": {T1: {"orders": {run: {"recalled": True}}}}}, run=run)
-    scenario.refuses("give_back", run=run, held_end_mm=1, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=1, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=ROLLING, held_end_mm=0, start_end_mm=0)
     scenario.refuses("send_return", run=run)
     scenario.refuses("note_given_back", run=run)
     holds(scenario, there[1], run)
     head_passes(scenario, run, there[0], there[1])
     rest(scenario, run)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
 
 
 def a_run_that_another_leads_on_from_is_asked_back_last(scenario: Scenario, line: Line) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.names import Cause, Run, Stage
 from kernel.refusal import Refusal
+from models.simulator.senses import AT_REST
 from proofs.witnesses.running import (
     enters,
     everything_is_free,
@@ -280,7 +281,7 @@ def the_nearer_of_two_runs_is_not_given_back_first(steps: Steps) -> Scenario:
     scenario.does("recall", run=run)
     other = set_route(scenario, T1, WEST_TO_EAST, runs[T1])
     onward = set_route(scenario, T1, ONE_TO_EAST, other)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     recall(scenario, onward)
     return_it(scenario, onward)
     give_back(scenario, run)
@@ -295,13 +296,13 @@ def a_train_on_its_way_keeps_its_run(steps: Steps) -> Scenario:
     recall(scenario, run)
     scenario.refuses("send_permit", run=next_run(scenario, T1, WEST_TO_ONE))
     scenario.does("recall", {"units": {T1: {"orders": {run: {"recalled": True}}}}}, run=run)
-    scenario.refuses("give_back", run=run, held_end_mm=1, start_end_mm=0)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=1, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     scenario.refuses("start_rolling", run=run)
     head_passes(scenario, run, WEST, THROAT)
     rest(scenario, run)
     scenario.refuses("recall", run=run)
-    scenario.refuses("give_back", run=run, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
     scenario.refuses("send_return", run=run)
     scenario.refuses("note_given_back", run=run)
     at_stage(scenario, run, Stage.SET)

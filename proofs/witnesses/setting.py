@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.centre import Grant
 from kernel.names import Block, Cause, Point, Route, Run, Stage, TagList, Train
 from kernel.unit import Order
+from models.simulator.senses import AT_REST
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
 from proofs.witnesses.telling import confirm, next_run
@@ -165,9 +166,9 @@ def return_it(scenario: Scenario, run: Run) -> None:
 
 def give_back(scenario: Scenario, run: Run) -> None:
     """The brake holds the end of the block that the run starts in, and the train gives the run back."""
-    scenario.refuses("give_back", run=run, held_end_mm=100_001, start_end_mm=100_000)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=100_001, start_end_mm=100_000)
     given = {"units": {run.train: {"orders": {run: {"given_back": True}}}}}
-    scenario.does("give_back", given, run=run, held_end_mm=100_000, start_end_mm=100_000)
+    scenario.does("give_back", given, run=run, at=AT_REST, held_end_mm=100_000, start_end_mm=100_000)
 
 
 def freed(scenario: Scenario, run: Run, cause: Cause) -> Changes:

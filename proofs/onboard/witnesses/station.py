@@ -16,6 +16,7 @@ from kernel.onboard.braking import Brake, BrakeBounds, supervise
 from kernel.onboard.odometry import Loss, Motion
 from kernel.unit import Evidence, Order, Unit
 from models.onboard.joint import Joint, Survey
+from models.simulator.senses import AT_REST
 from proofs.onboard.joint import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.witnesses.stations import (
@@ -195,7 +196,7 @@ class Station(Play[Survey, Joint]):
         """The unit gives the run back if it may, by what the brake holds; say whether it then says so."""
         ends_mm, start = self.system.block_ends_mm[run], self.site.site.layout.start[run.route]
         held_mm = self.system.brake[T1].end_mm
-        self.changes(first_loop.give_back(self.site.site.lists, self.unit(), run, held_mm, ends_mm[start]))
+        self.changes(first_loop.give_back(self.site.site.lists, self.unit(), run, AT_REST, held_mm, ends_mm[start]))
         return first_loop.acknowledges_back(self.unit(), run)
 
 

@@ -10,7 +10,8 @@ from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.computer import Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement, ReverseLimits
-from kernel.onboard.speed_limit import SpeedTable
+from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
+from kernel.onboard.speed_limit import SpeedLimit, SpeedTable
 from kernel.onboard.split import Acceleration, SplitLimits
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
@@ -61,7 +62,7 @@ def at_rest() -> Whole:
         running=AT_POWER_ON,
         approach=Approach(front_nm, 0, 0, 0, front_nm, 0, False, False, begun.brake, False, 0),
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
-        computer=replace(begun, known=known, before=motion),
+        computer=replace(begun, known=known, before=odometry.past(motion)),
     )
 
 
@@ -223,6 +224,7 @@ def a_train_located_anew_begins_as_at_the_start() -> None:
         ride.system.computer.known,
         watch=replace(ride.system.computer.known.watch, limit_mm_s=9),
         movement=Movement(furthest_mm=9, reversed=False),
+        limit=SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=9, turnout_until_mm=9),
         window=Window(expected=True, least_mm=1, most_mm=2, passed=False),
     )
     way = Way(True, 1, 2)
@@ -239,10 +241,37 @@ def a_train_located_anew_begins_as_at_the_start() -> None:
     assert anew.brake == braking.stand_still(front_mm + 2_000)
     assert anew.way_began == UNKNOWN
     assert anew.known.movement == LOCATED
+    assert anew.known.limit == NO_TRACK_KNOWN
     assert anew.known.window == NONE_AWAITED
-    assert anew.before == anew.known.motion
+    assert anew.before == odometry.past(anew.known.motion)
     assert not ride.system.approach.wanted
     assert the_train_stands_held_by_its_brake(SITE, ride.system)
+
+
+def a_tag_told_after_the_train_was_located_anew_says_nothing() -> None:
+    """It was read before, and nobody knows how far the train has run since; the next one counts (P7, T2)."""
+    ride = Ride()
+    ride.start()
+    ride.gather(3_000)
+    ride.step("withhold_end")
+    ride.stop()
+    for _ in range(5):
+        ride.cycle(0, may_proceed=False)
+    front_nm = ride.system.front_nm
+    front_mm = front_nm // NM_A_MM
+    tag = {
+        "place_mm": front_mm - 4_000,
+        "lies_nm": front_nm - 4_000 * NM_A_MM,
+        "read_at_nm": front_nm,
+    }
+    ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
+    located = ride.system
+    ride.step("read_a_tag", **tag)
+    assert ride.system == located
+    ride.cycle(0)
+    ride.step("read_a_tag", **tag)
+    narrowed = ride.system.computer.known.motion
+    assert narrowed.front_most_mm - narrowed.front_least_mm < 4_000
 
 
 def a_train_whose_brake_has_yet_to_hold_it_is_not_located() -> None:
@@ -287,7 +316,8 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     ride.step("put_into_service", least_mm=least_mm, most_mm=most_mm)
     assert the_train_stands_held_by_its_brake(SITE, ride.system)
     begun = ride.system.computer
-    assert begun.known.motion == begun.before == odometry.located(least_mm, most_mm, 0)
+    assert begun.known.motion == odometry.located(least_mm, most_mm, 0)
+    assert begun.before == odometry.past(begun.known.motion)
     assert (begun.known.watch.limit_mm_s, begun.known.watch.cycles, begun.known.watch.broken) == (0, 0, False)
     assert begun.known.movement == LOCATED
     assert begun.known.wholeness == split.made_up(LIMITS.split)
@@ -352,6 +382,7 @@ WITNESSES = (
     an_end_is_withheld_at_any_moment,
     a_cycle_is_run_and_sensed_in_turn,
     a_train_located_anew_begins_as_at_the_start,
+    a_tag_told_after_the_train_was_located_anew_says_nothing,
     a_train_whose_brake_has_yet_to_hold_it_is_not_located,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
     a_released_brake_counts_no_cycle,

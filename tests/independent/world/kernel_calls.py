@@ -279,13 +279,20 @@ class Calls:
         """Note that a run is wanted back; it is given back when the brake holds the nearer end."""
         board.unit = first_loop.recall(board.unit, run)
 
-    def give_back(self, board: Board) -> None:
-        """Give back what is wanted and what the brake keeps the train out of, the last runs first."""
-        wanted = [run for run, order in board.unit.orders.items() if order.recalled and not order.given_back]
+    def give_back(self, board: Board, sight: Sight) -> None:
+        """Give back, at rest, what is wanted and what the brake keeps the train out of, the last runs first."""
+        wanted = [
+            run for run, order in board.unit.orders.items() if order.recalled and not (order.begun or order.given_back)
+        ]
+        if wanted:
+            board.brake = put_on(board.brake, sight)
+            self.obey(board, sight)
         for run in sorted(wanted, reverse=True):
             if run in board.ends_mm:
                 start_end_mm = board.ends_mm[run][self.layout.start[run.route]]
-                board.unit = first_loop.give_back(self.lists, board.unit, run, board.brake.end_mm, start_end_mm)
+                board.unit = first_loop.give_back(
+                    self.lists, board.unit, run, standstill(sight), board.brake.end_mm, start_end_mm
+                )
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
@@ -363,7 +370,7 @@ class Calls:
         self.look_up(board, sight)
         self.obey(board, sight)
         before = board.unit
-        self.give_back(board)
+        self.give_back(board, sight)
         if board.unit is not before:
             self.obey(board, sight)
 
