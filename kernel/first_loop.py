@@ -110,13 +110,13 @@ def give_back(lists: TagLists, unit: Unit, run: Run, at: Standstill, held_end_mm
 
     ``held_end_mm``: the end of authority that the brake control holds.  ``start_end_mm``: where the block
     that the run starts in ends, on the same kilometrage.  A train that still moves might brake worse than its
-    bounds, and beyond the place where it is to stop there may be no overlap any more.
-    The runs that lead on from this one are given back first.
+    bounds, and beyond the place where it is to stop there may be no overlap any more; one whose front may be past
+    that place has done so.  The runs that lead on from this one are given back first.
     """
     order = unit.orders.get(run)
     if order is None or not order.recalled or order.begun:
         return unit
-    if not is_held(at) or held_end_mm > start_end_mm:
+    if not is_held(at) or held_end_mm > start_end_mm or at.front_most_mm > start_end_mm:
         return unit
     if is_followed(lists, unit, run):
         return unit

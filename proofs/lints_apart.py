@@ -53,6 +53,9 @@ WORDS: Mapping[str, str] = {
 """Functions of the kernel that are mere words of arithmetic and decide nothing; what they say."""
 
 READINGS: Mapping[str, str] = {
+    "obey_order.is_detected": "whether a contact of the point's detector is made",
+    "lock.is_detected": "the same",
+    "send_confirmation.is_detected": "the same",
     "head_reads.in_window": "what the unit's own window of expectation says; any is allowed for",
     "braking.run_a_cycle.acknowledged": "a button that the driver presses",
     "braking.run_a_cycle.demanded": "what other machines of the unit demand; any is allowed for",

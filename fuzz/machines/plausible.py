@@ -65,7 +65,8 @@ def _messages(site: Site, system: System, step: str) -> Events:
     for message in sorted(getattr(system.radio, kind), key=repr):
         event = dict(zip(names, message if len(names) > 1 else (message,), strict=True))
         if step == "obey_order":
-            event["detected"] = system.track.lies[event["point"]]
+            event |= {"detected": system.track.lies[event["point"]], "is_detected": True}
+            yield event | {"is_detected": False}
         elif step == "take_offer":
             event["tag_list"] = site.layout.tag_list[event["run"].route]
         elif step in ("note_standing", "note_statement_confirmed"):
@@ -154,7 +155,7 @@ def _confirmations(site: Site, system: System) -> Events:
     for point, terminal in sorted(system.terminals.items()):
         if terminal.holds is not None:
             lies = system.track.lies[point]
-            yield {"run": terminal.holds, "point": point, "position": lies, "detected": lies}
+            yield {"run": terminal.holds, "point": point, "position": lies, "detected": lies, "is_detected": True}
 
 
 def _positions(site: Site, system: System) -> Events:
@@ -168,7 +169,7 @@ def _positions(site: Site, system: System) -> Events:
 
 def _locks(site: Site, system: System) -> Events:
     for point in sorted(system.terminals):
-        yield {"point": point, "detected": system.track.lies[point]}
+        yield {"point": point, "detected": system.track.lies[point], "is_detected": True}
 
 
 def _points(site: Site, system: System) -> Events:

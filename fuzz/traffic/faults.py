@@ -118,6 +118,7 @@ WITHIN: tuple[Fault, ...] = (
         "slip into the overlap", "A train brakes too late and slips, inside its overlap.", "stop", uniform(0.05, 0.8)
     ),
     Fault("late point detection", "The contacts show the new position only later.", "order", uniform(0.05, 0.8)),
+    Fault("no point detection", "The contacts show nothing as an order comes.", "order", uniform(0.05, 0.8)),
     Fault("point does not move", "The motor does not reach the position.", "order", log_uniform(0.01, 0.5)),
     Fault("point drifts", "An unlocked point moves by itself.", "second", log_uniform(1e-3, 0.1)),
     Fault(

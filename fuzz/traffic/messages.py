@@ -51,12 +51,12 @@ from fuzz.traffic.steps import (
     put2,
     put3,
     put4,
+    put5,
     route_of,
     take,
     take1,
     take2,
     take3,
-    take4,
     take_beyond,
 )
 from fuzz.traffic.tables import (
@@ -97,6 +97,7 @@ NO_RUN = -1
 MIXED_UP = number("lists mixed up")
 DOUBT = number("place not known")
 STUCK, LATE_CONTACTS = number("point does not move"), number("late point detection")
+NO_CONTACTS = number("no point detection")
 FALSE_CONTACTS = number("false point detection")
 
 
@@ -151,7 +152,8 @@ def confirm(memory_at: Any, desk_at: Any, train: Any, run: Any, point: Any) -> A
     """The terminal's word for a run goes out and on to the centre."""
     memory, desk = both(memory_at, desk_at)
     lies = get1(memory, desk, TRACK_LIES_VALUE, point)
-    take4(memory, desk, SEND_CONFIRMATION, run, point, lies, lies)
+    put5(memory, desk, run, point, lies, lies, 1)
+    take(memory, desk, SEND_CONFIRMATION)
     put3(memory, desk, run, point, lies)
     arrive(memory, desk, RELAY_CONFIRMATION, train)
     return 0
@@ -168,18 +170,18 @@ def throw(memory: Any, desk: Any, train: Any, point: Any, wanted: Any) -> None:
         return
     take2(memory, desk, DRIFT, point, wanted)
     if not strikes(desk, LATE_CONTACTS, train):
-        take2(memory, desk, LOCK, point, wanted)
+        take3(memory, desk, LOCK, point, wanted, 1)
 
 
 @compiled
 def lay_falsely(memory: Any, desk: Any, train: Any, run: Any, point: Any, wanted: Any) -> None:
     """Contacts that lie: the point is taken for laid, locked and confirmed as it is."""
-    put4(memory, desk, run, point, get1(memory, desk, TERMINALS_LIFE, point), wanted)
+    put5(memory, desk, run, point, get1(memory, desk, TERMINALS_LIFE, point), wanted, 1)
     take_beyond(memory, desk, OBEY_ORDER)
     if get1(memory, desk, TERMINALS_UNLOCKED, point) == 1:
-        put2(memory, desk, point, wanted)
+        put3(memory, desk, point, wanted, 1)
         take_beyond(memory, desk, LOCK)
-    put4(memory, desk, run, point, wanted, wanted)
+    put5(memory, desk, run, point, wanted, wanted, 1)
     take_beyond(memory, desk, SEND_CONFIRMATION)
     put3(memory, desk, run, point, wanted)
     take(memory, desk, RELAY_CONFIRMATION)
@@ -197,7 +199,7 @@ def lay(memory_at: Any, desk_at: Any, train: Any, run: Any, point: Any) -> Any:
     if lies != wanted and strikes(desk, FALSE_CONTACTS, train):
         lay_falsely(memory, desk, train, run, point, wanted)
     else:
-        put4(memory, desk, run, point, life, lies)
+        put5(memory, desk, run, point, life, lies, 0 if strikes(desk, NO_CONTACTS, train) else 1)
         arrive(memory, desk, OBEY_ORDER, train)
         throw(memory, desk, train, point, wanted)
         confirm(memory, desk, train, run, point)

@@ -220,6 +220,13 @@ def put4(memory: Any, desk: Any, first: Any, second: Any, third: Any, fourth: An
 
 
 @compiled
+def put5(memory: Any, desk: Any, first: Any, second: Any, third: Any, fourth: Any, fifth: Any) -> None:
+    """Write an event of five words."""
+    put4(memory, desk, first, second, third, fourth)
+    memory[desk[EVENT] + 4] = fifth
+
+
+@compiled
 def take2(memory: Any, desk: Any, kind: Any, first: Any, second: Any) -> Any:
     """Take a step whose event is two words."""
     put2(memory, desk, first, second)

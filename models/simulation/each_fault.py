@@ -118,7 +118,7 @@ def _tried(plan: Plan, name: str, way_out: str) -> Row:
         train for train, each in sim.services.items() if each.phase is Phase.LOST and sim.now_s - each.since_s > STUCK_S
     ]
     broken = "; ".join(f"{each.oracle}: {each.text}" for each in sim.oracles.found[:1])
-    counted = sim.diary.faults + sim.line.seen + sim.air.seen
+    counted = sim.diary.faults + sim.line.seen + sim.air.seen + sim.motors.seen
     return Row(
         fault=name,
         came=counted[name],

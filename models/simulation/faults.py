@@ -17,7 +17,7 @@ from typing import Any, Literal
 from models.layouts.results import BadInput
 from models.simulation.tables import number_of, tables_of
 
-Per = Literal["telegram", "tag", "train hour", "point hour", "crossing hour", "hour"]
+Per = Literal["telegram", "tag", "order", "train hour", "point hour", "crossing hour", "hour"]
 MOST_TIMES = 1_000
 
 
@@ -42,7 +42,7 @@ class Fault:
     @property
     def is_share(self) -> bool:
         """Whether the rate is a chance each time; such a fault has no times of its own."""
-        return self.per in ("telegram", "tag")
+        return self.per in ("telegram", "tag", "order")
 
 
 TELLS_ANEW = "it brakes, tells at rest in a new life where it stands, and goes on by the rest of its route"
@@ -105,6 +105,10 @@ FAULTS: tuple[Fault, ...] = (
         "the centre hears its new life and orders again",
     ),
     Fault(
+        "point_undetected", "the contacts of a point show nothing as an order comes", "order", 0.05, "s", 0, 0,
+        "a locked point stays locked, and the order comes again",
+    ),
+    Fault(
         "point_stuck", "a point does not reach its position", "point hour", 0.1, "s", 10, 120,
         "it moves when it is freed; the route is set later, or withdrawn",
     ),
@@ -147,7 +151,7 @@ NO_FAULT: Chosen = {}
 
 
 def happens(fault: str, chosen: Chosen, random: Random, seen: Counter[str]) -> bool:
-    """Draw whether a fault of single telegrams or tags comes now, if it is chosen, and count it."""
+    """Draw whether a fault of single telegrams, tags or orders comes now, if it is chosen, and count it."""
     so = fault in chosen and random.random() < chosen[fault].rate
     seen[fault] += so
     return so

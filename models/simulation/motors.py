@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from random import Random
 
 from kernel.names import Point, Run, TerminalLife
 from models.simulation.agenda import Agenda
+from models.simulation.faults import Chosen, happens
 from models.simulator.play import Play
 
 LEAST_MS, MOST_MS = 3_000, 6_000
@@ -15,10 +17,12 @@ LEAST_MS, MOST_MS = 3_000, 6_000
 class Motors:
     """Every point's motor and terminal."""
 
-    def __init__(self, play: Play, agenda: Agenda, random: Random) -> None:
+    def __init__(self, play: Play, agenda: Agenda, random: Random, chosen: Chosen) -> None:
         self.play = play
         self.agenda = agenda
         self.random = random
+        self.chosen = chosen
+        self.seen: Counter[str] = Counter()
         self._thrown: set[Point] = set()
         self._stuck_until_ms: dict[Point, int] = {}
 
@@ -28,7 +32,9 @@ class Motors:
 
     def obey(self, run: Run, point: Point, life: TerminalLife) -> None:
         """An order arrives at the terminal; it throws the point if it has to."""
-        self.play.take("obey_order", run=run, point=point, life=life, detected=self.play.system.track.lies[point])
+        is_detected = not happens("point_undetected", self.chosen, self.random, self.seen)
+        event = {"run": run, "point": point, "life": life, "detected": self.play.system.track.lies[point]}
+        self.play.take("obey_order", **event, is_detected=is_detected)
         self._throw(point)
 
     def _throw(self, point: Point) -> None:
@@ -46,4 +52,4 @@ class Motors:
         if wanted is None or not self.play.system.terminals[point].unlocked:
             return
         self.play.take("drift", point=point, position=wanted)
-        self.play.take("lock", point=point, detected=self.play.system.track.lies[point])
+        self.play.take("lock", point=point, detected=self.play.system.track.lies[point], is_detected=True)

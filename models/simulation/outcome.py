@@ -136,7 +136,7 @@ class Outcome:
     @property
     def came(self) -> Mapping[str, int]:
         """How often each fault came that was chosen."""
-        counted = self.sim.diary.faults + self.sim.line.seen + self.sim.air.seen
+        counted = self.sim.diary.faults + self.sim.line.seen + self.sim.air.seen + self.sim.motors.seen
         return {name: counted[name] for name in self.plan.chosen}
 
     @property

@@ -73,7 +73,7 @@ class Simulation:
             *([watch] if watch else []),
         ]
         self.play = begin(site, cars, where, self._watch)
-        self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"))
+        self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"), plan.chosen)
         self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._sensed, self._asked_for)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)

@@ -160,7 +160,7 @@ class Talk:
         """The terminal's word how its point lies, by way of the train to the centre."""
         lies = self.play.system.track.lies[point]
         event = {"run": run, "point": point, "position": lies}
-        self.play.take("send_confirmation", **event, detected=lies)
+        self.play.take("send_confirmation", **event, detected=lies, is_detected=True)
         self._say(self._terminal[point], self._unit[run.train], "confirmation", event)
 
     def _relays_confirmation(self, train: Train, fields: Fields) -> None:

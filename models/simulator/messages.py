@@ -26,10 +26,10 @@ def lay(play: Play, run: Run, point: Point, random: Random, loss: float) -> None
         return
     play.take("relay_order", run=run, point=point, life=terminal.life)
     lies = play.system.track.lies[point]
-    play.take("obey_order", run=run, point=point, life=terminal.life, detected=lies)
+    play.take("obey_order", run=run, point=point, life=terminal.life, detected=lies, is_detected=True)
     if play.system.terminals[point].unlocked and play.system.terminals[point].wanted == wanted:
         play.take("drift", point=point, position=wanted)
-        play.take("lock", point=point, detected=wanted)
+        play.take("lock", point=point, detected=wanted, is_detected=True)
     confirm(play, run, point)
     if random.random() >= loss:
         play.take("note_confirmation", run=run, point=point, position=wanted)
@@ -46,7 +46,7 @@ def hear(play: Play, point: Point) -> None:
 def confirm(play: Play, run: Run, point: Point) -> None:
     """The terminal's word for a run goes out and on."""
     lies = play.system.track.lies[point]
-    play.take("send_confirmation", run=run, point=point, position=lies, detected=lies)
+    play.take("send_confirmation", run=run, point=point, position=lies, detected=lies, is_detected=True)
     if (run, point, lies) in play.system.radio.confirmed:
         play.take("relay_confirmation", run=run, point=point, position=lies)
 

@@ -111,7 +111,7 @@ class Traffic:
             step, names = ARRIVALS[kind]
             event = dict(zip(names, message if len(names) > 1 else (message,), strict=True))
             if step == "obey_order":
-                event["detected"] = self.play.system.track.lies[event["point"]]
+                event |= {"detected": self.play.system.track.lies[event["point"]], "is_detected": random.random() < 0.8}
             if step == "note_standing":
                 run = messages.next_run(self.play, event["train"], messages.NO_ROUTE)
                 event["run"] = run._replace(life=event["life"])

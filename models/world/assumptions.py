@@ -120,11 +120,16 @@ def a_healthy_line_reaches_the_tail(
 def a_head_runs_no_farther_than_its_brake_lets_it(
     system: System, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int
 ) -> bool:
-    """A train at rest keeps out of what lies beyond the end that its brake holds, and that holds it there.
+    """A train that stands short of the end that its brake holds, and that holds it there, keeps out of what follows.
 
-    Nothing is assumed of one that moves: it may brake worse than its bounds.  The joint proves what is said of the end.
+    Nothing is assumed of one that moves, or whose front may be past that end: it may brake worse than its bounds.  The
+    joint proves what is said of the end.
     """
-    return not says_it_is_held(at) or keeps_before(system, run, held_end_mm, start_end_mm)
+    return (
+        not says_it_is_held(at)
+        or at.front_most_mm > start_end_mm
+        or keeps_before(system, run, held_end_mm, start_end_mm)
+    )
 
 
 def a_train_within_its_destination_is_not_beyond(

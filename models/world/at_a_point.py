@@ -17,19 +17,22 @@ def with_terminal(system: System, point: Point, terminal: Terminal) -> System:
     return replace(system, terminals=system.terminals | {point: terminal})
 
 
-def obey_order(site: Site, system: System, run: Run, point: Point, life: TerminalLife, detected: Position) -> System:
-    """An order arrives from a train; its position is the one the route needs (T10)."""
+def obey_order(
+    site: Site, system: System, run: Run, point: Point, life: TerminalLife, detected: Position, is_detected: bool
+) -> System:
+    """An order arrives from a train; its position is the one the route needs (T10).
+
+    The contacts show how the point lies, or nothing: a contact bounces under a train, and none is made in between.
+    """
     if (run, point, life) not in system.radio.relayed_orders or point not in system.terminals:
         return system
     if run.route not in site.layout.needs or point not in site.layout.needs[run.route]:
         return system
-    if not detection_is_true(system, point, detected):
+    if is_detected and not detection_is_true(system, point, detected):
         return system
-    return with_terminal(
-        system,
-        point,
-        machine.obey(system.terminals[point], run, site.layout.needs[run.route][point], life, detected),
-    )
+    wanted = site.layout.needs[run.route][point]
+    terminal = machine.obey(system.terminals[point], run, wanted, life, detected, is_detected)
+    return with_terminal(system, point, terminal)
 
 
 def answer_enquiry(site: Site, system: System, run: Run, point: Point, life: TerminalLife) -> System:
@@ -46,11 +49,11 @@ def drift(site: Site, system: System, point: Point, position: Position) -> Syste
     return replace(system, track=replace(system.track, lies=system.track.lies | {point: position}))
 
 
-def lock(site: Site, system: System, point: Point, detected: Position) -> System:
+def lock(site: Site, system: System, point: Point, detected: Position, is_detected: bool) -> System:
     """The terminal finds the point as wanted and locks it (T10)."""
-    if point not in system.terminals or not detection_is_true(system, point, detected):
+    if point not in system.terminals or (is_detected and not detection_is_true(system, point, detected)):
         return system
-    return with_terminal(system, point, machine.lock(system.terminals[point], detected))
+    return with_terminal(system, point, machine.lock(system.terminals[point], detected, is_detected))
 
 
 def restart_terminal(site: Site, system: System, point: Point, life: TerminalLife) -> System:

@@ -58,12 +58,12 @@ def relay_enquiry(site: Site, system: System, run: Run, point: Point, life: Term
 
 
 def send_confirmation(
-    site: Site, system: System, run: Run, point: Point, position: Position, detected: Position
+    site: Site, system: System, run: Run, point: Point, position: Position, detected: Position, is_detected: bool
 ) -> System:
     """Terminal to train: the point is locked for ``run`` and lies so (T10)."""
-    if point not in system.terminals or not detection_is_true(system, point, detected):
+    if point not in system.terminals or (is_detected and not detection_is_true(system, point, detected)):
         return system
-    if not confirms(system.terminals[point], run, position, detected):
+    if not confirms(system.terminals[point], run, position, detected, is_detected):
         return system
     radio = replace(system.radio, confirmed=system.radio.confirmed | {(run, point, position)})
     return replace(system, radio=radio)

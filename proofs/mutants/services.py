@@ -345,7 +345,7 @@ def a_run_that_was_given_back_speaks_for_no_point_below(steps: Steps) -> Scenari
     scenario.does("send_order", run=older, point=P1, life=life)
     scenario.does("relay_order", run=older, point=P1, life=life)
     setting_again = replace(scenario.system.radio, relayed_orders=frozenset())
-    scenario.does("obey_order", run=older, point=P1, life=life, detected=NORMAL)
+    scenario.does("obey_order", run=older, point=P1, life=life, detected=NORMAL, is_detected=True)
     setting.lay(scenario, older, P1)
     telling.confirm(scenario, older, P1)
     setting.note_proved(scenario, older, P1)
@@ -391,7 +391,7 @@ def a_point_that_moves_is_locked_by_locking_only(steps: Steps) -> Scenario:
     scenario.does("withdraw", run=older)
     run = setting.reserve(scenario, T1, WEST_TO_ONE, runs[T1])
     setting.order(scenario, run, P1)
-    scenario.refuses("send_confirmation", run=run, point=P1, position=NORMAL, detected=NORMAL)
+    scenario.refuses("send_confirmation", run=run, point=P1, position=NORMAL, detected=NORMAL, is_detected=True)
     setting.lay(scenario, run, P1)
     telling.confirm(scenario, run, P1)
     return scenario

@@ -64,7 +64,9 @@ def frees_the_start_as_well(layout: Layout, centre: Centre, run: Run) -> Centre:
     return replace(freed, claimed=freed.claimed | {start: others})
 
 
-def obeys_any_run(terminal: Terminal, run: Run, position: Position, life: TerminalLife, detected: Position) -> Terminal:
+def obeys_any_run(
+    terminal: Terminal, run: Run, position: Position, life: TerminalLife, detected: Position, is_detected: bool
+) -> Terminal:
     """Obey whatever order comes last, older or newer."""
     if life != terminal.life:
         return terminal

@@ -121,7 +121,7 @@ def _obeys_an_older_run(player: Player) -> None:
     running.head_passes(player, run, WEST, THROAT)
     running.enters(player, run, A1, WEST, THROAT)
     life, lies = player.system.terminals[P1].life, player.system.track.lies[P1]
-    player.does("obey_order", run=older, point=P1, life=life, detected=lies)
+    player.does("obey_order", run=older, point=P1, life=life, detected=lies, is_detected=True)
 
 
 def _comes_back_unoccupied(player: Player) -> None:

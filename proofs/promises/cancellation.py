@@ -55,9 +55,10 @@ def it_is_recalled(site: Site, system: System, run: Run) -> bool:
 def its_brake_keeps_it_out(
     site: Site, system: System, run: Run, at: Standstill, held_end_mm: int, start_end_mm: int
 ) -> bool:
-    """The train stands, its brake holds it and an end before the run's blocks, and no later run leads on."""
+    """The train stands before the run's blocks, its brake holds it and an end there, and no later run leads on."""
     return (
         says_it_is_held(at)
+        and at.front_most_mm <= start_end_mm
         and held_end_mm <= start_end_mm
         and a_head_runs_no_farther_than_its_brake_lets_it(system, run, at, held_end_mm, start_end_mm)
         and run.train in system.units

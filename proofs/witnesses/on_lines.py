@@ -232,7 +232,7 @@ def a_read_from_before_two_turns_pairs_with_nothing(scenario: Scenario, line: Li
 def a_train_that_rolls_in_gives_nothing_back(scenario: Scenario, line: Line) -> None:
     """Asked for a run that its brake no longer keeps it out of, a train keeps it, and the blocks stay its own (T9).
 
-    It keeps it too while it moves, though its brake holds the end before it: it may brake too late.
+    It keeps it too while it moves, though its brake holds the end before it, and where it may have overrun that end.
     """
     standing, _ = ready(scenario)
     there = line.blocks(line.out)
@@ -242,6 +242,7 @@ def a_train_that_rolls_in_gives_nothing_back(scenario: Scenario, line: Line) -> 
     scenario.does("recall", {"units": {T1: {"orders": {run: {"recalled": True}}}}}, run=run)
     scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=1, start_end_mm=0)
     scenario.refuses("give_back", run=run, at=ROLLING, held_end_mm=0, start_end_mm=0)
+    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=-1, start_end_mm=-1)
     scenario.refuses("send_return", run=run)
     scenario.refuses("note_given_back", run=run)
     holds(scenario, there[1], run)

@@ -243,9 +243,9 @@ def a_terminal_restarts_while_a_route_is_set(steps: Steps) -> Scenario:
     reborn = {"terminals": {P1: {"life": new, "holds": None, "wanted": None}}}
     scenario.does("restart_terminal", reborn, point=P1, life=new)
     scenario.must(scenario.system.terminals[P1].unlocked, "the lock is as it was")
-    scenario.refuses("lock", point=P1, detected=REVERSE)
-    scenario.refuses("obey_order", run=run, point=P1, life=old, detected=REVERSE)
-    scenario.refuses("send_confirmation", run=run, point=P1, position=REVERSE, detected=REVERSE)
+    scenario.refuses("lock", point=P1, detected=REVERSE, is_detected=True)
+    scenario.refuses("obey_order", run=run, point=P1, life=old, detected=REVERSE, is_detected=True)
+    scenario.refuses("send_confirmation", run=run, point=P1, position=REVERSE, detected=REVERSE, is_detected=True)
     scenario.refuses("send_order", run=run, point=P1, life=new)
     scenario.refuses("restart_terminal", point=P1, life=old)
     hear_terminal(scenario, P1)
@@ -266,7 +266,7 @@ def a_terminal_restarts_after_its_word(steps: Steps) -> Scenario:
     scenario.does("restart_terminal", point=P1, life=TerminalLife(old + 1))
     note_proved(scenario, run, P1)
     scenario.refuses("drift", point=P1, position=REVERSE)
-    scenario.refuses("obey_order", run=run, point=P1, life=old, detected=NORMAL)
+    scenario.refuses("obey_order", run=run, point=P1, life=old, detected=NORMAL, is_detected=True)
     return scenario
 
 

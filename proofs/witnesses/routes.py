@@ -41,6 +41,7 @@ from proofs.witnesses.setting import (
     retire,
     return_it,
     send_list,
+    send_order,
     set_route,
     want_back,
 )
@@ -85,10 +86,10 @@ def a_route_is_set_step_by_step(steps: Steps) -> Scenario:
         holds(scenario, block, run)
     holds(scenario, WEST, runs[T1], run)
     scenario.refuses("open_first_loop", Refusal.POINTS_NOT_PROVED, run=run)
-    scenario.refuses("send_confirmation", run=run, point=P1, position=NORMAL, detected=NORMAL)
+    scenario.refuses("send_confirmation", run=run, point=P1, position=NORMAL, detected=NORMAL, is_detected=True)
     order(scenario, run, P1)
-    scenario.refuses("send_confirmation", run=run, point=P1, position=REVERSE, detected=REVERSE)
-    scenario.refuses("lock", point=P1, detected=REVERSE)
+    scenario.refuses("send_confirmation", run=run, point=P1, position=REVERSE, detected=REVERSE, is_detected=True)
+    scenario.refuses("lock", point=P1, detected=REVERSE, is_detected=True)
     lay(scenario, run, P1)
     scenario.refuses("drift", point=P1, position=REVERSE)
     confirm(scenario, run, P1)
@@ -115,11 +116,42 @@ def a_point_that_lies_right_is_only_relabelled(steps: Steps) -> Scenario:
     second = reserve(scenario, T1, WEST_TO_TWO, runs[T1])
     order(scenario, second, P1)
     scenario.must(not scenario.system.terminals[P1].unlocked, "the point stays locked")
-    stale = {"run": first, "point": P1, "life": scenario.system.terminals[P1].life, "detected": REVERSE}
+    stale = {
+        "run": first,
+        "point": P1,
+        "life": scenario.system.terminals[P1].life,
+        "detected": REVERSE,
+        "is_detected": True,
+    }
     scenario.refuses("obey_order", **stale)
     confirm(scenario, second, P1)
     note_proved(scenario, second, P1)
     close_first_loop(scenario, second)
+    return scenario
+
+
+def a_point_whose_contacts_show_nothing_stays_locked(steps: Steps) -> Scenario:
+    """An order that finds a locked point undetected is obeyed when it comes again; one that moves turns round (T10)."""
+    scenario, runs = recovered(steps, OPPOSITE)
+    first = reserve(scenario, T1, WEST_TO_TWO_SHIELDED, runs[T1])
+    prove_all(scenario, first)
+    scenario.does("withdraw", freed(scenario, first, Cause.WITHDRAWN), run=first)
+    second = reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    send_order(scenario, second, P1)
+    undetected = {"point": P1, "life": scenario.system.terminals[P1].life, "detected": REVERSE, "is_detected": False}
+    scenario.refuses("obey_order", run=second, **undetected)
+    relabelled = {"terminals": {P1: {"holds": second}}}
+    scenario.does("obey_order", relabelled, run=second, **undetected | {"is_detected": True})
+    confirm(scenario, second, P1)
+    scenario.does("withdraw", freed(scenario, second, Cause.WITHDRAWN), run=second)
+    third = reserve(scenario, T1, WEST_TO_ONE, runs[T1])
+    order(scenario, third, P1)
+    scenario.must(scenario.system.terminals[P1].unlocked, "the point is thrown")
+    scenario.does("withdraw", freed(scenario, third, Cause.WITHDRAWN), run=third)
+    fourth = reserve(scenario, T1, WEST_TO_TWO, runs[T1])
+    send_order(scenario, fourth, P1)
+    effect = {"terminals": {P1: {"holds": fourth, "wanted": REVERSE}}}
+    scenario.does("obey_order", effect, run=fourth, **undetected | {"detected": NORMAL})
     return scenario
 
 

@@ -66,7 +66,7 @@ def order(scenario: Scenario, run: Run, point: Point) -> None:
     wanted = scenario.site.layout.needs[run.route][point]
     free = scenario.system.terminals[point].unlocked or lies != wanted
     effect = {"terminals": {point: {"holds": run, "wanted": wanted, "unlocked": free}}}
-    scenario.does("obey_order", effect, run=run, point=point, life=life, detected=lies)
+    scenario.does("obey_order", effect, run=run, point=point, life=life, detected=lies, is_detected=True)
 
 
 def lay(scenario: Scenario, run: Run, point: Point) -> None:
@@ -75,7 +75,9 @@ def lay(scenario: Scenario, run: Run, point: Point) -> None:
     if scenario.system.track.lies[point] != wanted:
         scenario.does("drift", {"track": {"lies": {point: wanted}}}, point=point, position=wanted)
     if scenario.system.terminals[point].unlocked:
-        scenario.does("lock", {"terminals": {point: {"unlocked": False}}}, point=point, detected=wanted)
+        scenario.does(
+            "lock", {"terminals": {point: {"unlocked": False}}}, point=point, detected=wanted, is_detected=True
+        )
 
 
 def note_proved(scenario: Scenario, run: Run, point: Point) -> None:

@@ -172,6 +172,8 @@ def confirm(scenario: Scenario, run: Run, point: Point) -> None:
     """The terminal's word that a point is locked for a run goes out, and on by way of the train (T10)."""
     lies = scenario.system.track.lies[point]
     word: Changes = {"confirmed": came((run, point, lies))}
-    scenario.does("send_confirmation", {"radio": word}, run=run, point=point, position=lies, detected=lies)
+    scenario.does(
+        "send_confirmation", {"radio": word}, run=run, point=point, position=lies, detected=lies, is_detected=True
+    )
     effect = {"radio": {"confirmations": came((run, point, lies))}}
     scenario.does("relay_confirmation", effect, run=run, point=point, position=lies)

@@ -288,7 +288,7 @@ def test_a_step_beyond_nature_names_the_assumption_and_is_taken() -> None:
     terminal = replace(system.terminals[point], wanted=Position(other), unlocked=True)
     waiting = replace(system, terminals=system.terminals | {point: terminal})
     beside = Beside(code, waiting, runs)
-    event = {"point": point, "detected": other}
+    event = {"point": point, "detected": other, "is_detected": True}
     assert beside.take(played.play.site, waiting, "lock", event) == waiting
     code.put_event(beside.memory, KINDS["lock"], event, beside.runs)
     assert code.call("step_beyond", beside.memory, KINDS["lock"]) == 1

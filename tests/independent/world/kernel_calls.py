@@ -418,16 +418,16 @@ class Calls:
 
     # ---- points
 
-    def terminal_hears(self, machine: Terminal, message: Message, detected: Position) -> Terminal:
+    def terminal_hears(self, machine: Terminal, message: Message, detected: Position, is_detected: bool) -> Terminal:
         kind, _, *told = message
         if kind == "relayed order":
             run, position, life = told
-            return terminal.obey(machine, run, position, life, detected)
+            return terminal.obey(machine, run, position, life, detected, is_detected)
         assert kind == "relayed enquiry", kind
         return terminal.relabel(machine, *told)
 
     def lock(self, machine: Terminal, detected: Position) -> Terminal:
-        return terminal.lock(machine, detected)
+        return terminal.lock(machine, detected, True)
 
     def is_unlocked(self, machine: Terminal) -> bool:
         """Whether the point is free to move."""
@@ -442,7 +442,7 @@ class Calls:
 
     def confirms(self, machine: Terminal, point: Point, detected: Position) -> Message | None:
         run = machine.holds
-        holds = run is not None and terminal.confirms(machine, run, detected, detected)
+        holds = run is not None and terminal.confirms(machine, run, detected, detected, True)
         return ("confirmed", run.train, run, point, detected) if run is not None and holds else None
 
     # ---- what a schedule may look at, to choose what is likely to change something

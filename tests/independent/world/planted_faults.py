@@ -10,10 +10,11 @@ from dataclasses import replace
 
 from kernel import authority, recovery, standing, supervision
 from kernel.centre import Centre
-from kernel.names import Block, Cab, Epoch, Read, Run, Stage, Train, UnitLife
+from kernel.names import Block, Cab, Epoch, Position, Read, Run, Stage, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.tail_evidence import has_been_in
+from kernel.terminal import Terminal
 from kernel.unit import Evidence
 from tests.independent.world.cab import BOUNDS, standstill
 from tests.independent.world.kernel_calls import STANDING, Board, Calls, Message
@@ -36,6 +37,14 @@ class EvidenceAhead(Calls):
         }
         board.unit = replace(unit, orders=orders)
         self.follow(board, sight)
+
+
+class UnlockedUndetected(Calls):
+    """A terminal whose contacts show nothing takes the point for lying otherwise, and unlocks it."""
+
+    def terminal_hears(self, machine: Terminal, message: Message, detected: Position, is_detected: bool) -> Terminal:
+        seen = detected if is_detected else Position("none")
+        return super().terminal_hears(machine, message, seen, True)
 
 
 class EvidenceAcrossTurns(Calls):
@@ -177,6 +186,7 @@ FAULTS: tuple[type[Calls], ...] = (
     NothingCompared,
     LifeConfirmed,
     AnswersUnbraked,
+    UnlockedUndetected,
 )
 STANDS_FOR_EVER: tuple[type[Calls], ...] = (AnswersOnce, KeepsWhatItHeld, NeverForgets)
 """Kernels that are safe, and under which something that is held is never free again."""

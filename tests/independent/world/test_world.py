@@ -23,6 +23,7 @@ from tests.independent.world.planted_faults import (
     LifeConfirmed,
     NothingCompared,
     RunSetAhead,
+    UnlockedUndetected,
 )
 from tests.independent.world.schedule import Schedule
 from tests.independent.world.sight import Sight
@@ -44,9 +45,10 @@ FAULTS: list[tuple[type[Calls], str, int, str | None]] = [
     (EvidenceAcrossTurns, "line", 11060, "to and fro"),
     (BrakeNotHeld, "terminus", 1, None),
     (RunSetAhead, "ring", 1008, None),
-    (NothingCompared, "crossover", 35, None),
+    (NothingCompared, "crossover", 455, None),
     (LifeConfirmed, "line", 6, None),
     (AnswersUnbraked, "line", 9, None),
+    (UnlockedUndetected, "station", 322, None),
 ]
 """A fault, a layout that shows it, a seed near to where it does, and how the line is run there, if not in any way."""
 HERE = Path(__file__).parent
@@ -148,7 +150,7 @@ def test_a_point_that_moves_below_a_car_is_seen() -> None:
         world.centre, Train("T1"), world.calls.life(world.trains[Train("T1")].board), next(iter(world.told.paths))
     )
     order = ("relayed order", point, run, other, machine.life)
-    world.terminals[point] = world.calls.terminal_hears(machine, order, world.lies[point])
+    world.terminals[point] = world.calls.terminal_hears(machine, order, world.lies[point], True)
     with pytest.raises(Hazard, match=POINT):
         world.happen(("throw", point, other))
 

@@ -466,7 +466,7 @@ class World:
         return True
 
     def deliver(self, message: Message, again: bool) -> bool:
-        """A message arrives; it may do so again."""
+        """A message arrives; it may do so again.  A point's contacts may show nothing then."""
         if message not in self.air:
             return False
         if not again:
@@ -476,7 +476,8 @@ class World:
             return self._centre(self.calls.centre_hears(self.centre, message))
         if to in self.terminals:
             before = self.terminals[to]
-            self.terminals[to] = self.calls.terminal_hears(before, message, self.lies[to])
+            contacts = (self.bits >> 17) % 5 > 0
+            self.terminals[to] = self.calls.terminal_hears(before, message, self.lies[to], contacts)
             return self.terminals[to] != before
         return self._board_hears(self.trains[to], message)
 
