@@ -13,7 +13,6 @@ from random import Random
 from kernel.authority import may_proceed
 from kernel.names import Block, Route, Run, Stage, Train, UnitLife
 from kernel.route_setting import request_refusal
-from kernel.standstill import Standstill
 from models.simulation.ahead import ahead, follows_the_way
 from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
 from models.simulation.driver import margin_mm
@@ -354,19 +353,6 @@ class Service:
             return
         self._survey(run)
         vehicle.demanded(self.play)
-
-    def asked_for(self, run: Run) -> tuple[Standstill, int, int] | None:
-        """Its driver puts the brake on at rest; what it then says of the train, if the run is listed.
-
-        That is: how the train stands, which end the brake holds, and where the block ends that the run starts in.
-        """
-        vehicle, board = self.vehicle, self.vehicle.board
-        listed = board.lists.get(run)
-        if listed is None:
-            return None
-        if vehicle.stands:
-            board.hold()
-        return board.standstill, board.brake.end_mm, listed.ends_mm[self.play.site.layout.start[run.route]]
 
     def _forgets(self) -> None:
         """Of the lists only that of the run before the new one is of use."""

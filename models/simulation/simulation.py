@@ -128,7 +128,7 @@ class Simulation:
         return vehicle.board.standstill, vehicle.board.line(vehicle.line_answers(self.line.now_ms))
 
     def _asked_for(self, run: Run) -> tuple[Standstill, int, int] | None:
-        return self.services[run.train].asked_for(run)
+        return self.vehicles[run.train].asked_for(run, self.play.site.layout.start[run.route])
 
     # ---- a second
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from random import Random
 
-from kernel.names import Run, Tag, Train
-from kernel.standstill import ThroughLine
+from kernel.names import Block, Run, Tag, Train
+from kernel.standstill import Standstill, ThroughLine
 from kernel.unit import Unit
 from models.concrete.drive import Drive
 from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
@@ -133,6 +133,18 @@ class Vehicle:
     def look_again(self) -> None:
         """The orders are to be read anew in the next cycle."""
         self._unit = None
+
+    def asked_for(self, run: Run, start: Block) -> tuple[Standstill, int, int] | None:
+        """Wanted back, of a run that is listed: how the train stands, which end it holds, where the start block ends.
+
+        Its driver puts the brake on at rest.
+        """
+        board = self.board
+        if run not in board.lists:
+            return None
+        if self.stands:
+            board.hold()
+        return board.standstill, board.brake.end_mm, board.lists[run].ends_mm[start]
 
     def advance(self, line: Line) -> None:
         """Let happen what lies on the way that was run."""

@@ -45,6 +45,7 @@ def test_mutant_drops_one_thing_and_is_still_a_function() -> None:
     assert {mutant.text for mutant in found if mutant.kind == "and-operand"} == {
         "terminal.holds == run",
         "not terminal.unlocked",
+        "is_detected",
         "detected == position",
     }
     for mutant in found:

@@ -74,7 +74,7 @@ def test_what_does_not_fail_is_given_back_as_it_is() -> None:
 
 
 def test_a_violation_at_the_start_needs_no_event() -> None:
-    trace = failing()
+    trace = found("a terminal that obeys an older run")
     together = replace(trace, at=dict.fromkeys(trace.at, frozenset({Block("track 1")})))
     less = shrink(together, imported("passing_station"))
     assert less.replay.at_step == 0

@@ -276,23 +276,18 @@ class Calls:
             board.unit = takes[kind](board.unit, run)
 
     def recall(self, board: Board, run: Run, sight: Sight) -> None:
-        """Note that a run is wanted back; it is given back when the brake holds the nearer end."""
         board.unit = first_loop.recall(board.unit, run)
 
     def give_back(self, board: Board, sight: Sight) -> None:
         """Give back, at rest, what is wanted and what the brake keeps the train out of, the last runs first."""
-        wanted = [
-            run for run, order in board.unit.orders.items() if order.recalled and not (order.begun or order.given_back)
-        ]
+        orders = board.unit.orders
+        wanted = {run for run in orders if orders[run].recalled and not orders[run].begun | orders[run].given_back}
         if wanted:
             board.brake = put_on(board.brake, sight)
             self.obey(board, sight)
-        for run in sorted(wanted, reverse=True):
-            if run in board.ends_mm:
-                start_end_mm = board.ends_mm[run][self.layout.start[run.route]]
-                board.unit = first_loop.give_back(
-                    self.lists, board.unit, run, standstill(sight), board.brake.end_mm, start_end_mm
-                )
+        for run in sorted(wanted & set(board.ends_mm), reverse=True):
+            held_mm, end_mm = board.brake.end_mm, board.ends_mm[run][self.layout.start[run.route]]
+            board.unit = first_loop.give_back(self.lists, board.unit, run, standstill(sight), held_mm, end_mm)
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before, life = board.unit, UnitLife(board.unit.life + 1)
@@ -362,7 +357,6 @@ class Calls:
     # ---- the brake
 
     def is_open(self, board: Board) -> bool:
-        """Whether a second loop is open."""
         return board.unit.loop_open
 
     def follow(self, board: Board, sight: Sight) -> None:
@@ -430,11 +424,9 @@ class Calls:
         return terminal.lock(machine, detected, True)
 
     def is_unlocked(self, machine: Terminal) -> bool:
-        """Whether the point is free to move."""
         return machine.unlocked
 
     def wanted(self, machine: Terminal) -> Position | None:
-        """How its motor drives it."""
         return machine.wanted
 
     def terminal_life(self, machine: Terminal, point: Point) -> Message:

@@ -456,8 +456,7 @@ class World:
         return [self.calls.confirms(machine, point, self.lies[point])]
 
     def _send_all(self, *event: Any) -> bool:
-        sent = [self._send(message) for message in self.says(event)]
-        return True in sent
+        return True in [self._send(message) for message in self.says(event)]
 
     def lose(self, message: Message) -> bool:
         if message not in self.air:
@@ -476,7 +475,7 @@ class World:
             return self._centre(self.calls.centre_hears(self.centre, message))
         if to in self.terminals:
             before = self.terminals[to]
-            contacts = (self.bits >> 17) % 5 > 0
+            contacts = (self.bits >> 17) + len(self.air) & 3 > 0
             self.terminals[to] = self.calls.terminal_hears(before, message, self.lies[to], contacts)
             return self.terminals[to] != before
         return self._board_hears(self.trains[to], message)
