@@ -58,7 +58,7 @@ def traffic(place: str, seed: int, planted: str | None = None, seconds: int = 60
 
 
 PLANTED: Mapping[str, tuple[str, int]] = {
-    "a terminal that obeys an older run": ("passing_station", 7),
+    "a terminal that obeys an older run": ("passing_station", 18),
     "a centre that frees the start block on head evidence": ("passing_station", 0),
     "the whole route is released on the evidence of one block": ("junction", 0),
     "a terminal keeps its life over a restart": ("junction", 0),
