@@ -90,7 +90,8 @@ class OneRun:
     wheel: float = 0.0
     turned: float = 0.0
     count: float = 0.0
-    since: float = 0.0
+    since: float = tachometer.OVERFLOW_TICKS
+    shown: float = 0.0
     gains: list[float] = field(default_factory=list)
     walks: dict[str, float] = field(default_factory=dict)
     arrivals: dict[int, int] = field(default_factory=dict)
@@ -249,12 +250,17 @@ class OneRun:
         pulses_a_m = 1 / (tachometer.PULSE_M * (1 + value["diameter_ppm"] * 1e-6))
         turned = (before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S
         self.turned += turned
-        count, before_since = math.floor(self.turned), self.since
-        ticks = math.floor((self.turned - count) / max(turned * tachometer.TIMER_S / CYCLE_S, 1e-9))
-        cycle_ticks = round(CYCLE_S / tachometer.TIMER_S)
-        self.since = min(ticks, cycle_ticks)
-        spent = max(1, cycle_ticks - self.since + before_since)
-        speed = (count - self.count) * tachometer.PULSE_M / tachometer.TIMER_S / spent
+        count, before_since, ticks_a_cycle = math.floor(self.turned), self.since, tachometer.CYCLE_TICKS
+        if count > self.count:
+            ticks = math.floor((self.turned - count) / max(turned * tachometer.TIMER_S / CYCLE_S, 1e-9))
+            self.since = min(ticks, ticks_a_cycle)
+            spent = max(1, ticks_a_cycle - self.since + before_since)
+            self.shown = (count - self.count) * tachometer.PULSE_M / tachometer.TIMER_S / spent
+        else:
+            self.since = min(self.since + ticks_a_cycle, tachometer.OVERFLOW_TICKS)
+        least = tachometer.PULSE_M / tachometer.TIMER_S / max(1, self.since)
+        overflows = self.since >= tachometer.OVERFLOW_TICKS
+        speed = self.shown if count > self.count else 0.0 if overflows else min(self.shown, least)
         self.count = count
         way_m, valid = count * tachometer.PULSE_M, True
         for hold in self.holds:

@@ -19,29 +19,17 @@ from kernel.onboard import (
     tag_fix,
     tag_window,
 )
-from kernel.onboard.brake_demand import Known, TrainLimits
+from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
-from kernel.onboard.odometry import Motion, Readings, SensorBounds
-from kernel.onboard.reverse_movement import LOCATED, ReverseLimits
+from kernel.onboard.limits import Limits
+from kernel.onboard.odometry import Motion, Readings
+from kernel.onboard.reverse_movement import LOCATED
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
-from kernel.onboard.split import SplitLimits
-from kernel.onboard.tag_fix import Fix, TagLimits
-from kernel.onboard.tag_window import NONE_AWAITED, WindowLimits
+from kernel.onboard.tag_fix import Fix
+from kernel.onboard.tag_window import NONE_AWAITED
 from kernel.onboard.way import UNKNOWN, Way, between
 from kernel.standstill import Standstill, is_braked
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What is written of the train, its sensors and its line, for each machine."""
-
-    sensors: SensorBounds
-    train: TrainLimits
-    reverse: ReverseLimits
-    split: SplitLimits
-    window: WindowLimits
-    tags: TagLimits
 
 
 @dataclass(frozen=True)
@@ -61,7 +49,10 @@ class Computer:
 
 
 def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
-    """Begin with a train at rest that has been found whole, its brake on, and its front in a range (P5, P7, T8)."""
+    """Begin with a train at rest that has been found whole, its brake on, and its front in a range (P5, P7, T8).
+
+    With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
+    """
     motion = odometry.located(least_mm, most_mm, 0)
     return Computer(
         known=Known(

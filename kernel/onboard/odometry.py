@@ -166,14 +166,20 @@ def tachometer_is_heard(readings: Readings) -> bool:
     )
 
 
-def tachometer_speaks(motion: Motion, readings: Readings) -> bool:
+def needs_a_pulse(bounds: SensorBounds, speed_mm_s: int) -> bool:
+    """Tell whether a wheel of such a speed turns by more than a pulse in each cycle (P1)."""
+    return CYCLE_MS * magnitude(speed_mm_s) > 1000 * bounds.pulse_mm
+
+
+def tachometer_speaks(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
     """Tell whether the tachometer gives a reading: heard, not stuck, and its pulses without a jump (P1).
 
-    A speed without a pulse is no reading: a tachometer that is stuck repeats both.
+    A speed of more than a pulse a cycle, without a pulse, is no reading: a tachometer that is stuck repeats both.  A
+    slower wheel passes cycles without one, and its speed is known by how long ago the last one came.
     """
     return (
         tachometer_is_heard(readings)
-        and (readings.tachometer_mm_s == 0 or readings.way_mm != motion.way_mm)
+        and (not needs_a_pulse(bounds, readings.tachometer_mm_s) or readings.way_mm != motion.way_mm)
         and motion.way_mm - GREATEST_STEP_MM <= readings.way_mm <= motion.way_mm + GREATEST_STEP_MM
     )
 
@@ -196,7 +202,7 @@ def agrees(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
     """Tell whether the wheel's acceleration is the train's: |a_m - a_p| below T_a, both sensors speaking (P1)."""
     measured_mm_s2 = readings.inertial_mm_s2 - motion.gradient_mm_s2
     return (
-        tachometer_speaks(motion, readings)
+        tachometer_speaks(bounds, motion, readings)
         and inertial_speaks(bounds, readings)
         and magnitude(measured_mm_s2 - wheel_mm_s2(motion, readings)) < bounds.slip_mm_s2
     )

@@ -137,10 +137,13 @@ def the_inertial_sensor_keeps_its_bound(
     )
 
 
-def a_tachometer_sticks_at_a_speed(system: Running, readings: Readings, sticks: bool) -> bool:
-    """One that fails and calls itself valid repeats speed and pulses of the cycle before; none fails at rest (P1)."""
+def a_tachometer_sticks_at_a_speed(site: Line, system: Running, readings: Readings, sticks: bool) -> bool:
+    """One that fails and calls itself valid repeats speed and pulses of the cycle before (P1).
+
+    None fails at rest, or so slow that a cycle may pass without a pulse.
+    """
     return not sticks or (
-        readings.tachometer_mm_s != 0
+        MS_A_CYCLE * magnitude(readings.tachometer_mm_s) > 1000 * site.bounds.pulse_mm
         and readings.tachometer_mm_s == system.shown_mm_s
         and readings.way_mm == system.shown_way_mm
     )
@@ -262,7 +265,7 @@ def run_a_cycle(
         return system
     if not the_inertial_sensor_keeps_its_bound(site, system, readings, speed_um_s, gradient_mm_s2):
         return system
-    if not a_tachometer_sticks_at_a_speed(system, readings, sticks):
+    if not a_tachometer_sticks_at_a_speed(site, system, readings, sticks):
         return system
     if not a_rolling_wheel_measures(site, system, readings, to_nm, speed_um_s, told and not slips):
         return system

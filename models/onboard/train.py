@@ -97,7 +97,7 @@ def sense_the_cycle(
         return system
     if not the_inertial_sensor_keeps_its_bound(site, system, readings, gradient_mm_s2):
         return system
-    if not a_tachometer_sticks_at_a_speed(system, readings, sticks):
+    if not a_tachometer_sticks_at_a_speed(site, system, readings, sticks):
         return system
     if not a_rolling_wheel_measures(site, system, readings, slips, sticks):
         return system
@@ -195,11 +195,8 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         return system
     if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
         return system
-    inspected = replace(
-        system,
-        watched=replace(system.watched, kept=True, too_fast=False),
-        computer=computer.put_into_service(site.limits, least_mm, most_mm),
-    )
+    begun = computer.put_into_service(site.limits, least_mm, most_mm)
+    inspected = replace(system, watched=replace(system.watched, kept=True, too_fast=False), computer=begun)
     return _at_rest(site, inspected, least_mm, most_mm)
 
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.computer import Computer, Limits
+from kernel.onboard.computer import Computer
+from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
 from models.onboard import brake_watch, braking, odometry, tag_fix
 from models.onboard.brake_watch import Watched
@@ -189,9 +190,9 @@ def the_inertial_sensor_keeps_its_bound(site: Train, system: Whole, readings: Re
     )
 
 
-def a_tachometer_sticks_at_a_speed(system: Whole, readings: Readings, sticks: bool) -> bool:
-    """One that fails and calls itself valid repeats speed and pulses of the cycle before; none fails at rest (P1)."""
-    return odometry.a_tachometer_sticks_at_a_speed(before(system), readings, sticks)
+def a_tachometer_sticks_at_a_speed(site: Train, system: Whole, readings: Readings, sticks: bool) -> bool:
+    """One that fails and calls itself valid repeats speed and pulses of the cycle before; none fails that slow (P1)."""
+    return odometry.a_tachometer_sticks_at_a_speed(line(site), before(system), readings, sticks)
 
 
 def a_rolling_wheel_measures(site: Train, system: Whole, readings: Readings, slips: bool, sticks: bool) -> bool:

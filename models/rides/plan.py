@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.limits import Surveyed
 from kernel.onboard.odometry import SensorBounds
 from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.speed_limit import SpeedTable
@@ -26,6 +27,10 @@ LENGTH_MM = 120_000
 """The paper's train of six cars (001, 4.3.2)."""
 TAG_ERROR_MM = 300
 """How far from the plan a tag may be, and be read: half the window of 513 mm, and 43 mm of laying."""
+SURVEYED = Surveyed(
+    jolt_mm_s2=5_000, pace_cycles=BOUNDS.agreement_cycles - 2, laid_within_mm=43, read_within_mm=TAG_ERROR_MM - 43
+)
+"""What the limits below are checked against: the least declared jolt of a slip, and the two parts of a tag's error."""
 
 READER = Reader(WINDOW_MM, AIR_MS, 2.0, ASKS_MS, 0.0)
 """A reader that receives 4 frames at the line's speed, as two of four needs; `heisoku reproduce 000` says why."""

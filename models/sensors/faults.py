@@ -183,7 +183,7 @@ BOUNDS = SensorBounds(
 """The odometry's bounds for these ranges.
 
 Scale: creep and diameter, 5,000 + 2,500, and their product.  Pulse: 60 a turn of a wheel of 860 mm.
-Speed: a cycle without a pulse reads 0 (450 mm/s), or the mean over a cycle (65 mm/s at 1.3 m/s²).
+Speed: the first pulse after a standstill comes late (450 mm/s), or the mean over a cycle (65 mm/s at 1.3 m/s²).
 Inertial: bias 20, drift 20, noise 4 × 30, mounting 34, scale 5, the lag of a cycle.  Gradient: 35 per mille.
 Slip: leaves noise, half a cycle's lag and quantisation apart.
 Pace: what the range of speeds has grown to by inertia in half a minute.  Locked: in 7 s, either way.

@@ -1,8 +1,9 @@
 """The tachometer: pulses of a wheel, counted as a way, and their period as a speed (P1).
 
 The unit reckons with the wheel's nominal diameter; the true one differs.  Speed is pulses over the time
-between the last pulse of the cycle before and the last of this one, by a timer: so it is the mean over
-about one cycle, half a cycle old.  A cycle without a pulse reads 0 (ours).
+from the last pulse before this cycle to the last one in it, by a timer: so it is the mean over about one
+cycle, half a cycle old.  In a cycle without a pulse it is what it was, or a pulse over the time since the last
+one if that is less; once the timer overflows it is 0 (ours).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from models.sensors.draws import Singles
 from models.sensors.dynamics import Bools
@@ -20,6 +22,14 @@ PULSE_M = 0.045
 """Ours, typical: 60 pulses a turn of a wheel of 860 mm."""
 TIMER_S = 1e-5
 """Ours, typical of a counter at 100 kHz."""
+OVERFLOW_TICKS = 65_535
+"""Ours: 16 bits, so that a wheel slower than 69 mm/s reads 0."""
+CYCLE_TICKS = round(CYCLE_S / TIMER_S)
+STICKS_FROM_M_S = 0.5
+"""A little more than a pulse a cycle: slower, its own test finds that it repeats itself."""
+
+
+Cycles = NDArray[np.int32]
 
 
 @dataclass(frozen=True)
@@ -41,8 +51,8 @@ def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     turned[:, 1:] += turned[:, :1]
     turned *= (pulses_a_m * CYCLE_S)[:, None]
     count = np.floor(turned)
-    since = _since_last_pulse(turned, count)
-    speed = _speed(count, since)
+    came = _came(count)
+    speed = _speed(came, _since_last_pulse(turned, count, came))
     count *= PULSE_M
     valid = np.ones(wheel_m_s.shape, np.bool_)
     reading = Tachometer(count, speed, valid)
@@ -50,8 +60,23 @@ def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     return reading
 
 
-def _since_last_pulse(turned: Floats, count: Floats) -> Singles:
-    """How long before the end of each cycle the last pulse came, in timer ticks, a cycle at most.
+def _came(count: Floats) -> Singles:
+    """How many pulses came in each cycle."""
+    came = np.empty(count.shape, np.float32)
+    came[:, :1] = count[:, :1]
+    np.subtract(count[:, 1:], count[:, :-1], out=came[:, 1:], casting="same_kind")
+    return came
+
+
+def _last_pulse(came: Singles) -> Cycles:
+    """The cycle in which the last pulse came so far, -1 before the first."""
+    cycles = np.arange(came.shape[1], dtype=np.int32)
+    found = np.where(came != 0, cycles, np.int32(-1))
+    return np.maximum.accumulate(found, axis=1, out=found)
+
+
+def _since_last_pulse(turned: Floats, count: Floats, came: Singles) -> Singles:
+    """How long before the end of each cycle the last pulse came, in timer ticks, till the timer overflows.
 
     The wheel is taken to turn evenly within a cycle.
     """
@@ -63,25 +88,30 @@ def _since_last_pulse(turned: Floats, count: Floats) -> Singles:
     np.maximum(rate, np.float32(1e-9), out=rate)
     since /= rate
     np.floor(since, out=since)
-    return np.minimum(since, np.float32(round(CYCLE_S / TIMER_S)), out=since)
+    np.minimum(since, np.float32(CYCLE_TICKS), out=since)
+    rows, columns = np.nonzero(came == 0)
+    last = _last_pulse(came)[rows, columns]
+    waits = since[rows, np.maximum(last, 0)] + np.float32(CYCLE_TICKS) * (columns - last)
+    since[rows, columns] = np.where(last < 0, np.float32(OVERFLOW_TICKS), waits)
+    return np.minimum(since, np.float32(OVERFLOW_TICKS), out=since)
 
 
-def _speed(count: Floats, since: Singles) -> Singles:
-    """Pulses of a cycle over the time from the last one before it to the last one in it."""
-    cycle_ticks = np.float32(round(CYCLE_S / TIMER_S))
-    came = np.empty(count.shape, np.float32)
-    came[:, :1] = count[:, :1]
-    np.subtract(count[:, 1:], count[:, :-1], out=came[:, 1:], casting="same_kind")
-    ticks = cycle_ticks - since
+def _speed(came: Singles, since: Singles) -> Singles:
+    """Pulses over the time that they took; without one the last speed, or less by how long none has come."""
+    ticks = np.float32(CYCLE_TICKS) - since
+    ticks[:, :1] += np.float32(OVERFLOW_TICKS)
     ticks[:, 1:] += since[:, :-1]
     np.maximum(ticks, np.float32(1), out=ticks)
-    came *= np.float32(PULSE_M / TIMER_S)
-    came /= ticks
-    return came
+    speed = came * np.float32(PULSE_M / TIMER_S)
+    speed /= ticks
+    rows, columns = np.nonzero((came == 0) & (since < OVERFLOW_TICKS))
+    held = speed[rows, _last_pulse(came)[rows, columns]]
+    speed[rows, columns] = np.minimum(held, np.float32(PULSE_M / TIMER_S) / since[rows, columns])
+    return speed
 
 
 def _fail(reading: Tachometer, values: Mapping[str, Floats]) -> None:
-    """Silence, which its diagnosis finds, and repetition of the last value, which it does not; that while it turns."""
+    """Silence, which its diagnosis finds, and repetition of the last value, which it does not; that of a fast wheel."""
     cycles = reading.way_m.shape[1]
     for at, lasts, silent in (
         (values["tachometer_silent_at_s"], values["tachometer_silent_s"], True),
@@ -90,7 +120,7 @@ def _fail(reading: Tachometer, values: Mapping[str, Floats]) -> None:
         for row in np.flatnonzero(at < cycles * CYCLE_S):
             first = max(1, int(at[row] / CYCLE_S))
             if not silent:
-                turning = np.flatnonzero(reading.speed_m_s[row, first - 1 :] > 0)
+                turning = np.flatnonzero(reading.speed_m_s[row, first - 1 :] > STICKS_FROM_M_S)
                 if not len(turning):
                     continue
                 first += int(turning[0])

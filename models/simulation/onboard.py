@@ -14,7 +14,8 @@ from kernel.names import Block, Run, Tag, TagList
 from kernel.onboard import antenna_spacing, authority_end, braking, odometry, split
 from kernel.onboard import computer as computing
 from kernel.onboard.brake_demand import TrainLimits
-from kernel.onboard.computer import Computer, Limits
+from kernel.onboard.computer import Computer
+from kernel.onboard.limits import Limits, are_lawful
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
@@ -24,7 +25,7 @@ from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
 from models.concrete.rails import ANTENNA_MM
-from models.rides.plan import PLAN, TAG_ERROR_MM
+from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 from models.simulation.ahead import Ahead
 
 LOCATED_WITHIN_MM = 2_000
@@ -204,10 +205,12 @@ def on_board(length_mm: int, front_mm: int) -> OnBoard:
         window=PLAN.window,
         tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
     )
+    least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
+    assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
     made = OnBoard(
         length_mm=length_mm,
         limits=limits,
-        computer=computing.put_into_service(limits, front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM),
+        computer=computing.put_into_service(limits, least_mm, most_mm),
         spacing=antenna_spacing.preset(length_mm - 2 * ANTENNA_MM),
     )
     made.begin_way()

@@ -35,7 +35,7 @@ def a_tachometer_out_of_range_does_not_speak(tachometer_mm_s: int, way_mm: int) 
     """Too fast either way, or pulses that jump either way (P1)."""
     assert not -200_000 <= tachometer_mm_s <= 200_000 or not -19_000 <= way_mm <= 21_000
     readings = Readings(100, True, tachometer_mm_s, way_mm, True, 0)
-    assert not tachometer_speaks(ROLLING, readings)
+    assert not tachometer_speaks(BOUNDS, ROLLING, readings)
     assert not agrees(BOUNDS, ROLLING, readings)
 
 

@@ -334,7 +334,7 @@ def test_a_broken_machine_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     """The drawn worlds do find a machine that trusts the wheel in a slip."""
 
     def always(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
-        return machine.tachometer_speaks(motion, readings) and machine.inertial_speaks(bounds, readings)
+        return machine.tachometer_speaks(bounds, motion, readings) and machine.inertial_speaks(bounds, readings)
 
     def drawn() -> None:
         for seed in range(20):

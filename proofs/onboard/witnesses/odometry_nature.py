@@ -61,6 +61,13 @@ def a_wheel_that_turns_back_errs_as_one_that_turns_forward() -> None:
     assert train.trusted()
 
 
+def a_tachometer_may_stick_whichever_way_its_wheel_turns() -> None:
+    """It repeats speed and pulses of a train that rolls back, too, and is not read (P1)."""
+    train = back_to(-900)
+    train.cycle(-910, tachometer=train.motion.tachometer_mm_s, way_mm=train.motion.way_mm, sticks=True)
+    assert not train.trusted()
+
+
 def a_gross_speed_is_no_reading_either_way() -> None:
     """A wheel that rolls may be told to turn back at more than any train can run (P1)."""
     for shown in (200_001, -200_001):
@@ -163,6 +170,7 @@ WITNESSES = (
     motors_may_be_stronger_than_brakes,
     an_invalid_inertial_reading_may_be_anything,
     a_wheel_that_turns_back_errs_as_one_that_turns_forward,
+    a_tachometer_may_stick_whichever_way_its_wheel_turns,
     a_gross_speed_is_no_reading_either_way,
     what_is_not_read_counts_from_nowhere,
     what_is_counted_over_a_slip_is_off_until_counting_begins_anew,

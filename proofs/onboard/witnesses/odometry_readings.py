@@ -36,7 +36,7 @@ def a_tachometer_that_jumps_does_not_speak() -> None:
     for way_mm, speaks in ((225_000, True), (225_001, False), (185_000, True), (184_999, False)):
         train = rolling(20_000)
         readings = Readings(100, True, 20_000, way_mm, True, 0)
-        assert machine.tachometer_speaks(train.motion, readings) == speaks
+        assert machine.tachometer_speaks(BOUNDS, train.motion, readings) == speaks
         train.cycle(20_000, way_mm=way_mm, tachometer=20_000 if not speaks else 30_000, slips=speaks)
         assert not train.trusted()
         assert train.motion.way_mm == way_mm
@@ -52,6 +52,16 @@ def a_tachometer_that_repeats_itself_does_not_speak() -> None:
     train = rolling()
     train.stand(3)
     assert train.trusted()
+
+
+def a_slow_wheel_passes_cycles_without_a_pulse() -> None:
+    """Up to a pulse a cycle; a millimetre a second faster it would have come (P1)."""
+    motion = rolling(20_000).motion
+    for sign in (1, -1):
+        slow = replace(motion, tachometer_mm_s=sign * 300)
+        for shown, speaks in ((300, True), (301, False)):
+            readings = Readings(100, True, sign * shown, motion.way_mm, True, 0)
+            assert machine.tachometer_speaks(BOUNDS, slow, readings) == speaks
 
 
 def nothing_is_asked_of_a_wheel_that_is_not_heard_or_slips() -> None:
@@ -78,11 +88,11 @@ def the_edges_of_the_ranges_are_readings() -> None:
     motion = rolling(20_000).motion
     for sign in (1, -1):
         far = replace(motion, way_mm=sign * 10**9)
-        assert machine.tachometer_speaks(far, Readings(100, True, 0, sign * 10**9, True, 0))
+        assert machine.tachometer_speaks(BOUNDS, far, Readings(100, True, 0, sign * 10**9, True, 0))
         near = replace(motion, way_mm=sign * (10**9 - 1))
-        assert machine.tachometer_speaks(near, Readings(100, True, sign * 200_000, sign * 10**9, True, 0))
-        assert not machine.tachometer_speaks(near, Readings(100, True, sign * 200_001, sign * 10**9, True, 0))
-        assert not machine.tachometer_speaks(near, Readings(100, True, 0, sign * (10**9 + 1), True, 0))
+        assert machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_000, sign * 10**9, True, 0))
+        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_001, sign * 10**9, True, 0))
+        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, 0, sign * (10**9 + 1), True, 0))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_600))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, -2_200))
     assert not machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_601))
@@ -269,6 +279,7 @@ WITNESSES = (
     a_tachometer_that_jumps_does_not_speak,
     what_is_no_reading_of_the_tachometer_moves_nothing,
     a_tachometer_that_repeats_itself_does_not_speak,
+    a_slow_wheel_passes_cycles_without_a_pulse,
     nothing_is_asked_of_a_wheel_that_is_not_heard_or_slips,
     a_silent_tachometer_does_not_agree,
     the_edges_of_the_ranges_are_readings,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from kernel.onboard import braking, computer, odometry, split
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
-from kernel.onboard.computer import Limits
+from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement, ReverseLimits
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN

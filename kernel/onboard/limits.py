@@ -1,0 +1,94 @@
+"""The written limits of a train's machines: do they fit one another, and what was measured and surveyed (P1, P5, T12)?
+
+They are checked before a computer goes into service: what each machine is proved to do rests on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.odometry import SensorBounds
+from kernel.onboard.reverse_movement import ReverseLimits
+from kernel.onboard.split import SplitLimits
+from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_window import WindowLimits
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What is written of the train, its sensors and its line, for each machine."""
+
+    sensors: SensorBounds
+    train: TrainLimits
+    reverse: ReverseLimits
+    split: SplitLimits
+    window: WindowLimits
+    tags: TagLimits
+
+
+@dataclass(frozen=True)
+class Surveyed:
+    """What was measured of this type of train when it was admitted, and surveyed of its line; each is 0 or more.
+
+    ``jolt_mm_s2``: the least by which the wheel's acceleration differs from the train's when it leaves its creep (P1).
+    ``pace_cycles``: a wheel that slips does not keep pace with its train for so many cycles (P1).
+    ``laid_within_mm``, ``read_within_mm``: so far from its place a tag is laid, and from the tag it is read (T2).
+    """
+
+    jolt_mm_s2: int
+    pace_cycles: int
+    laid_within_mm: int
+    read_within_mm: int
+
+
+def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
+    """Tell whether a slip stands out from threshold, sensor error and gradients, and trust takes long enough (P1)."""
+    return (
+        bounds.scale_ppm >= 0
+        and bounds.pulse_mm >= 0
+        and bounds.tachometer_mm_s >= 0
+        and bounds.gradient_mm_s2 >= 0
+        and surveyed.jolt_mm_s2 >= bounds.slip_mm_s2 + bounds.inertial_mm_s2 + 2 * bounds.gradient_mm_s2
+        and surveyed.pace_cycles >= 1
+        and bounds.agreement_cycles >= surveyed.pace_cycles + 2
+    )
+
+
+def is_brake_lawful(bounds: BrakeBounds) -> bool:
+    """Tell whether the brake slows the train, a cycle after its command at the soonest, and motors do not (T12)."""
+    return bounds.slows_mm_s2 > 0 and bounds.gains_mm_s2 >= 0 and bounds.response_cycles >= 1
+
+
+def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -> bool:
+    """Tell whether what is allowed a tag covers how it is laid and read, and twice that from tag to tag (T2, T5)."""
+    return (
+        surveyed.laid_within_mm >= 0
+        and surveyed.read_within_mm >= 0
+        and tags.error_mm >= surveyed.laid_within_mm + surveyed.read_within_mm
+        and window.tolerance_mm >= 2 * (surveyed.laid_within_mm + surveyed.read_within_mm)
+        and window.width_mm >= 0
+    )
+
+
+def is_split_lawful(limits: SplitLimits) -> bool:
+    """Tell whether no limit of split detection is below zero (P5)."""
+    return (
+        limits.threshold_mm_s2 >= 0
+        and limits.shock_mm_s2 >= 0
+        and limits.disagreement_mm_s2 >= 0
+        and limits.gap_ms >= 0
+        and limits.lost_ms >= 0
+    )
+
+
+def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
+    """Tell whether a train may run by these limits; if not, its computer is not put into service (P1, P5, T2, T12)."""
+    return (
+        are_sensors_lawful(limits.sensors, surveyed)
+        and is_brake_lawful(limits.train.brake)
+        and are_tags_lawful(limits.tags, limits.window, surveyed)
+        and is_split_lawful(limits.split)
+        and limits.reverse.roll_back_mm >= 0
+    )

@@ -1,0 +1,122 @@
+"""Limits that are lawful are what the proofs ask of them (P1, P5, T2, T12)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.limits import (
+    Limits,
+    Surveyed,
+    are_lawful,
+    are_sensors_lawful,
+    are_tags_lawful,
+    is_brake_lawful,
+    is_split_lawful,
+)
+from kernel.onboard.odometry import SensorBounds
+from kernel.onboard.reverse_movement import ReverseLimits
+from kernel.onboard.speed_limit import SpeedTable
+from kernel.onboard.split import SplitLimits
+from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_window import WindowLimits
+from models.concrete.rails import ANTENNA_MM
+from models.onboard import reverse_movement, split, tag_window
+from models.onboard.train_nature import Train, the_brakes_bounds_fit, the_odometrys_bounds_fit, the_tags_bounds_fit
+from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
+
+LAWFUL = Limits(
+    sensors=PLAN.sensors,
+    train=TrainLimits(PLAN.brake, PLAN.speeds, 130_000),
+    reverse=PLAN.reverse,
+    split=PLAN.split,
+    window=PLAN.window,
+    tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
+)
+SMALL = st.integers(-2, 40)
+SPEEDS = st.builds(SpeedTable, SMALL, SMALL, SMALL)
+LIMITS = st.builds(
+    Limits,
+    sensors=st.builds(SensorBounds, *[SMALL] * len(fields(SensorBounds))),
+    train=st.builds(TrainLimits, st.builds(BrakeBounds, SMALL, SMALL, SMALL, SMALL), SPEEDS, SMALL),
+    reverse=st.builds(ReverseLimits, SMALL),
+    split=st.builds(SplitLimits, *[SMALL] * len(fields(SplitLimits))),
+    window=st.builds(WindowLimits, SMALL, SMALL),
+    tags=st.builds(TagLimits, SMALL, SMALL),
+)
+SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL)
+
+
+def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
+    """What the proofs ask of limits, where nature is just as bad as what was surveyed."""
+    laid_mm, read_mm = surveyed.laid_within_mm, surveyed.read_within_mm
+    length_mm = limits.train.length_mm
+    site = Train(limits, surveyed.jolt_mm_s2, surveyed.pace_cycles, length_mm, laid_mm, read_mm)
+    stretch = tag_window.Stretch(limits.window, 2 * laid_mm, 2 * read_mm)
+    wheel = reverse_movement.Wheel(limits.reverse, limits.sensors.pulse_mm)
+    return {
+        "odometry": the_odometrys_bounds_fit(site),
+        "brake": the_brakes_bounds_fit(site),
+        "tags": the_tags_bounds_fit(site),
+        "window": tag_window.nothing_is_negative(stretch)
+        and tag_window.the_tolerance_covers_laying_and_read_window(stretch),
+        "split": split.limits_are_not_negative(split.Coupled(limits.split, 0, 0, 0)),
+        "reverse": reverse_movement.bounds_are_not_negative(wheel),
+    }
+
+
+def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
+    """What the kernel says of them."""
+    return {
+        "odometry": are_sensors_lawful(limits.sensors, surveyed),
+        "brake": is_brake_lawful(limits.train.brake),
+        "tags and window": are_tags_lawful(limits.tags, limits.window, surveyed),
+        "split": is_split_lawful(limits.split),
+        "reverse": limits.reverse.roll_back_mm >= 0,
+    }
+
+
+@given(LIMITS, SURVEYS)
+def test_limits_are_lawful_where_every_premise_holds_of_them_and_only_there(limits: Limits, surveyed: Surveyed) -> None:
+    said, asked = parts(limits, surveyed), premises(limits, surveyed)
+    assert said["odometry"] == asked["odometry"]
+    assert said["brake"] == asked["brake"]
+    assert said["tags and window"] == (asked["tags"] and asked["window"])
+    assert said["split"] == asked["split"]
+    assert are_lawful(limits, surveyed) == all(said.values())
+    assert not are_lawful(limits, surveyed) or all(asked.values())
+
+
+def spoilt(limits: Any, value: int) -> Iterator[tuple[str, Any]]:
+    """The limits with one number after the other made another."""
+    for field in fields(limits):
+        kept = getattr(limits, field.name)
+        if is_dataclass(kept):
+            for name, each in spoilt(kept, value):
+                yield f"{field.name}.{name}", replace(limits, **{field.name: each})
+        else:
+            yield field.name, replace(limits, **{field.name: value})
+
+
+@pytest.mark.parametrize("value", [-1, 0, 10**6])
+def test_one_number_after_the_other_of_the_plan_is_lawful_where_the_premises_hold(value: int) -> None:
+    verdicts = set()
+    for name, limits in spoilt(LAWFUL, value):
+        wanted = all(premises(limits, SURVEYED).values())
+        assert are_lawful(limits, SURVEYED) == wanted, name
+        verdicts.add(wanted)
+    assert verdicts == {True, False}
+
+
+def test_the_plan_is_lawful_and_just_so() -> None:
+    assert are_lawful(LAWFUL, SURVEYED)
+    for worse in ({"jolt_mm_s2": 2_059}, {"pace_cycles": 19}, {"laid_within_mm": 44}):
+        survey = replace(SURVEYED, **worse)
+        assert not are_lawful(LAWFUL, survey)
