@@ -137,14 +137,19 @@ def of_the_function(bench: Workbench, function: Code, sources: Sources) -> Samen
 
 
 def proved(bench: Workbench, claim: Sameness, hypotheses: list[str], rlimit: int = 8_000_000) -> bool:
-    """Prove it from the axioms and invariants named, by Z3, or where Z3 is at a loss by cvc5."""
+    """Prove it from the axioms and invariants named, by Z3, or where Z3 is at a loss by cvc5.
+
+    Z3 is asked in a context of its own: what it has been asked before in this process can lead it into numbers so
+    long that no budget ends it.
+    """
     available = {**bench.assumed, **bench.invariants}
     order = [formula for formulas in bench.always().values() for formula in formulas]
     given = [available[name] for name in hypotheses]
     for goal in claim.goals:
-        solver = z3.Solver()
+        apart = z3.Context()
+        solver = z3.Solver(ctx=apart)
         solver.set("rlimit", rlimit)
-        solver.add(*order, *given, z3.Not(goal))
+        solver.add(*(formula.translate(apart) for formula in (*order, *given, z3.Not(goal))))
         answer = solver.check()
         if answer == z3.sat:
             return False
