@@ -80,6 +80,10 @@ def a_list_binds_the_way_of_its_own_train_alone() -> None:
     assert not the_track_goes_on_as_listed(SITE, system, T1, THROAT, ENDS_MM[THROAT] + 1)
     assert the_track_goes_on_as_listed(SITE, with_the_other(system), T2, ELSEWHERE, 999_000)
     assert the_track_goes_on_as_listed(SITE, replace(system, block_ends_mm={}), T1, ELSEWHERE, 999_000)
+    beyond = replace(
+        system, block={T1: OUTLET}, block_end_mm={T1: 860_000}, block_ends_mm={RUN: {**ENDS_MM, OUTLET: 860_000}}
+    )
+    assert the_track_goes_on_as_listed(SITE, beyond, T1, ELSEWHERE, 999_000)
     on_another_lap = replace(system, block_end_mm={T1: ENDS_MM[WEST] + 900_000})
     assert the_track_goes_on_as_listed(SITE, on_another_lap, T1, ELSEWHERE, 999_000)
     nowhere = replace(SITE, site=replace(SITE.site, layout=replace(SITE.site.layout, way={})))
