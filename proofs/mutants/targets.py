@@ -38,6 +38,7 @@ NOT_STEPS = frozenset(
         "kernel.error_correction",
         "kernel.maps",
         "kernel.onboard.frames",
+        "kernel.onboard.limits",
         "kernel.persistence",
         "kernel.tag_list_text",
         "kernel.tags",
@@ -49,7 +50,7 @@ NOT_STEPS = frozenset(
         "models.world.start",
     }
 )
-"""Modules that no transition is made of: what a state is kept in, tables, codes, premises, the start."""
+"""Modules that no transition is made of: what a state is kept in, tables, codes, limits, premises, the start."""
 BESIDE = (models.onboard, models.crossing, models.alarm, models.tram)
 """Worlds of theories beside the interlocking."""
 SINGLE = ("models.link",)
