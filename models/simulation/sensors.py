@@ -25,8 +25,6 @@ A slide that is held at one speed is beyond what the proofs assume of a wheel, a
 """
 SLIP_MOST_MM_S, SLIPS_FROM_MM_S = 6_000.0, 10_000.0
 TAIL_AGE_MS = 200
-OVERFLOW_S = 0.6
-"""After so long without a pulse the tachometer's timer overflows, and it shows no speed."""
 
 
 def _drawn(random: Random, fault: str) -> float:
@@ -39,7 +37,6 @@ class Sensors:
     """The sensors of one train.
 
     ``scale``: creep and diameter, as a share.  ``turned_mm``: the way that the wheel has turned.
-    ``shown_mm_s``: the tachometer's speed; ``pulse_cycles``: so many cycles ago the last pulse came.
     ``off_mm_s``: how much faster the wheel is than the train.  ``slips_cycles``: it slips so long yet.
     """
 
@@ -50,8 +47,6 @@ class Sensors:
     turned_mm: float = 0.0
     way_mm: int = 0
     wheel_mm_s: float = 0.0
-    shown_mm_s: float = 0.0
-    pulse_cycles: int = 0
     off_mm_s: float = 0.0
     slips_cycles: int = 0
     slips_mm_s2: float = 0.0
@@ -77,8 +72,8 @@ class Sensors:
         heard, felt = self.tachometer_silent_cycles == 0, self.inertial_silent_cycles == 0
         self.tachometer_silent_cycles -= not heard
         self.inertial_silent_cycles -= not felt
-        self._show(mean_mm_s, turns)
-        return Readings(CYCLE_MS, heard, round(self.shown_mm_s), way_mm, felt, self._felt(gained_mm_s2))
+        tachometer_mm_s = round(mean_mm_s) if turns else 0
+        return Readings(CYCLE_MS, heard, tachometer_mm_s, way_mm, felt, self._felt(gained_mm_s2))
 
     def tail(self, head: Readings, gained_mm_s2: float) -> TailReadings:
         """The tail's telegram of the same time; its two sensors err on their own."""
@@ -90,16 +85,6 @@ class Sensors:
             Acceleration(right, True),
             TAIL_AGE_MS,
         )
-
-    def _show(self, mean_mm_s: float, turns: bool) -> None:
-        """The speed by the pulses' times: without one no more than a pulse since the last one, and in the end 0."""
-        self.pulse_cycles = 0 if turns else self.pulse_cycles + 1
-        if turns:
-            self.shown_mm_s = mean_mm_s
-        elif self.pulse_cycles * CYCLE_S >= OVERFLOW_S:
-            self.shown_mm_s = 0.0
-        else:
-            self.shown_mm_s = min(self.shown_mm_s, PULSE_MM / (self.pulse_cycles * CYCLE_S))
 
     def _wheel(self, speed_mm_s: float) -> None:
         """The wheel runs away to 6 m/s off and comes back, again and again while it slips; then for good."""
