@@ -118,6 +118,14 @@ class Ride(Play[Train, Whole]):
             self.cycle(max(0, speed_mm_s - 70) if responded else speed_mm_s)
             assert self.system.computer.brake.applied
 
+    def draw_up(self) -> None:
+        """Run a little and let the driver stop it, until its brake holds it."""
+        self.gather(3_000)
+        self.step("withhold_end")
+        self.stop()
+        for _ in range(5):
+            self.cycle(0, may_proceed=False)
+
 
 # ---- it runs
 
@@ -215,11 +223,7 @@ def a_train_located_anew_begins_as_at_the_start() -> None:
     """Once its brake holds it; what it awaited, how far it had rolled, and which end it held, are over (P7, T8)."""
     ride = Ride()
     ride.start()
-    ride.gather(3_000)
-    ride.step("withhold_end")
-    ride.stop()
-    for _ in range(5):
-        ride.cycle(0, may_proceed=False)
+    ride.draw_up()
     known = replace(
         ride.system.computer.known,
         watch=replace(ride.system.computer.known.watch, limit_mm_s=9),
@@ -252,11 +256,7 @@ def a_tag_told_after_the_train_was_located_anew_says_nothing() -> None:
     """It was read before, and nobody knows how far the train has run since; the next one counts (P7, T2)."""
     ride = Ride()
     ride.start()
-    ride.gather(3_000)
-    ride.step("withhold_end")
-    ride.stop()
-    for _ in range(5):
-        ride.cycle(0, may_proceed=False)
+    ride.draw_up()
     front_nm = ride.system.front_nm
     front_mm = front_nm // NM_A_MM
     tag = {
