@@ -34,7 +34,7 @@ class Settled:
 
 def settle(world: World, settled: Settled) -> None:
     """Bring every train to rest and let it tell anew; say by assertion what is not as it must be."""
-    world.missed_of_100 = 0
+    world.missed_of_100, world.detection_holds = 0, True
     world.air.clear()
     for train in world.trains.values():
         for number in range(MOST_STOPPING_MOVES):

@@ -33,7 +33,7 @@ class World:
         self.rails = Rails(told)
         self.calls = kernel(told.layout, told.records)
         self.bits = seed
-        self.missed_of_100 = 0
+        self.missed_of_100, self.detection_holds = 0, False
         chance = Random(seed)
         self.lies: dict[Point, Position] = {
             point: Position(chance.choice(sorted(told.network.junctions[point].joins)))
@@ -475,7 +475,7 @@ class World:
             return self._centre(self.calls.centre_hears(self.centre, message))
         if to in self.terminals:
             before = self.terminals[to]
-            contacts = (self.bits >> 17) + len(self.air) & 3 > 0
+            contacts = self.detection_holds or (self.bits >> 17) + len(self.air) & 3 > 0
             self.terminals[to] = self.calls.terminal_hears(before, message, self.lies[to], contacts)
             return self.terminals[to] != before
         return self._board_hears(self.trains[to], message)
