@@ -76,10 +76,7 @@ class Spacing:
 
 
 def preset(preset_mm: int) -> Spacing:
-    """Begin with the antenna distance that staff has preset: at a system boundary, after coupling, splitting (T3).
-
-    Also after a change of ends, when the head becomes the tail: what was read before counts no more.
-    """
+    """Begin with the antenna distance that staff has preset: at a system boundary, after coupling, splitting (T3)."""
     return Spacing(
         preset_mm=preset_mm,
         reads=HeadReads(
@@ -97,6 +94,11 @@ def preset(preset_mm: int) -> Spacing:
         checked=False,
         broken=False,
     )
+
+
+def turned(spacing: Spacing) -> Spacing:
+    """Begin after a change of ends, or at another place: what was read counts no more, a false tail stays one (T3)."""
+    return replace(preset(spacing.preset_mm), broken=spacing.broken)
 
 
 def restarted() -> Spacing:

@@ -3,6 +3,9 @@
 A cycle has two halves.  At its beginning :func:`decide` settles whether the brake is on while the train runs;
 at its end :func:`sense` takes what the sensors say of that run.  Between the end of one cycle and the beginning
 of the next comes all that is told: tags that were read in it, ends of authority, and where a train at rest is.
+So no tag is called overdue in the cycle in which it was read.
+
+Tags and ends of authority lie on one kilometrage, the front's: a tag lies where the front is when it is read.
 """
 
 from __future__ import annotations
@@ -10,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import (
+    antenna_spacing,
     brake_demand,
     brake_watch,
     braking,
@@ -19,6 +23,7 @@ from kernel.onboard import (
     tag_fix,
     tag_window,
 )
+from kernel.onboard.antenna_spacing import Spacing
 from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
 from kernel.onboard.limits import Limits
@@ -28,8 +33,8 @@ from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
 from kernel.onboard.tag_window import NONE_AWAITED
-from kernel.onboard.way import UNKNOWN, Way, between
-from kernel.standstill import Standstill, is_braked
+from kernel.onboard.way import Way
+from kernel.standstill import Standstill, ThroughLine, is_braked
 
 
 @dataclass(frozen=True)
@@ -38,13 +43,15 @@ class Computer:
 
     ``known``: what its machines know at the end of the newest cycle.
     ``before``: what the odometry knew a cycle earlier; it claims nothing once the train has been located anew.
-    ``way_began``: where the front was when the way to the awaited tag began.
+    ``from_mm``: the way to the awaited tag is counted from this place.
+    ``spacing``: what is known of the two antennas.
     ``brake``: what the brake control knows.
     """
 
     known: Known
     before: Motion
-    way_began: Way
+    from_mm: int
+    spacing: Spacing
     brake: Brake
 
 
@@ -64,7 +71,8 @@ def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
             window=NONE_AWAITED,
         ),
         before=odometry.past(motion),
-        way_began=UNKNOWN,
+        from_mm=0,
+        spacing=antenna_spacing.preset(limits.antennas_mm),
         brake=braking.stand_still(most_mm),
     )
 
@@ -94,12 +102,14 @@ def standstill(limits: Limits, computer: Computer) -> Standstill:
 
 
 def decide(limits: Limits, computer: Computer, may_proceed: bool, acknowledged: bool) -> Computer:
-    """Decide on the brake for the cycle that begins (T5, T12).
+    """Decide on the brake for the cycle that begins, and whether the awaited tag is overdue (T5, T12).
 
     ``may_proceed``: an order lets the train proceed.  ``acknowledged``: the driver has acknowledged the brake.
     """
-    brake = brake_demand.decide(limits.train, computer.brake, computer.known, may_proceed, acknowledged)
-    return replace(computer, brake=brake)
+    way = way_to(computer, place(computer))
+    known = replace(computer.known, window=tag_window.note_cycle(limits.window, computer.known.window, way))
+    brake = brake_demand.decide(limits.train, computer.brake, known, may_proceed, acknowledged)
+    return replace(computer, known=known, brake=brake)
 
 
 def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailReadings) -> Computer:
@@ -107,7 +117,6 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
     known = computer.known
     motion = odometry.note_cycle(limits.sensors, known.motion, readings)
     located = odometry.is_located(motion)
-    now = Way(located, motion.front_least_mm, motion.front_most_mm)
     least_mm_s, most_mm_s = motion.speed_least_mm_s, motion.speed_most_mm_s
     return replace(
         computer,
@@ -119,7 +128,7 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
             movement=reverse_movement.note_cycle(limits.reverse, known.movement, readings),
             limit=known.limit,
             wholeness=split.note_cycle(limits.split, known.wholeness, tail),
-            window=tag_window.note_cycle(limits.window, known.window, between(computer.way_began, now)),
+            window=known.window,
         ),
         before=known.motion,
     )
@@ -133,35 +142,21 @@ def place_of_read(computer: Computer) -> Way:
     return tag_fix.place_of_read(computer.before, computer.known.motion)
 
 
-def reads_in_window(limits: Limits, computer: Computer) -> bool:
-    """Tell whether a tag read within the newest cycle came where the awaited one may (T5)."""
-    way = between(computer.way_began, place_of_read(computer))
-    return tag_window.in_window(limits.window, computer.known.window, way)
+def way_to(computer: Computer, at: Way) -> Way:
+    """Give the way from where it is counted to a place of the front (T5, P7)."""
+    return Way(at.known, at.least_mm - computer.from_mm, at.most_mm - computer.from_mm)
 
 
-def fix(limits: Limits, computer: Computer, place_mm: int) -> Fix:
-    """Give where the front is by a tag listed at ``place_mm`` that the head read within the newest cycle (P7, T2)."""
-    return tag_fix.fix_of(limits.tags, computer.before, computer.known.motion, place_mm)
+def way_to_tag_mm(limits: Limits, computer: Computer, place_mm: int) -> int:
+    """Give how far it is from there to where the head reads a tag that is listed at ``place_mm`` (T1, T5)."""
+    return place_mm + limits.tags.antenna_mm - computer.from_mm
 
 
-def take_fix(limits: Limits, computer: Computer, place_mm: int) -> Computer:
-    """Narrow the range by such a tag (P7).
-
-    One that was read before the train was located says nothing any more: it has run on since, by who knows how much.
-    """
-    if not place_of_read(computer).known:
-        return computer
-    found = fix(limits, computer, place_mm)
-    motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
-    return replace(computer, known=replace(computer.known, motion=motion))
-
-
-# ---- what is told
-
-
-def await_tag(computer: Computer, least_mm: int, most_mm: int) -> Computer:
-    """Await a tag so far from where the way to it began: between these two distances (T5)."""
-    return replace(computer, known=replace(computer.known, window=tag_window.await_tag(least_mm, most_mm)))
+def await_tag(limits: Limits, computer: Computer, place_mm: int) -> Computer:
+    """Await the tag that is listed at this place as the next; the way to it is counted from behind the train (T5)."""
+    begun = replace(computer, from_mm=computer.known.motion.front_least_mm - limits.window.tolerance_mm)
+    away_mm = way_to_tag_mm(limits, begun, place_mm)
+    return replace(begun, known=replace(begun.known, window=tag_window.await_tag(away_mm, away_mm)))
 
 
 def await_none(computer: Computer) -> Computer:
@@ -169,14 +164,66 @@ def await_none(computer: Computer) -> Computer:
     return replace(computer, known=replace(computer.known, window=NONE_AWAITED))
 
 
-def begin_way(computer: Computer, at: Way) -> Computer:
-    """Begin the way to the next tag where the front was when the last one was read, or where the train stands (T5)."""
-    return replace(computer, way_began=at)
+def awaits(limits: Limits, computer: Computer, place_mm: int) -> bool:
+    """Tell whether the tag that is listed at this place is awaited (T5)."""
+    window = computer.known.window
+    return window.expected and window.most_mm == way_to_tag_mm(limits, computer, place_mm)
+
+
+def reads_in_window(limits: Limits, computer: Computer, place_mm: int) -> bool:
+    """Tell whether the head read a tag within the newest cycle where the list has it (T5)."""
+    away_mm = way_to_tag_mm(limits, computer, place_mm)
+    window = tag_window.await_tag(away_mm, away_mm)
+    return tag_window.in_window(limits.window, window, way_to(computer, place_of_read(computer)))
+
+
+def fix(limits: Limits, computer: Computer, place_mm: int) -> Fix:
+    """Give where the front is by a tag listed at ``place_mm`` that the head read within the newest cycle (P7, T2)."""
+    return tag_fix.fix_of(limits.tags, computer.before, computer.known.motion, place_mm)
+
+
+def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int) -> Computer:
+    """Take a tag that the head read within the newest cycle: it narrows the range, and the tail's follows (P7, T13).
+
+    ``place_mm``: where the list has it.  One that was read elsewhere, or before the train was located, says nothing:
+    it is another, or the train has run on since by who knows how much.
+    """
+    if not reads_in_window(limits, computer, place_mm):
+        return computer
+    found = fix(limits, computer, place_mm)
+    motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
+    fixed = replace(computer, known=replace(computer.known, motion=motion))
+    return replace(fixed, spacing=antenna_spacing.note_head_read(computer.spacing, uid, place_of_read(fixed)))
+
+
+def read_by_tail(limits: Limits, computer: Computer, uid: int) -> Computer:
+    """Take a tag that the tail read within the newest cycle: is it as far behind the head as preset (T13, T3)?"""
+    at = place_of_read(computer)
+    return replace(computer, spacing=antenna_spacing.note_tail_read(limits.spacing, computer.spacing, uid, at))
+
+
+def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLine:
+    """Give what is known of the way to the tail; ``answers``: its signal comes over the line (T3, T13, P5).
+
+    The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).
+    """
+    return ThroughLine(
+        answers=answers,
+        is_intact=split.is_intact(limits.split, computer.known.wholeness),
+        fits=antenna_spacing.is_healthy(computer.spacing) and not computer.known.movement.reversed,
+    )
+
+
+# ---- what is told
 
 
 def made_up(limits: Limits, computer: Computer) -> Computer:
-    """Take the train for whole: its staff has found it so (P5)."""
-    return replace(computer, known=replace(computer.known, wholeness=split.made_up(limits.split)))
+    """Take the train for whole, and its antennas for as far apart as is written: its staff has found it so (P5, T3)."""
+    return replace(
+        computer,
+        known=replace(computer.known, wholeness=split.made_up(limits.split)),
+        spacing=antenna_spacing.preset(limits.antennas_mm),
+    )
 
 
 def withhold_end(computer: Computer) -> Computer:
@@ -187,8 +234,8 @@ def withhold_end(computer: Computer) -> Computer:
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
 
-    What was found of motors, brake and wholeness stays.  Restrictions lay on the kilometrage of before: until the next
-    tag all of them hold.
+    What was found of motors, brake, wholeness and antennas stays.  Restrictions lay on the kilometrage of before:
+    until the next tag all of them hold.
     """
     if not is_braked(standstill(limits, computer)):
         return computer
@@ -203,6 +250,7 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
             window=NONE_AWAITED,
         ),
         before=odometry.past(motion),
-        way_began=UNKNOWN,
+        from_mm=0,
+        spacing=antenna_spacing.turned(computer.spacing),
         brake=braking.stand_still(most_mm),
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.odometry import SensorBounds
@@ -18,7 +19,10 @@ from kernel.onboard.tag_window import WindowLimits
 
 @dataclass(frozen=True)
 class Limits:
-    """What is written of the train, its sensors and its line, for each machine."""
+    """What is written of the train, its sensors and its line, for each machine.
+
+    ``antennas_mm``: from the head's antenna to the tail's, as preset (T3).
+    """
 
     sensors: SensorBounds
     train: TrainLimits
@@ -26,6 +30,8 @@ class Limits:
     split: SplitLimits
     window: WindowLimits
     tags: TagLimits
+    spacing: SpacingLimits
+    antennas_mm: int
 
 
 @dataclass(frozen=True)
@@ -35,12 +41,14 @@ class Surveyed:
     ``jolt_mm_s2``: the least by which the wheel's acceleration differs from the train's when it leaves its creep (P1).
     ``pace_cycles``: a wheel that slips does not keep pace with its train for so many cycles (P1).
     ``laid_within_mm``, ``read_within_mm``: so far from its place a tag is laid, and from the tag it is read (T2).
+    ``preset_within_mm``: so near to their true distance that of the antennas is preset (T3).
     """
 
     jolt_mm_s2: int
     pace_cycles: int
     laid_within_mm: int
     read_within_mm: int
+    preset_within_mm: int
 
 
 def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
@@ -72,6 +80,11 @@ def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -
     )
 
 
+def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
+    """Tell whether what is allowed the antennas covers presetting them and both their read windows (T3, T13)."""
+    return spacing.tolerance_mm >= surveyed.preset_within_mm + 2 * surveyed.read_within_mm
+
+
 def is_split_lawful(limits: SplitLimits) -> bool:
     """Tell whether no limit of split detection is below zero (P5)."""
     return (
@@ -89,6 +102,7 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         are_sensors_lawful(limits.sensors, surveyed)
         and is_brake_lawful(limits.train.brake)
         and are_tags_lawful(limits.tags, limits.window, surveyed)
+        and is_spacing_lawful(limits.spacing, surveyed)
         and is_split_lawful(limits.split)
         and limits.reverse.roll_back_mm >= 0
     )

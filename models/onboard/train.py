@@ -11,8 +11,8 @@ from kernel.onboard import brake_demand, computer
 from kernel.onboard import braking as brake_control
 from kernel.onboard.odometry import Readings, is_located
 from kernel.onboard.split import Readings as TailReadings
-from kernel.onboard.way import Way
-from models.onboard import brake_watch, braking, odometry
+from models.onboard import antenna_spacing, brake_watch, braking, odometry, tag_window
+from models.onboard.antenna_spacing import Trailing
 from models.onboard.train_nature import (
     Train,
     Whole,
@@ -30,16 +30,22 @@ from models.onboard.train_nature import (
     leaving_the_creep_takes_a_jolt,
     line,
     running,
+    stretch,
     the_head_is_no_faster_than_at_the_ends_of_a_cycle,
     the_inertial_sensor_keeps_its_bound,
     the_rest_of_the_cycle_follows_the_speed,
+    the_tails_antenna_reads_in_its_window,
     the_train_gains_no_more,
     the_train_stands_where_it_is_said_to,
     the_train_stays_within_its_powers,
     the_way_follows_the_speed,
+    track,
     watched,
     watched_over,
+    way_nm,
+    who_finds_the_train_whole_finds_its_antennas_as_preset,
 )
+from models.onboard.units import NM_A_MM
 
 
 def run_a_cycle(
@@ -56,7 +62,7 @@ def run_a_cycle(
     if not a_brake_that_has_responded_keeps_its_bound(site, system, decided.brake.applied, speed_um_s):
         return system
     at = system.computer.known.motion
-    demanded = brake_demand.is_demanded(site.limits.train, system.computer.known, may_proceed)
+    demanded = brake_demand.is_demanded(site.limits.train, decided.known, may_proceed)
     return replace(
         system,
         front_nm=to_nm,
@@ -75,6 +81,13 @@ def run_a_cycle(
             to_nm,
             speed_um_s,
         ),
+        expecting=tag_window.run_a_cycle(
+            stretch(site),
+            system.expecting,
+            way_nm(system, system.front_nm),
+            computer.way_to(system.computer, computer.place(system.computer)),
+        ),
+        trailing=antenna_spacing.run(track(site), system.trailing, system.front_nm),
         computer=decided,
     )
 
@@ -126,25 +139,59 @@ def sense_the_cycle(
     )
 
 
-def read_a_tag(site: Train, system: Whole, place_mm: int, lies_nm: int, read_at_nm: int) -> Whole:
-    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, P7)."""
+def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: int) -> Whole:
+    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, T5, P7)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not a_tag_lies_where_it_is_listed(site, place_mm, lies_nm):
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
         return system
-    if not a_tag_is_read_in_the_read_window(site, lies_nm, read_at_nm):
+    if not a_tag_is_read_in_the_read_window(site, uid, read_at_nm):
         return system
     if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
         return system
-    told = computer.take_fix(site.limits, system.computer, place_mm)
-    if told == system.computer:
-        return system
+    if computer.awaits(site.limits, system.computer, place_mm):
+        expecting = tag_window.read_a_tag(
+            stretch(site),
+            system.expecting,
+            way_nm(system, read_at_nm),
+            computer.way_to(system.computer, computer.place_of_read(system.computer)),
+            way_nm(system, NM_A_MM * (uid + site.limits.tags.antenna_mm)),
+        )
+    else:
+        expecting = system.expecting
+    if not computer.reads_in_window(site.limits, system.computer, place_mm):
+        return replace(system, expecting=expecting)
+    told = computer.read_by_head(site.limits, system.computer, uid, place_mm)
     fix = computer.fix(site.limits, system.computer, place_mm)
+    there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
     return replace(
         system,
         running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
+        expecting=expecting,
+        trailing=antenna_spacing.head_reads(track(site), there, uid, computer.place_of_read(told)),
         computer=told,
     )
+
+
+def read_by_the_tail(site: Train, system: Whole, uid: int, read_at_nm: int) -> Whole:
+    """In the newest cycle the antenna that speaks for the tail has read a tag (T2, T13)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not the_tails_antenna_reads_in_its_window(site, system, uid, read_at_nm):
+        return system
+    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
+        return system
+    there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
+    return replace(
+        system,
+        trailing=antenna_spacing.tail_reads(track(site), there, uid, computer.place_of_read(system.computer)),
+        computer=computer.read_by_tail(site.limits, system.computer, uid),
+    )
+
+
+def come_apart(site: Train, system: Whole, apart_nm: int) -> Whole:
+    """From now on another antenna speaks for the tail, or the same one elsewhere (T3, P5)."""
+    return replace(system, trailing=antenna_spacing.come_apart(track(site), system.trailing, apart_nm))
 
 
 def take_end(site: Train, system: Whole, end_mm: int) -> Whole:
@@ -184,7 +231,8 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
     located = computer.locate(site.limits, system.computer, least_mm, most_mm)
     if located == system.computer:
         return system
-    return _at_rest(site, replace(system, computer=located), least_mm, most_mm)
+    turned = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
+    return _at_rest(site, replace(system, trailing=turned, computer=located), least_mm, most_mm)
 
 
 def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -195,8 +243,15 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         return system
     if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
         return system
+    if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
+        return system
     begun = computer.put_into_service(site.limits, least_mm, most_mm)
-    inspected = replace(system, watched=replace(system.watched, kept=True, too_fast=False), computer=begun)
+    inspected = replace(
+        system,
+        watched=replace(system.watched, kept=True, too_fast=False),
+        trailing=_preset(site, system),
+        computer=begun,
+    )
     return _at_rest(site, inspected, least_mm, most_mm)
 
 
@@ -217,20 +272,46 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             wanted=False,
         ),
         watched=replace(watched(system), allowed_mm_s=0),
+        expecting=tag_window.expect_none(stretch(site), system.expecting),
     )
 
 
-def await_tag(site: Train, system: Whole, at: Way, least_mm: int, most_mm: int) -> Whole:
-    """The orders say which tag comes next, and how far from where the front was at the last one (T5)."""
-    told = computer.await_tag(computer.begin_way(system.computer, at), least_mm, most_mm)
-    return replace(system, computer=told)
+def await_tag(site: Train, system: Whole, place_mm: int) -> Whole:
+    """The orders say which tag comes next, and where it is listed (T5)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    told = computer.await_tag(site.limits, system.computer, place_mm)
+    window = told.known.window
+    awaiting = replace(system, computer=told)
+    return replace(
+        awaiting,
+        expecting=tag_window.expect_a_tag(
+            stretch(site), system.expecting, way_nm(awaiting, system.front_nm), window.least_mm, window.most_mm
+        ),
+    )
 
 
 def await_none(site: Train, system: Whole) -> Whole:
     """No order says which tag comes next (T5)."""
-    return replace(system, computer=computer.await_none(system.computer))
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    return replace(
+        system,
+        expecting=tag_window.expect_none(stretch(site), system.expecting),
+        computer=computer.await_none(system.computer),
+    )
 
 
 def find_whole(site: Train, system: Whole) -> Whole:
-    """The staff has found the train whole (P5)."""
-    return replace(system, computer=computer.made_up(site.limits, system.computer))
+    """The staff has found the train whole, and its antennas as far apart as is written (P5, T3)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
+        return system
+    return replace(system, trailing=_preset(site, system), computer=computer.made_up(site.limits, system.computer))
+
+
+def _preset(site: Train, system: Whole) -> Trailing:
+    """The antennas are preset where the train is."""
+    there = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
+    return antenna_spacing.preset(track(site), there, site.limits.antennas_mm)

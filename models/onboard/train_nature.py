@@ -11,11 +11,14 @@ from dataclasses import dataclass, replace
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
-from models.onboard import brake_watch, braking, odometry, tag_fix
+from models.onboard import antenna_spacing, brake_watch, braking, odometry, tag_fix, tag_window
+from models.onboard.antenna_spacing import Track, Trailing
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
 from models.onboard.odometry import Line, Running
 from models.onboard.tag_fix import Antenna
+from models.onboard.tag_window import Expecting, Stretch
+from models.onboard.units import NM_A_MM
 
 
 @dataclass(frozen=True)
@@ -25,6 +28,7 @@ class Train:
     ``limits``: as written, and as the computer reckons with.
     ``jolt_mm_s2``, ``pace_cycles``, ``length_mm``: of wheel and train, as in :class:`models.onboard.odometry.Line`.
     ``laid_within_mm``, ``read_within_mm``: of tags, as in :class:`models.onboard.tag_fix.Antenna`.
+    ``tag``, ``preset_within_mm``: as in :class:`models.onboard.antenna_spacing.Track`.
     """
 
     limits: Limits
@@ -33,6 +37,8 @@ class Train:
     length_mm: int
     laid_within_mm: int
     read_within_mm: int
+    tag: int
+    preset_within_mm: int
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,8 @@ class Whole:
 
     ``front_nm``, ``speed_um_s``: where the front is, and how fast; ``from_nm``, ``from_um_s``: when the cycle began.
     ``runs``: the train has run for a cycle that its computer has yet to sense.
-    ``running``, ``approach``, ``watched``: the train as odometry, brake control and brake watch are proved with it.
+    ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``: the train as odometry, brake control, brake
+    watch, the window for the next tag and the antennas' spacing are proved with it.
     ``computer``: what its computer remembers.
     """
 
@@ -53,6 +60,8 @@ class Whole:
     running: Running
     approach: Approach
     watched: Watched
+    expecting: Expecting
+    trailing: Trailing
     computer: Computer
 
 
@@ -83,6 +92,22 @@ def watched_over(site: Train) -> brake_watch.Vehicle:
 def antenna(site: Train) -> Antenna:
     """Give the site of the world of tags."""
     return Antenna(limits=site.limits.tags, laid_within_mm=site.laid_within_mm, read_within_mm=site.read_within_mm)
+
+
+def stretch(site: Train) -> Stretch:
+    """Give the site of the world of the window: the way to a tag is counted from a place, so one tag's error counts."""
+    return Stretch(limits=site.limits.window, laying_mm=site.laid_within_mm, read_mm=site.read_within_mm)
+
+
+def track(site: Train) -> Track:
+    """Give the site of the world of the two antennas."""
+    return Track(
+        limits=site.limits.spacing,
+        tag=site.tag,
+        antenna_mm=site.limits.tags.antenna_mm,
+        read_within_mm=site.read_within_mm,
+        preset_error_mm=site.preset_within_mm,
+    )
 
 
 def running(system: Whole) -> Running:
@@ -118,6 +143,11 @@ def watched(system: Whole) -> Watched:
     )
 
 
+def way_nm(system: Whole, front_nm: int) -> int:
+    """Give how far the front is from where the way to the awaited tag is counted (T5)."""
+    return front_nm - NM_A_MM * system.computer.from_mm
+
+
 # ---- premises
 
 
@@ -139,6 +169,18 @@ def the_brakes_bounds_fit(site: Train) -> bool:
 def the_tags_bounds_fit(site: Train) -> bool:
     """What the proof of the tag's fix asks of the written bounds (T2)."""
     return tag_fix.the_error_covers_laying_and_read_window(antenna(site))
+
+
+def the_windows_bounds_fit(site: Train) -> bool:
+    """What the proof of the window asks of the written bounds (T5)."""
+    return tag_window.nothing_is_negative(stretch(site)) and tag_window.the_tolerance_covers_laying_and_read_window(
+        stretch(site)
+    )
+
+
+def the_spacings_bounds_fit(site: Train) -> bool:
+    """What the proof of the antennas' spacing asks of the written bounds (T3)."""
+    return antenna_spacing.the_tolerance_covers_preset_and_read_window(track(site))
 
 
 # ---- assumptions
@@ -216,14 +258,29 @@ def a_wheel_that_keeps_pace_rolls(site: Train, system: Whole, readings: Readings
     return odometry.a_wheel_that_keeps_pace_rolls(line(site), paced_cycles, slips)
 
 
-def a_tag_lies_where_it_is_listed(site: Train, place_mm: int, lies_nm: int) -> bool:
-    """A tag is laid within the error of the place that the list has for it (T1)."""
-    return tag_fix.a_tag_lies_where_it_is_listed(antenna(site), place_mm, lies_nm)
+def a_tag_lies_where_it_is_listed(site: Train, place_mm: int, uid: int) -> bool:
+    """A tag, numbered by where it lies, is laid within the error of the place that the list has for it (T1)."""
+    return tag_fix.a_tag_lies_where_it_is_listed(antenna(site), place_mm, NM_A_MM * uid)
 
 
-def a_tag_is_read_in_the_read_window(site: Train, lies_nm: int, read_at_nm: int) -> bool:
+def a_tag_is_read_in_the_read_window(site: Train, uid: int, read_at_nm: int) -> bool:
     """An antenna reads a tag while it is no farther from it than its read window reaches (T2, T16)."""
-    return tag_fix.a_tag_is_read_in_the_read_window(antenna(site), lies_nm, read_at_nm)
+    return tag_fix.a_tag_is_read_in_the_read_window(antenna(site), NM_A_MM * uid, read_at_nm)
+
+
+def the_tails_antenna_reads_in_its_window(site: Train, system: Whole, uid: int, read_at_nm: int) -> bool:
+    """So does the antenna that speaks for the tail, as far behind the head's as it is (T2, T16)."""
+    seen = replace(system.trailing, front_nm=read_at_nm)
+    return antenna_spacing.a_tag_is_read_in_the_read_window(
+        track(site), antenna_spacing.tail_nm(track(site), seen), uid
+    )
+
+
+def who_finds_the_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
+    """Staff looks at every car, and measures from the head's antenna to the tail's at a supervised place (T3, P5)."""
+    return antenna_spacing.the_preset_is_near(
+        track(site), system.trailing, site.limits.antennas_mm
+    ) and antenna_spacing.the_antennas_lie_apart(track(site), system.trailing.apart_nm)
 
 
 def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> bool:

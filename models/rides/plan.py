@@ -28,9 +28,14 @@ LENGTH_MM = 120_000
 TAG_ERROR_MM = 300
 """How far from the plan a tag may be, and be read: half the window of 513 mm, and 43 mm of laying."""
 SURVEYED = Surveyed(
-    jolt_mm_s2=5_000, pace_cycles=BOUNDS.agreement_cycles - 2, laid_within_mm=43, read_within_mm=TAG_ERROR_MM - 43
+    jolt_mm_s2=5_000,
+    pace_cycles=BOUNDS.agreement_cycles - 2,
+    laid_within_mm=43,
+    read_within_mm=TAG_ERROR_MM - 43,
+    preset_within_mm=80,
 )
-"""What the limits below are checked against: the least declared jolt of a slip, and the two parts of a tag's error."""
+"""What the limits below are checked against: the least declared jolt of a slip, the two parts of a tag's error, and
+how near the antennas' distance is preset."""
 
 READER = Reader(WINDOW_MM, AIR_MS, 2.0, ASKS_MS, 0.0)
 """A reader that receives 4 frames at the line's speed, as two of four needs; `heisoku reproduce 000` says why."""

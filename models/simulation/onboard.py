@@ -5,13 +5,13 @@ Each decision is a function of ``kernel.onboard``; here they are only fed, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from kernel.maps import Map
-from kernel.names import Block, Run, Tag, TagList
-from kernel.onboard import antenna_spacing, authority_end, braking, odometry, split
+from kernel.names import Block, Run, TagList
+from kernel.onboard import authority_end, braking, odometry, split
 from kernel.onboard import computer as computing
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.computer import Computer
@@ -43,16 +43,12 @@ class OnBoard:
     """What the machines on board remember.
 
     ``computer``: where the train is, the awaited tag, wholeness and brake, by ``limits``.
-    ``from_mm``: between these places, by the plan, the head antenna was when the way to the next tag began.
     ``lists``: the lists of the runs that the unit was permitted.
     """
 
     length_mm: int
     limits: Limits
     computer: Computer
-    spacing: antenna_spacing.Spacing
-    from_mm: tuple[int, int] = (0, 0)
-    awaited: Tag | None = None
     lists: dict[Run, Ahead] = field(default_factory=dict)
 
     @property
@@ -71,11 +67,6 @@ class OnBoard:
         return computing.place(self.computer)
 
     @property
-    def place_of_read(self) -> Way:
-        """Where the front was when an antenna read something within the cycle."""
-        return computing.place_of_read(self.computer)
-
-    @property
     def intact(self) -> bool:
         """Whether the train is known to be whole."""
         return split.is_intact(self.limits.split, self.computer.known.wholeness)
@@ -92,32 +83,21 @@ class OnBoard:
 
     # ---- tags
 
-    def head_reads(self, number: int, tag: Tag, place_mm: int | None) -> bool:
-        """The head reads a tag: is it in its window; a fix where the list has it (T5, P7, T13).
-
-        One that lies beside the awaited one, which was missed, leaves that one's window as it is.
-        """
-        if place_mm is None or not computing.reads_in_window(self.limits, self.computer):
+    def head_reads(self, number: int, place_mm: int | None) -> bool:
+        """The head reads a tag: is it where the list has it, if it is listed at all (T5, P7, T13)."""
+        if place_mm is None or not computing.reads_in_window(self.limits, self.computer, place_mm):
             return False
-        self.computer = computing.take_fix(self.limits, self.computer, place_mm)
-        self.spacing = antenna_spacing.note_head_read(self.spacing, number, self.place_of_read)
-        if self.awaited is None or self.awaited == tag:
-            self.from_mm = (place_mm, place_mm)
-            self.computer = computing.begin_way(self.computer, self.place_of_read)
+        self.computer = computing.read_by_head(self.limits, self.computer, number, place_mm)
         return self.place.known
 
     def tail_reads(self, number: int, answers: bool) -> ThroughLine:
         """The tail reads a tag: what says whether it is the train's last antenna (T13, P5)."""
-        self.spacing = antenna_spacing.note_tail_read(PLAN.spacing, self.spacing, number, self.place_of_read)
+        self.computer = computing.read_by_tail(self.limits, self.computer, number)
         return self.line(answers)
 
     def line(self, answers: bool) -> ThroughLine:
-        """What is known of the way to the tail; ``answers``: its signal comes over the line (T3).
-
-        The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).
-        """
-        fits = antenna_spacing.is_healthy(self.spacing) and not self.computer.known.movement.reversed
-        return ThroughLine(answers, self.intact, fits)
+        """What is known of the way to the tail; ``answers``: its signal comes over the line (T3)."""
+        return computing.through_line(self.limits, self.computer, answers)
 
     @property
     def standstill(self) -> Standstill:
@@ -130,13 +110,12 @@ class OnBoard:
         """Let the brake do what the orders of the unit ask, and await the next tag by them (T4, T5)."""
         runs = [run for run in self.lists if run in unit.orders]
         self.computer = replace(self.computer, brake=self._asked(unit, runs))
-        tags_mm: dict[Tag, int] = {}
+        tags_mm = list[int]()
         for run in runs:
-            order = unit.orders[run]
-            if order.permitted and not order.given_back and order.expected in self.lists[run].tags_mm:
-                assert order.expected is not None
-                tags_mm[order.expected] = self.lists[run].tags_mm[order.expected]
-        self._await(tags_mm)
+            order, listed = unit.orders[run], self.lists[run].tags_mm
+            if order.permitted and not order.given_back and order.expected is not None and order.expected in listed:
+                tags_mm.append(listed[order.expected])
+        self._await(min(tags_mm, default=None))
 
     def _asked(self, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
         """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
@@ -153,32 +132,19 @@ class OnBoard:
         )
         return brake
 
-    def _await(self, tags_mm: Mapping[Tag, int]) -> None:
-        """Await the nearest of these tags; the way to it is from the last one, or from where the train stood."""
-        awaited = min(tags_mm, key=lambda tag: tags_mm[tag], default=None)
-        if awaited is None:
-            self.awaited, self.computer = None, computing.await_none(self.computer)
-            return
-        if awaited == self.awaited and self.computer.known.window.expected:
-            return
-        least_mm, most_mm = tags_mm[awaited] - self.from_mm[1], tags_mm[awaited] - self.from_mm[0]
-        self.awaited = awaited
-        self.computer = computing.await_tag(self.computer, max(0, least_mm), max(0, most_mm))
+    def _await(self, place_mm: int | None) -> None:
+        """Await the nearest of the tags that come next."""
+        if place_mm is None:
+            self.computer = computing.await_none(self.computer)
+        elif not computing.awaits(self.limits, self.computer, place_mm):
+            self.computer = computing.await_tag(self.limits, self.computer, place_mm)
 
     # ---- at rest
 
     def locate(self, least_mm: int, most_mm: int) -> None:
         """Begin anew at a standstill, with the front in a range (P7, T8)."""
         self.computer = computing.locate(self.limits, self.computer, least_mm, most_mm)
-        self.spacing = antenna_spacing.preset(self.length_mm - 2 * ANTENNA_MM)
-        self.awaited, self.lists = None, {}
-        self.begin_way()
-
-    def begin_way(self) -> None:
-        """The way to the next tag begins here, wherever the train stands within its range."""
-        self.from_mm = (self.motion.front_least_mm - ANTENNA_MM, self.motion.front_most_mm - ANTENNA_MM)
-        here = (self.motion.front_least_mm + self.motion.front_most_mm) // 2
-        self.computer = computing.begin_way(self.computer, Way(self.place.known, here, here))
+        self.lists = {}
 
     @property
     def takes_hold(self) -> bool:
@@ -204,14 +170,9 @@ def on_board(length_mm: int, front_mm: int) -> OnBoard:
         split=PLAN.split,
         window=PLAN.window,
         tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
+        spacing=PLAN.spacing,
+        antennas_mm=length_mm - 2 * ANTENNA_MM,
     )
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
-    made = OnBoard(
-        length_mm=length_mm,
-        limits=limits,
-        computer=computing.put_into_service(limits, least_mm, most_mm),
-        spacing=antenna_spacing.preset(length_mm - 2 * ANTENNA_MM),
-    )
-    made.begin_way()
-    return made
+    return OnBoard(length_mm, limits, computing.put_into_service(limits, least_mm, most_mm))

@@ -334,7 +334,6 @@ class Service:
             return
         self._forgets()
         self._survey(run)
-        board.begin_way()
         vehicle.run = run
         vehicle.demanded(self.play)
         board.decide(vehicle.demanded(self.play), True)

@@ -92,6 +92,8 @@ class Vehicle:
     def cycle(self, line: Line) -> None:
         """Let its computer decide on the brake, the train move, and its sensors read."""
         self.board.decide(self.demanded(line.play), False)
+        if self.board.computer.known.window.passed and not self.restarted:
+            line.play.take("window_passes", train=self.on_rails.name)
         before = self.speed_mm_s
         self._drive()
         moved_mm = (before + self.speed_mm_s) / 2 * CYCLE_S
@@ -103,8 +105,6 @@ class Vehicle:
         self.board.sense(readings, self.sensors.tail(readings, tail_mm_s2))
         if self.pending_mm >= self.next_mm or (self.stands and self.pending_mm >= 1):
             self.advance(line)
-        if self.board.computer.known.window.passed and not self.restarted:
-            line.play.take("window_passes", train=self.on_rails.name)
         self.at_rest_cycles = self.at_rest_cycles + 1 if self.stands else 0
 
     def _drive(self) -> None:
@@ -220,7 +220,7 @@ class Line(Drive):
         self._head_reads(vehicle, what, what.tag, next(places, None))
 
     def _head_reads(self, vehicle: Vehicle, what: Happening, tag: Tag, place_mm: int | None) -> None:
-        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), tag, place_mm)
+        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm)
         self.head_reads(vehicle.on_rails, what, tag, in_window)
         vehicle.demanded(self.play)
 

@@ -17,6 +17,7 @@ from models.onboard.antenna_spacing import (
     the_tolerance_covers_preset_and_read_window,
     turn,
 )
+from models.onboard.units import NM_A_MM
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -43,10 +44,8 @@ def a_false_tail_is_found(site: Track, system: Trailing) -> bool:
 
     A rear cab that poses as the tail of a split train, and a train that has stretched, are beyond that.
     """
-    unseen_mm = site.limits.tolerance_mm + site.read_mm + site.limits.width_mm
-    return (
-        not machine.is_healthy(system.spacing) or -unseen_mm <= system.tail_mm - system.spacing.preset_mm <= unseen_mm
-    )
+    off_nm = system.tail_nm - NM_A_MM * system.spacing.preset_mm
+    return not machine.is_healthy(system.spacing) or not world.is_off(site, off_nm)
 
 
 def unhealthy_is_latched(site: Track, system: Trailing) -> bool:
@@ -70,7 +69,7 @@ def healthy_only_after_a_preset(site: Track, system: Trailing) -> bool:
 
 
 def a_whole_train_is_never_accused(site: Track, system: Trailing) -> bool:
-    """While the train is as it was preset, no read is found not to fit, however bad the odometry (T13)."""
+    """While the train is as it was preset, and runs forward, every read fits, however bad the odometry (T13)."""
     return not system.whole or not system.spacing.broken
 
 
@@ -89,9 +88,10 @@ def what_is_caught_is_broken(site: Track, system: Trailing) -> bool:
 
 def a_whole_train_is_near_its_preset(site: Track, system: Trailing) -> bool:
     """While the train is as it was preset, its antennas are as far apart as that, and farther than a window (T3)."""
+    off_nm = NM_A_MM * system.spacing.preset_mm - system.apart_nm
     return not system.whole or (
-        -site.preset_error_mm <= system.spacing.preset_mm - system.apart_mm <= site.preset_error_mm
-        and system.apart_mm > site.read_mm
+        -NM_A_MM * site.preset_error_mm <= off_nm <= NM_A_MM * site.preset_error_mm
+        and system.apart_nm > 2 * NM_A_MM * site.read_within_mm
     )
 
 
@@ -100,7 +100,7 @@ def a_whole_train_has_passed_what_its_tail_read(site: Track, system: Trailing) -
     return (
         not system.whole
         or not system.spacing.tail_read
-        or (2 * (system.head_mm - system.apart_mm - system.spacing.tail_uid) >= -site.read_mm)
+        or world.tail_nm(site, system) - NM_A_MM * system.spacing.tail_uid >= -NM_A_MM * site.read_within_mm
     )
 
 
@@ -108,8 +108,8 @@ def is_a_read(site: Track, system: Trailing, read: HeadRead) -> bool:
     """Tell whether what is remembered is where the head truly read a tag, as well as the odometry knew."""
     return not read.at.known or (
         (read.uid != site.tag or system.head_has_read)
-        and 2 * (read.uid - read.at.most_mm) <= site.read_mm
-        and 2 * (read.at.least_mm - read.uid) <= site.read_mm
+        and read.uid + site.antenna_mm - read.at.most_mm <= site.read_within_mm
+        and read.at.least_mm - read.uid - site.antenna_mm <= site.read_within_mm
     )
 
 

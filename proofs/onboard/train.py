@@ -1,18 +1,23 @@
 """What is claimed of a train from its sensors to its brake: it stops before its end, and knows where it is (P7, T12).
 
-Each claim of odometry, brake control and brake watch is claimed again of the one train that all three see.
+Each claim of odometry, brake control, brake watch, the window for the next tag and the antennas' spacing is claimed
+again of the one train that all of them see.
 """
 
 from __future__ import annotations
 
+from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
+from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard.train import (
     await_none,
     await_tag,
+    come_apart,
     find_whole,
     locate_anew,
     put_into_service,
     read_a_tag,
+    read_by_the_tail,
     run_a_cycle,
     sense_the_cycle,
     take_end,
@@ -26,14 +31,19 @@ from models.onboard.train_nature import (
     braked,
     line,
     running,
+    stretch,
     the_brakes_bounds_fit,
     the_odometrys_bounds_fit,
+    the_spacings_bounds_fit,
     the_tags_bounds_fit,
+    the_windows_bounds_fit,
+    track,
     watched,
     watched_over,
+    way_nm,
 )
 from models.onboard.units import NM_A_MM, UM_A_MM
-from proofs.onboard import brake_watch, braking, odometry
+from proofs.onboard import antenna_spacing, brake_watch, braking, odometry, tag_window
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -53,10 +63,20 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and not system.watched.watch.broken
         and not system.watched.too_fast
         and system.watched.kept
+        and tag_window.no_tag_is_awaited(stretch(site), system.expecting)
+        and system.computer.known.window == system.expecting.window
         and system.computer.known.motion == system.running.motion
         and system.computer.known.watch == system.watched.watch
         and system.computer.before.loss == Loss.LOCATED_ANEW
         and system.computer.brake == system.approach.brake
+    )
+
+
+def the_antennas_are_not_preset_yet(site: Train, system: Whole) -> bool:
+    """Nor is it known what is the train's tail (T3, T8)."""
+    return (
+        antenna_spacing.the_unit_has_just_started(track(site), system.trailing)
+        and system.computer.spacing == system.trailing.spacing
     )
 
 
@@ -108,6 +128,60 @@ def a_sound_brake_is_not_accused(site: Train, system: Whole) -> bool:
     return not system.computer.known.watch.broken or not system.watched.kept
 
 
+def a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused(site: Train, system: Whole) -> bool:
+    """The awaited tag is not taken where it lies elsewhere than listed, by more than tolerance and errors (T5)."""
+    return tag_window.a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused(stretch(site), system.expecting)
+
+
+def a_missing_tag_is_noticed_within_a_bounded_way(site: Train, system: Whole) -> bool:
+    """A train that runs beyond the awaited tag by tolerance and width knows it when its next cycle begins (T5)."""
+    return tag_window.a_missing_tag_is_noticed_within_a_bounded_way(stretch(site), system.expecting)
+
+
+def a_tag_in_its_place_is_never_refused(site: Train, system: Whole) -> bool:
+    """The awaited tag is taken where it lies as listed, while the odometry knows the way as is written (T5)."""
+    return tag_window.a_tag_in_its_place_is_never_refused(stretch(site), system.expecting)
+
+
+def no_tag_still_ahead_is_called_missing(site: Train, system: Whole) -> bool:
+    """A tag is overdue only of a train that has come past it, or does not know where it is (T5)."""
+    return tag_window.no_tag_still_ahead_is_called_missing(stretch(site), system.expecting)
+
+
+def a_false_tail_is_found(site: Train, system: Whole) -> bool:
+    """Healthy: at the tail's newest read it was as far behind as preset, but for tolerance, window and width (T13)."""
+    return antenna_spacing.a_false_tail_is_found(track(site), system.trailing)
+
+
+def unhealthy_is_latched(site: Train, system: Whole) -> bool:
+    """Once a false tail was compared, or tail came before head, the line is not healthy until preset anew (T13)."""
+    return antenna_spacing.unhealthy_is_latched(track(site), system.trailing)
+
+
+def healthy_only_after_a_check(site: Train, system: Whole) -> bool:
+    """Healthy: the tail has read since the preset, and its newest tag, any one, the head had read before (T13)."""
+    return antenna_spacing.healthy_only_after_a_check(track(site), system.trailing)
+
+
+def healthy_only_after_a_preset(site: Train, system: Whole) -> bool:
+    """Healthy: staff has preset the distance since the unit started; a restart forgets that it fitted (T3, T8)."""
+    return antenna_spacing.healthy_only_after_a_preset(track(site), system.trailing)
+
+
+def a_whole_train_is_never_accused(site: Train, system: Whole) -> bool:
+    """While the train is as it was preset, and runs forward, every read fits, however bad the odometry (T13)."""
+    return antenna_spacing.a_whole_train_is_never_accused(track(site), system.trailing)
+
+
+def a_tail_that_counts_is_the_trains_last(site: Train, system: Whole) -> bool:
+    """The line fits only if the tail's antenna was as far behind as preset, and the train has not rolled back (T2)."""
+    line = computer.through_line(site.limits, system.computer, True)
+    off_nm = system.trailing.tail_nm - NM_A_MM * system.computer.spacing.preset_mm
+    return not line.fits or (
+        not system.computer.known.movement.reversed and not world_of_antennas.is_off(track(site), off_nm)
+    )
+
+
 # ---- one train
 
 
@@ -120,6 +194,12 @@ def there_is_one_train(site: Train, system: Whole) -> bool:
         and system.running.front_nm == seen.front_nm
         and system.running.speed_um_s == seen.speed_um_s
         and system.watched.speed_um_s == seen.speed_um_s
+        and (
+            not system.runs
+            or not system.expecting.window.expected
+            or system.expecting.way_nm == way_nm(system, system.from_nm)
+        )
+        and (not system.runs or system.trailing.front_nm == system.from_nm)
     )
 
 
@@ -136,6 +216,16 @@ def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
 def the_computer_has_the_proved_watch(site: Train, system: Whole) -> bool:
     """Its watch is the one of the brake watch's proof."""
     return system.computer.known.watch == system.watched.watch
+
+
+def the_computer_has_the_proved_window(site: Train, system: Whole) -> bool:
+    """Its window for the next tag is the one of the window's proof."""
+    return system.computer.known.window == system.expecting.window
+
+
+def the_computer_has_the_proved_spacing(site: Train, system: Whole) -> bool:
+    """What it knows of its antennas is what the proof of their spacing does."""
+    return system.computer.spacing == system.trailing.spacing
 
 
 def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
@@ -244,7 +334,42 @@ def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
     return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
 
 
-INITIAL = (the_train_stands_held_by_its_brake,)
+def what_is_not_preset_is_broken(site: Train, system: Whole) -> bool:
+    """Until staff presets the distance no read puts right what a restart has latched (T8, T13)."""
+    return antenna_spacing.what_is_not_preset_is_broken(track(site), system.trailing)
+
+
+def what_is_caught_is_broken(site: Train, system: Whole) -> bool:
+    """What was latched is still latched (T13)."""
+    return antenna_spacing.what_is_caught_is_broken(track(site), system.trailing)
+
+
+def a_whole_train_is_near_its_preset(site: Train, system: Whole) -> bool:
+    """While the train is as it was preset, its antennas are as far apart as that, and farther than a window (T3)."""
+    return antenna_spacing.a_whole_train_is_near_its_preset(track(site), system.trailing)
+
+
+def a_whole_train_has_passed_what_its_tail_read(site: Train, system: Whole) -> bool:
+    """While the train is whole, the tag that its tail has read is behind its head by the antenna distance (T13)."""
+    return antenna_spacing.a_whole_train_has_passed_what_its_tail_read(track(site), system.trailing)
+
+
+def what_is_remembered_was_read(site: Train, system: Whole) -> bool:
+    """Every read that is remembered was one, in its place (T13)."""
+    return antenna_spacing.what_is_remembered_was_read(track(site), system.trailing)
+
+
+def the_tails_newest_read_is_noted(site: Train, system: Whole) -> bool:
+    """The machine knows whether the tail has read, and which tag last (T13)."""
+    return antenna_spacing.the_tails_newest_read_is_noted(track(site), system.trailing)
+
+
+def the_heads_last_eight_are_remembered(site: Train, system: Whole) -> bool:
+    """The one tag, if it is among the head's last eight, is remembered as it was read last (T13)."""
+    return antenna_spacing.the_heads_last_eight_are_remembered(track(site), system.trailing)
+
+
+INITIAL = (the_train_stands_held_by_its_brake, the_antennas_are_not_preset_yet)
 SAFETY = (
     the_front_stays_before_the_end,
     the_front_is_where_the_computer_says,
@@ -252,10 +377,22 @@ SAFETY = (
     the_speed_is_what_the_computer_says,
     no_fix_contradicts,
     a_sound_brake_is_not_accused,
+    a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused,
+    a_missing_tag_is_noticed_within_a_bounded_way,
+    a_tag_in_its_place_is_never_refused,
+    no_tag_still_ahead_is_called_missing,
+    a_false_tail_is_found,
+    unhealthy_is_latched,
+    healthy_only_after_a_check,
+    healthy_only_after_a_preset,
+    a_whole_train_is_never_accused,
+    a_tail_that_counts_is_the_trains_last,
     there_is_one_train,
     the_computer_has_the_proved_odometry,
     the_computer_has_the_proved_brake,
     the_computer_has_the_proved_watch,
+    the_computer_has_the_proved_window,
+    the_computer_has_the_proved_spacing,
 )
 INVARIANTS = (
     *SAFETY,
@@ -277,12 +414,27 @@ INVARIANTS = (
     the_way_left_is_enough,
     a_train_that_keeps_is_no_faster_than_the_limit,
     the_watch_counts_no_more_than_the_brake,
+    what_is_not_preset_is_broken,
+    what_is_caught_is_broken,
+    a_whole_train_is_near_its_preset,
+    a_whole_train_has_passed_what_its_tail_read,
+    what_is_remembered_was_read,
+    the_tails_newest_read_is_noted,
+    the_heads_last_eight_are_remembered,
 )
-PREMISES = (the_odometrys_bounds_fit, the_brakes_bounds_fit, the_tags_bounds_fit)
+PREMISES = (
+    the_odometrys_bounds_fit,
+    the_brakes_bounds_fit,
+    the_tags_bounds_fit,
+    the_windows_bounds_fit,
+    the_spacings_bounds_fit,
+)
 STEPS = (
     run_a_cycle,
     sense_the_cycle,
     read_a_tag,
+    read_by_the_tail,
+    come_apart,
     take_end,
     withhold_end,
     locate_anew,
@@ -301,5 +453,5 @@ THEORY = Theory(
     by_name(INVARIANTS),
     by_name(SAFETY),
     by_name(PREMISES),
-    parts=("odometry", "braking", "brake_watch", "tag_fix"),
+    parts=("odometry", "braking", "brake_watch", "tag_fix", "tag_window", "antenna_spacing"),
 )

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from kernel.onboard import antenna_spacing as machine
 from kernel.onboard.antenna_spacing import Spacing
 from kernel.onboard.way import UNKNOWN, Way
+from models.onboard.units import NM_A_MM
 from proofs.onboard.antenna_spacing import THEORY
-from proofs.onboard.witnesses.antenna_spacing import APART_MM, JUST_STARTED, SITE, WITNESSES
+from proofs.onboard.witnesses.antenna_spacing import ANTENNA_MM, APART_MM, JUST_STARTED, SITE, WITNESSES, front_nm
 from proofs.onboard.witnesses.play import Play
 
 LIMITS = SITE.limits
@@ -96,10 +97,10 @@ def events(draw: st.DrawFn) -> tuple[str, dict[str, Any]]:
         return name, {"off": off, "known": known, "behind": behind, "ahead": ahead}
     apart = draw(st.sampled_from((APART_MM, APART_MM, 60_000, 121_000, 119_000, 600, 0, -APART_MM)))
     drawn: dict[str, dict[str, Any]] = {
-        "run": {"to_mm": draw(st.integers(-300_000, 300_000))},
-        "come_apart": {"apart_mm": apart},
+        "run": {"to_nm": front_nm(draw(st.integers(-300_000, 300_000)))},
+        "come_apart": {"apart_nm": NM_A_MM * apart},
         "preset": {"preset_mm": draw(st.sampled_from((APART_MM, APART_MM + 500, APART_MM - 500, 60_000, 600)))},
-        "turn": {"head_mm": draw(st.integers(-300_000, 300_000)), "apart_mm": apart},
+        "turn": {"front_nm": front_nm(draw(st.integers(-300_000, 300_000)))},
         "restart": {},
     }
     return name, drawn[name]
@@ -121,16 +122,19 @@ def test_drawn_worlds_keep_what_is_claimed() -> None:
             if name != "read":
                 play.step(name, **event)
                 continue
+            head_mm = play.system.front_nm // NM_A_MM - ANTENNA_MM
+            apart_mm = play.system.apart_nm // NM_A_MM
             ways_mm = {
-                antenna: TAGS_MM - (play.system.head_mm - behind_mm + 300) % TAGS_MM
-                for antenna, behind_mm in (("head", 0), ("tail", play.system.apart_mm))
+                antenna: TAGS_MM - (head_mm - behind_mm + 300) % TAGS_MM
+                for antenna, behind_mm in (("head", 0), ("tail", apart_mm))
             }
             antenna = min(ways_mm, key=lambda name: ways_mm[name])
-            behind_mm = play.system.apart_mm if antenna == "tail" else 0
-            uid = play.system.head_mm + 300 + ways_mm[antenna] - behind_mm
+            behind_mm = apart_mm if antenna == "tail" else 0
+            uid = head_mm + 300 + ways_mm[antenna] - behind_mm
             place_mm = uid + event["off"] + behind_mm
-            play.step("run", to_mm=place_mm)
-            told = Way(event["known"], place_mm - event["behind"], place_mm + event["ahead"])
+            play.step("run", to_nm=front_nm(place_mm))
+            front_mm = place_mm + ANTENNA_MM
+            told = Way(event["known"], front_mm - event["behind"], front_mm + event["ahead"])
             play.step(f"{antenna}_reads", uid=uid, at=told)
             seen["healthy"] += machine.is_healthy(play.system.spacing)
             seen["caught"] += play.system.caught

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.limits import (
@@ -19,6 +20,7 @@ from kernel.onboard.limits import (
     are_sensors_lawful,
     are_tags_lawful,
     is_brake_lawful,
+    is_spacing_lawful,
     is_split_lawful,
 )
 from kernel.onboard.odometry import SensorBounds
@@ -28,7 +30,7 @@ from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_window import WindowLimits
 from models.concrete.rails import ANTENNA_MM
-from models.onboard import reverse_movement, split, tag_window
+from models.onboard import antenna_spacing, reverse_movement, split, tag_window
 from models.onboard.train_nature import Train, the_brakes_bounds_fit, the_odometrys_bounds_fit, the_tags_bounds_fit
 from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 
@@ -39,6 +41,8 @@ LAWFUL = Limits(
     split=PLAN.split,
     window=PLAN.window,
     tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
+    spacing=PLAN.spacing,
+    antennas_mm=130_000 - 2 * ANTENNA_MM,
 )
 SMALL = st.integers(-2, 40)
 SPEEDS = st.builds(SpeedTable, SMALL, SMALL, SMALL)
@@ -50,16 +54,21 @@ LIMITS = st.builds(
     split=st.builds(SplitLimits, *[SMALL] * len(fields(SplitLimits))),
     window=st.builds(WindowLimits, SMALL, SMALL),
     tags=st.builds(TagLimits, SMALL, SMALL),
+    spacing=st.builds(SpacingLimits, SMALL, SMALL),
+    antennas_mm=SMALL,
 )
-SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL)
+SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL, SMALL)
 
 
 def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
     """What the proofs ask of limits, where nature is just as bad as what was surveyed."""
     laid_mm, read_mm = surveyed.laid_within_mm, surveyed.read_within_mm
     length_mm = limits.train.length_mm
-    site = Train(limits, surveyed.jolt_mm_s2, surveyed.pace_cycles, length_mm, laid_mm, read_mm)
+    site = Train(
+        limits, surveyed.jolt_mm_s2, surveyed.pace_cycles, length_mm, laid_mm, read_mm, 0, surveyed.preset_within_mm
+    )
     stretch = tag_window.Stretch(limits.window, 2 * laid_mm, 2 * read_mm)
+    track = antenna_spacing.Track(limits.spacing, 0, limits.tags.antenna_mm, read_mm, surveyed.preset_within_mm)
     wheel = reverse_movement.Wheel(limits.reverse, limits.sensors.pulse_mm)
     return {
         "odometry": the_odometrys_bounds_fit(site),
@@ -68,6 +77,7 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "window": tag_window.nothing_is_negative(stretch)
         and tag_window.the_tolerance_covers_laying_and_read_window(stretch),
         "split": split.limits_are_not_negative(split.Coupled(limits.split, 0, 0, 0)),
+        "spacing": antenna_spacing.the_tolerance_covers_preset_and_read_window(track),
         "reverse": reverse_movement.bounds_are_not_negative(wheel),
     }
 
@@ -79,6 +89,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "brake": is_brake_lawful(limits.train.brake),
         "tags and window": are_tags_lawful(limits.tags, limits.window, surveyed),
         "split": is_split_lawful(limits.split),
+        "spacing": is_spacing_lawful(limits.spacing, surveyed),
         "reverse": limits.reverse.roll_back_mm >= 0,
     }
 
@@ -90,6 +101,7 @@ def test_limits_are_lawful_where_every_premise_holds_of_them_and_only_there(limi
     assert said["brake"] == asked["brake"]
     assert said["tags and window"] == (asked["tags"] and asked["window"])
     assert said["split"] == asked["split"]
+    assert said["spacing"] == asked["spacing"]
     assert are_lawful(limits, surveyed) == all(said.values())
     assert not are_lawful(limits, surveyed) or all(asked.values())
 
@@ -117,6 +129,6 @@ def test_one_number_after_the_other_of_the_plan_is_lawful_where_the_premises_hol
 
 def test_the_plan_is_lawful_and_just_so() -> None:
     assert are_lawful(LAWFUL, SURVEYED)
-    for worse in ({"jolt_mm_s2": 2_059}, {"pace_cycles": 19}, {"laid_within_mm": 44}):
+    for worse in ({"jolt_mm_s2": 2_059}, {"pace_cycles": 19}, {"laid_within_mm": 44}, {"preset_within_mm": 87}):
         survey = replace(SURVEYED, **worse)
         assert not are_lawful(LAWFUL, survey)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from kernel.onboard import tag_window as machine
 from kernel.onboard.tag_window import NONE_AWAITED, Verdict, WindowLimits
 from kernel.onboard.way import GREATEST_MM, UNKNOWN, Way, between, is_known
+from models.onboard.units import NM_A_MM
 from proofs.onboard.tag_window import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.tag_window import AT_REST, PLANNED_MM, SITE, WITNESSES
@@ -79,8 +80,8 @@ def events(draw: st.DrawFn) -> tuple[str, dict[str, Any]]:
     in_place = draw(st.integers(0, 2)) < 2
     way_mm = draw(st.integers(PLANNED_MM - 1_600, PLANNED_MM + 1_600) if in_place else NEAR)
     behind, ahead = draw(st.integers(-2, 5_010)), draw(st.integers(-2, 5_010))
-    told = {"way_mm": way_mm, "way": Way(draw(st.integers(0, 9)) > 0, way_mm - behind, way_mm + ahead)}
-    return name, told | ({"lies_mm": way_mm + draw(st.integers(-520, 520))} if name == "read_a_tag" else {})
+    told = {"way_nm": NM_A_MM * way_mm, "way": Way(draw(st.integers(0, 9)) > 0, way_mm - behind, way_mm + ahead)}
+    return name, told | ({"lies_nm": NM_A_MM * (way_mm + draw(st.integers(-520, 520)))} if name == "read_a_tag" else {})
 
 
 def test_drawn_worlds_keep_what_is_claimed() -> None:
@@ -91,7 +92,7 @@ def test_drawn_worlds_keep_what_is_claimed() -> None:
     def drawn_worlds(drawn: list[tuple[int, int, list[tuple[str, dict[str, Any]]]]]) -> None:
         play = Play(THEORY, SITE, AT_REST)
         for least_mm, most_mm, run in drawn:
-            play.step("expect_a_tag", least_mm=least_mm, most_mm=most_mm)
+            play.step("expect_a_tag", way_nm=0, least_mm=least_mm, most_mm=most_mm)
             for name, event in run:
                 play.step(name, **event)
                 for each in seen:

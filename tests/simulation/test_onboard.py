@@ -25,7 +25,7 @@ ROLLS_MM_S = 3_500
 
 def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
     board = on_board(120_000, 500_000)
-    board.spacing = replace(board.spacing, checked=True)
+    board.computer = replace(board.computer, spacing=replace(board.computer.spacing, checked=True))
     assert board.line(True).fits
     known = board.computer.known
     rolled = replace(known, movement=replace(known.movement, reversed=True))
@@ -74,6 +74,17 @@ def test_a_train_is_located_anew_only_while_its_brake_holds_it() -> None:
     assert computer.place(anew) == Way(True, 900_000, 901_000)
     assert anew.known.watch.broken
     assert anew.brake.applied
+
+
+def test_a_false_tail_stays_one_until_staff_finds_the_train_whole() -> None:
+    """A change of ends, or being located anew, does not put it right."""
+    board = on_board(120_000, 500_000)
+    standing(board, PLAN.brake.response_cycles + 1)
+    board.computer = replace(board.computer, spacing=replace(board.computer.spacing, checked=True, broken=True))
+    board.locate(900_000, 901_000)
+    assert board.computer.spacing.broken
+    board.made_up()
+    assert not board.computer.spacing.broken
 
 
 def test_the_brake_is_asked_where_the_train_is_and_not_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,17 +8,32 @@ from kernel.onboard import antenna_spacing as machine
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.way import GREATEST_MM, UNKNOWN, Way
 from models.onboard.antenna_spacing import Track, Trailing
+from models.onboard.units import NM_A_MM
 from proofs.onboard.antenna_spacing import THEORY
 from proofs.onboard.witnesses.play import Play
 
 TAGS = (0, 1_000, 30_000, 31_000, 60_000, 61_000, 90_000, 91_000)
 """Four boundaries, two tags at each; numbered by their places."""
 APART_MM = 120_000
-SITE = Track(limits=SpacingLimits(tolerance_mm=1_013, width_mm=4_000), tag=0, read_mm=513, preset_error_mm=500)
+ANTENNA_MM = 4_000
+SITE = Track(
+    limits=SpacingLimits(tolerance_mm=1_013, width_mm=4_000),
+    tag=0,
+    antenna_mm=ANTENNA_MM,
+    read_within_mm=256,
+    preset_error_mm=500,
+)
+
+
+def front_nm(head_mm: int) -> int:
+    """Give where the front is when the head's antenna is here."""
+    return NM_A_MM * (head_mm + ANTENNA_MM)
+
+
 JUST_STARTED = Trailing(
     spacing=machine.restarted(),
-    head_mm=-200_000,
-    apart_mm=APART_MM,
+    front_nm=front_nm(-200_000),
+    apart_nm=NM_A_MM * APART_MM,
     is_preset=False,
     whole=False,
     head_newest=0,
@@ -29,7 +44,7 @@ JUST_STARTED = Trailing(
     most_mm=0,
     tail_has_read=False,
     tail_is_on=False,
-    tail_mm=0,
+    tail_nm=0,
     caught=False,
 )
 
@@ -51,10 +66,10 @@ class Train(Play[Track, Trailing]):
         return machine.is_healthy(self.system.spacing)
 
     def _at(self, to_mm: int, behind_mm: int, ahead_mm: int) -> Way:
-        if to_mm != self.system.head_mm:
-            self.step("run", to_mm=to_mm)
-        assert self.system.head_mm == to_mm, "the train runs"
-        return Way(True, to_mm - behind_mm, to_mm + ahead_mm)
+        if front_nm(to_mm) != self.system.front_nm:
+            self.step("run", to_nm=front_nm(to_mm))
+        assert self.system.front_nm == front_nm(to_mm), "the train runs"
+        return Way(True, to_mm + ANTENNA_MM - behind_mm, to_mm + ANTENNA_MM + ahead_mm)
 
     def head(self, tag: int, off_mm: int = 0, behind_mm: int = 0, ahead_mm: int = 0, at: Way | None = None) -> None:
         """The head comes to a tag and reads it, off the middle; the odometry's range reaches so far."""
@@ -64,7 +79,7 @@ class Train(Play[Track, Trailing]):
 
     def tail(self, tag: int, off_mm: int = 0, behind_mm: int = 0, ahead_mm: int = 0, at: Way | None = None) -> bool:
         """The antenna for the tail comes to a tag and reads it; tells whether its read counts."""
-        told = self._at(tag + self.system.apart_mm + off_mm, behind_mm, ahead_mm)
+        told = self._at(tag + self.system.apart_nm // NM_A_MM + off_mm, behind_mm, ahead_mm)
         self.step("tail_reads", uid=tag, at=told if at is None else at)
         assert self.system.spacing.tail_read, "it is read"
         assert self.system.spacing.tail_uid == tag, "it is read"
@@ -97,13 +112,13 @@ def a_cab_poses_as_the_tail() -> None:
     for tag in TAGS:
         train.head(tag)
     assert train.tail(0)
-    train.step("come_apart", apart_mm=60_000)
+    train.step("come_apart", apart_nm=NM_A_MM * 60_000)
     assert not train.system.whole
-    train.step("run", to_mm=149_000)
+    train.step("run", to_nm=front_nm(149_000))
     assert not train.tail(90_000)
     assert train.system.caught
     assert train.system.spacing.broken
-    train.step("come_apart", apart_mm=APART_MM)
+    train.step("come_apart", apart_nm=NM_A_MM * APART_MM)
     assert not train.tail(91_000), "latched, though it fits again"
     train.head(299_000)
     assert train.system.caught
@@ -121,17 +136,17 @@ def a_stretched_train() -> None:
     """A tail that falls back is found as well, once it is beyond what the errors hide."""
     train = Train()
     train.head(0)
-    train.step("come_apart", apart_mm=APART_MM + 1_013)
+    train.step("come_apart", apart_nm=NM_A_MM * (APART_MM + 1_013))
     assert train.tail(0), "within the tolerance"
     for apart_mm in (APART_MM + 1_014, APART_MM - 1_014):
         train = Train()
         train.head(0)
-        train.step("come_apart", apart_mm=apart_mm)
+        train.step("come_apart", apart_nm=NM_A_MM * apart_mm)
         assert not train.tail(0)
         assert train.system.spacing.broken
     train = Train()
     train.head(0, behind_mm=2_000)
-    train.step("come_apart", apart_mm=APART_MM + 1_013 + 513 + 4_001)
+    train.step("come_apart", apart_nm=NM_A_MM * (APART_MM + 1_013 + 513 + 4_001))
     assert not train.tail(0, behind_mm=2_000)
     assert train.system.caught
 
@@ -139,8 +154,8 @@ def a_stretched_train() -> None:
 def the_tail_came_first() -> None:
     """With the antennas miswired, the head reads a tag that the tail has read before: latched."""
     train = Train()
-    train.step("come_apart", apart_mm=-APART_MM)
-    train.step("run", to_mm=-120_000)
+    train.step("come_apart", apart_nm=NM_A_MM * -APART_MM)
+    train.step("run", to_nm=front_nm(-120_000))
     assert not train.tail(0)
     assert not train.system.spacing.broken, "there was nothing to hold it against"
     train.head(0)
@@ -180,7 +195,7 @@ def a_way_known_badly() -> None:
     for apart_mm in (APART_MM, 60_000):
         train = Train()
         train.head(0, behind_mm=1_000, ahead_mm=1_000)
-        train.step("come_apart", apart_mm=apart_mm)
+        train.step("come_apart", apart_nm=NM_A_MM * apart_mm)
         assert not train.tail(0, behind_mm=1_000, ahead_mm=1_001)
         assert not train.system.spacing.broken
         assert not train.system.caught
@@ -197,7 +212,7 @@ def a_ninth_tag_pushes_out_the_first() -> None:
         train.head(-199_000)
         for number in range(others):
             train.head(-198_000 + 1_000 * number)
-        train.step("come_apart", apart_mm=60_000)
+        train.step("come_apart", apart_nm=NM_A_MM * 60_000)
         assert not train.tail(-199_000)
         assert train.system.spacing.broken == found
         assert train.system.caught == found
@@ -228,30 +243,55 @@ def a_train_that_stands_on_a_tag() -> None:
 
 
 def a_train_turns() -> None:
-    """After a change of ends nothing counts until the distance is preset anew, and the tags are read anew."""
+    """After a change of ends nothing counts until the tags are read anew; the distance stays as preset (T3)."""
     train = Train()
     train.head(0)
     assert train.tail(0)
-    train.step("turn", head_mm=0, apart_mm=APART_MM - 100)
-    assert train.system == replace(JUST_STARTED, head_mm=0, apart_mm=APART_MM - 100, tail_mm=APART_MM)
-    train.head(0)
-    assert not train.tail(0)
-    train.step("turn", head_mm=0, apart_mm=APART_MM)
-    train.step("preset", preset_mm=APART_MM)
+    before = train.system
+    train.step("turn", front_nm=front_nm(0))
+    preset = replace(JUST_STARTED, spacing=machine.preset(APART_MM), is_preset=True, whole=True)
+    assert train.system == replace(preset, front_nm=front_nm(0), tail_nm=before.tail_nm)
     assert not train.tail(0), "what the head read before the change counts no more"
+    train.head(30_000 + APART_MM)
+    assert train.tail(30_000 + APART_MM)
+
+
+def a_false_tail_stays_one_when_the_train_turns() -> None:
+    """What was found of the antennas is put right by staff alone (T3, T13)."""
+    train = Train()
+    train.head(0)
+    train.step("come_apart", apart_nm=NM_A_MM * (APART_MM - 100_000))
+    assert not train.tail(0)
+    assert train.system.caught
+    train.step("turn", front_nm=front_nm(0))
+    assert train.system.caught
+    train.step("come_apart", apart_nm=NM_A_MM * APART_MM)
+    train.head(30_000)
+    assert not train.tail(30_000)
+    train.step("preset", preset_mm=APART_MM)
+    train.head(300_000)
+    assert train.tail(300_000)
+
+
+def a_train_that_rolls_back_may_be_accused() -> None:
+    """Its head comes by a tag that its tail has read; it is on the safe side, and nothing else is given up (T13)."""
+    train = Train()
+    train.head(0)
+    assert train.tail(0)
+    train.head(0)
+    assert not train.system.whole
+    assert train.system.spacing.broken
 
 
 def history_begins_anew_with_the_train() -> None:
-    """After a change of ends, a restart or a preset, whatever tags were read before, and however many (T3, T8)."""
+    """After a restart or a preset, whatever tags were read before, and however many (T3, T8)."""
     train = Train()
     for tag in TAGS:
         train.head(tag)
     assert train.system.since == len(TAGS) - 1
     assert train.system.head_newest == TAGS[-1]
     before = train.system
-    begun = replace(JUST_STARTED, head_mm=TAGS[-1])
-    assert train.step("turn", head_mm=TAGS[-1], apart_mm=APART_MM) == begun
-    train.system = before
+    begun = replace(JUST_STARTED, front_nm=front_nm(TAGS[-1]))
     assert train.step("restart") == begun
     train.system = before
     preset = replace(begun, spacing=machine.preset(APART_MM), is_preset=True, whole=True)
@@ -259,20 +299,19 @@ def history_begins_anew_with_the_train() -> None:
 
 
 def what_nature_does_not_do() -> None:
-    """No tag is read outside the window, no range leaves the train out, no train rolls back."""
+    """No tag is read outside the window, no range leaves the train out, no preset is far off."""
     train = Train()
     before = train.system
     train.step("head_reads", uid=0, at=UNKNOWN)
     train.step("tail_reads", uid=0, at=UNKNOWN)
-    train.step("head_reads", uid=-200_000, at=Way(True, -199_999, 0))
-    train.step("head_reads", uid=-50_000, at=Way(True, -201_000, -200_001))
-    train.step("tail_reads", uid=-320_000, at=Way(True, -199_999, 0))
-    train.step("run", to_mm=-200_001)
+    train.step("head_reads", uid=-200_000, at=Way(True, -195_999, 4_000))
+    train.step("head_reads", uid=-50_000, at=Way(True, -197_000, -196_001))
+    train.step("tail_reads", uid=-320_000, at=Way(True, -195_999, 4_000))
     train.step("preset", preset_mm=APART_MM + 501)
     assert train.system == before
-    train.step("come_apart", apart_mm=513)
+    train.step("come_apart", apart_nm=NM_A_MM * 512)
     before = train.system
-    train.step("preset", preset_mm=513)
+    train.step("preset", preset_mm=512)
     assert train.system == before, "the antennas lie farther apart than a window"
 
 
@@ -288,6 +327,8 @@ WITNESSES = (
     a_place_beyond_the_range,
     a_train_that_stands_on_a_tag,
     a_train_turns,
+    a_false_tail_stays_one_when_the_train_turns,
+    a_train_that_rolls_back_may_be_accused,
     history_begins_anew_with_the_train,
     what_nature_does_not_do,
 )

@@ -8,13 +8,14 @@ from kernel.onboard import tag_window as machine
 from kernel.onboard.tag_window import GREATEST_DISTANCE_MM, NONE_AWAITED, Verdict, WindowLimits
 from kernel.onboard.way import GREATEST_MM, UNKNOWN, Way
 from models.onboard.tag_window import Expecting, Stretch
+from models.onboard.units import NM_A_MM
 from proofs.onboard.tag_window import THEORY
 from proofs.onboard.witnesses.play import Play
 
 SITE = Stretch(limits=WindowLimits(tolerance_mm=1_513, width_mm=10_000), laying_mm=1_000, read_mm=513)
 AT_REST = Expecting(
     window=NONE_AWAITED,
-    way_mm=0,
+    way_nm=0,
     late=False,
     missed=False,
     lost=False,
@@ -31,14 +32,14 @@ class Between(Play[Stretch, Expecting]):
     def __init__(self, planned_mm: int = PLANNED_MM) -> None:
         """Begin."""
         super().__init__(THEORY, SITE, AT_REST)
-        self.step("expect_a_tag", least_mm=planned_mm, most_mm=planned_mm)
+        self.step("expect_a_tag", way_nm=0, least_mm=planned_mm, most_mm=planned_mm)
         assert self.system.window.expected
 
     def runs(self, way_mm: int, behind_mm: int = 0, ahead_mm: int = 0, way: Way | None = None) -> bool:
         """A cycle ends here; the odometry's range reaches behind and ahead.  Tells whether the tag is overdue."""
         told = Way(True, way_mm - behind_mm, way_mm + ahead_mm) if way is None else way
-        self.step("run_a_cycle", way_mm=way_mm, way=told)
-        assert self.system.way_mm == way_mm, "the cycle passes"
+        self.step("run_a_cycle", way_nm=NM_A_MM * way_mm, way=told)
+        assert self.system.way_nm == NM_A_MM * way_mm, "the cycle passes"
         return self.system.window.passed
 
     def reads(
@@ -47,15 +48,15 @@ class Between(Play[Stretch, Expecting]):
         """A tag is read that lies here, off the middle of the windows."""
         way_mm = lies_mm + off_mm
         told = Way(True, way_mm - behind_mm, way_mm + ahead_mm) if way is None else way
-        self.step("read_a_tag", way_mm=way_mm, way=told, lies_mm=lies_mm)
-        assert self.system.way_mm == way_mm, "it is read"
+        self.step("read_a_tag", way_nm=NM_A_MM * way_mm, way=told, lies_nm=NM_A_MM * lies_mm)
+        assert self.system.way_nm == NM_A_MM * way_mm, "it is read"
         verdict = machine.judge(SITE.limits, self.system.window, told)
         assert self.system.taken == (verdict == Verdict.IN_WINDOW)
         return verdict
 
     def expects(self, planned_mm: int) -> None:
         """The tag was read; the next is so far away, and nothing is told of it yet."""
-        self.step("expect_a_tag", least_mm=planned_mm, most_mm=planned_mm)
+        self.step("expect_a_tag", way_nm=0, least_mm=planned_mm, most_mm=planned_mm)
         assert self.system == replace(
             AT_REST, window=machine.await_tag(planned_mm, planned_mm), taken=self.system.taken
         )
@@ -161,11 +162,11 @@ def somewhere_in_a_block() -> None:
         (PLANNED_MM + 1_514, Verdict.LATE),
     ):
         between = Between()
-        between.step("expect_a_tag", least_mm=0 if lies_mm == 0 else 200_000, most_mm=PLANNED_MM)
+        between.step("expect_a_tag", way_nm=0, least_mm=0 if lies_mm == 0 else 200_000, most_mm=PLANNED_MM)
         assert between.reads(lies_mm) == verdict
         assert between.runs(lies_mm) == (verdict == Verdict.LATE)
     between = Between()
-    between.step("expect_a_tag", least_mm=PLANNED_MM, most_mm=PLANNED_MM - 1)
+    between.step("expect_a_tag", way_nm=0, least_mm=PLANNED_MM, most_mm=PLANNED_MM - 1)
     assert between.reads(PLANNED_MM) == Verdict.UNKNOWN, "crossed limits are no plan"
 
 
@@ -173,10 +174,10 @@ def what_nature_does_not_do() -> None:
     """A tag outside the read window, and a range that does not contain the way, are not reckoned with."""
     between = Between()
     before = between.system
-    between.step("read_a_tag", way_mm=514, way=Way(True, 514, 514), lies_mm=0)
-    between.step("read_a_tag", way_mm=0, way=Way(True, 1, 1), lies_mm=0)
-    between.step("run_a_cycle", way_mm=2, way=Way(True, 1, 1))
-    between.step("run_a_cycle", way_mm=0, way=Way(True, 1, 1))
+    between.step("read_a_tag", way_nm=514 * NM_A_MM, way=Way(True, 514, 514), lies_nm=0)
+    between.step("read_a_tag", way_nm=0, way=Way(True, 1, 1), lies_nm=0)
+    between.step("run_a_cycle", way_nm=2 * NM_A_MM, way=Way(True, 1, 1))
+    between.step("run_a_cycle", way_nm=0, way=Way(True, 1, 1))
     assert between.system == before
 
 

@@ -5,127 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import braking, computer, odometry, split
-from kernel.onboard.brake_demand import TrainLimits
-from kernel.onboard.braking import BrakeBounds
-from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
-from kernel.onboard.reverse_movement import LOCATED, Movement, ReverseLimits
+from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
-from kernel.onboard.speed_limit import SpeedLimit, SpeedTable
-from kernel.onboard.split import Acceleration, SplitLimits
-from kernel.onboard.split import Readings as TailReadings
-from kernel.onboard.tag_fix import TagLimits
-from kernel.onboard.tag_window import NONE_AWAITED, Window, WindowLimits
-from kernel.onboard.way import UNKNOWN, Way
-from models.onboard.brake_watch import Watched
-from models.onboard.braking import Approach
+from kernel.onboard.speed_limit import SpeedLimit
+from kernel.onboard.tag_window import NONE_AWAITED, Window
+from kernel.onboard.way import Way
 from models.onboard.train_nature import (
-    Train,
-    Whole,
     a_brake_that_has_responded_keeps_its_bound,
     a_rolling_wheel_measures,
 )
 from models.onboard.units import NM_A_MM
-from proofs.onboard.train import THEORY, the_train_stands_held_by_its_brake
-from proofs.onboard.witnesses.play import Play
-from proofs.onboard.witnesses.rolling_stock import AT_POWER_ON, BOUNDS, START_MM
-
-BRAKE = BrakeBounds(gains_mm_s2=1_300, slows_mm_s2=700, response_cycles=3, standstill_mm_s=50)
-LIMITS = Limits(
-    sensors=BOUNDS,
-    train=TrainLimits(BRAKE, SpeedTable(40_000, 20_000, 15_000), 133_000),
-    reverse=ReverseLimits(2_000),
-    split=SplitLimits(500, 3_000, 500, 600, 1_000, 10_000),
-    window=WindowLimits(2_000, 3_000),
-    tags=TagLimits(4_000, 700),
-)
-SITE = Train(LIMITS, jolt_mm_s2=1_150, pace_cycles=8, length_mm=120_000, laid_within_mm=200, read_within_mm=500)
-END_MM = START_MM + 400_000
-LEVEL = Acceleration(0, True)
-TAIL = TailReadings(LEVEL, True, LEVEL, LEVEL, 200)
-SHOWN_MM = AT_POWER_ON.motion.way_mm
-
-
-def at_rest() -> Whole:
-    """A train that stands where it was located, its brake holding it."""
-    begun = computer.put_into_service(LIMITS, START_MM - 1_000, START_MM + 1_000)
-    motion = odometry.located(START_MM - 1_000, START_MM + 1_000, SHOWN_MM)
-    watch = replace(begun.known.watch, cycles=BRAKE.response_cycles)
-    known = replace(begun.known, motion=motion, watch=watch)
-    front_nm = AT_POWER_ON.front_nm
-    return Whole(
-        front_nm=front_nm,
-        speed_um_s=0,
-        from_nm=front_nm,
-        from_um_s=0,
-        runs=False,
-        running=AT_POWER_ON,
-        approach=Approach(front_nm, 0, 0, 0, front_nm, 0, False, False, begun.brake, False, 0),
-        watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
-        computer=replace(begun, known=known, before=odometry.past(motion)),
-    )
-
-
-class Ride(Play[Train, Whole]):
-    """A train whose wheel rolls and whose sensors show what is so."""
-
-    def __init__(self) -> None:
-        """Begin at rest."""
-        super().__init__(THEORY, SITE, at_rest())
-        self.wheel_nm = SHOWN_MM * NM_A_MM
-
-    def run(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:
-        """Begin a cycle, and run evenly to a speed in it."""
-        from_um_s, speed_um_s = self.system.speed_um_s, 1_000 * speed_mm_s
-        self.wheel_nm += 50 * (from_um_s + speed_um_s)
-        to_nm = self.system.front_nm + 50 * (from_um_s + speed_um_s)
-        event = {"may_proceed": may_proceed, "acknowledged": acknowledged, "to_nm": to_nm, "speed_um_s": speed_um_s}
-        self.step("run_a_cycle", **event)
-        assert self.system.runs
-        assert (self.system.front_nm, self.system.speed_um_s) == (to_nm, speed_um_s)
-
-    def sense(self) -> None:
-        """End it, with what the sensors show."""
-        now = self.system
-        shown, felt = now.speed_um_s // 1_000, (now.speed_um_s - now.from_um_s) // 100
-        readings = Readings(100, True, shown, self.wheel_nm // NM_A_MM, True, felt)
-        self.step("sense_the_cycle", readings=readings, tail=TAIL, gradient_mm_s2=0, slips=False, sticks=False)
-        assert not self.system.runs
-
-    def cycle(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:
-        """Begin it and end it."""
-        self.run(speed_mm_s, acknowledged=acknowledged, may_proceed=may_proceed)
-        self.sense()
-
-    def start(self) -> None:
-        """Stand until its wheel is trusted, take an end and release the brake."""
-        for _ in range(20):
-            self.cycle(0)
-        self.step("take_end", end_mm=END_MM)
-        self.cycle(0, acknowledged=True)
-        assert not self.system.computer.brake.applied
-
-    def gather(self, to_mm_s: int) -> None:
-        """Gather speed."""
-        while self.system.speed_um_s < 1_000 * to_mm_s:
-            self.cycle(self.system.speed_um_s // 1_000 + 100)
-
-    def stop(self) -> None:
-        """Let the brake stop it, as little as is guaranteed, once it has responded."""
-        while self.system.speed_um_s:
-            responded = self.system.watched.cycles >= BRAKE.response_cycles
-            speed_mm_s = self.system.speed_um_s // 1_000
-            self.cycle(max(0, speed_mm_s - 70) if responded else speed_mm_s)
-            assert self.system.computer.brake.applied
-
-    def draw_up(self) -> None:
-        """Run a little and let the driver stop it, until its brake holds it."""
-        self.gather(3_000)
-        self.step("withhold_end")
-        self.stop()
-        for _ in range(5):
-            self.cycle(0, may_proceed=False)
-
+from proofs.onboard.train import the_train_stands_held_by_its_brake
+from proofs.onboard.witnesses.one_train import BRAKE, END_MM, LIMITS, SHOWN_MM, SITE, TAIL, Ride, at_rest
+from proofs.onboard.witnesses.rolling_stock import START_MM
 
 # ---- it runs
 
@@ -150,12 +43,117 @@ def a_tag_narrows_where_it_is() -> None:
     ride.cycle(10_000)
     wide = ride.system.computer.known.motion
     read_at_nm = ride.system.front_nm - 500 * NM_A_MM
-    lies_nm = read_at_nm - (4_000 + 300) * NM_A_MM
-    place_mm = lies_nm // NM_A_MM + 100
-    ride.step("read_a_tag", place_mm=place_mm, lies_nm=lies_nm, read_at_nm=read_at_nm)
+    uid = read_at_nm // NM_A_MM - 4_000 - 300
+    ride.step("read_a_tag", uid=uid, place_mm=uid + 100, read_at_nm=read_at_nm)
     narrow = ride.system.computer.known.motion
     assert narrow.front_most_mm - narrow.front_least_mm < wide.front_most_mm - wide.front_least_mm
     ride.cycle(10_000)
+
+
+def approaching(tag_mm: int) -> Ride:
+    """A train that awaits a tag, and runs until its front is where the antenna reads it."""
+    ride = Ride()
+    ride.start()
+    ride.gather(5_000)
+    ride.step("await_tag", place_mm=tag_mm)
+    ride.until(tag_mm + 4_000)
+    assert not ride.system.computer.known.window.passed
+    return ride
+
+
+def read_at(ride: Ride, tag_mm: int) -> dict[str, int]:
+    """Tell of a tag that lies here and was read just there, within the newest cycle."""
+    return {"uid": tag_mm, "read_at_nm": (tag_mm + 4_000) * NM_A_MM}
+
+
+def an_awaited_tag_is_taken_where_it_lies() -> None:
+    """And not one that is listed elsewhere than where the train is (T5)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    untold = ride.system
+    ride.step("read_a_tag", place_mm=tag_mm + 100, **read_at(ride, tag_mm))
+    assert ride.system.computer.spacing.reads.first.uid == tag_mm, "one beside it that is listed here fixes the train"
+    assert ride.system.expecting == untold.expecting, "and is not the awaited one"
+    ride.system = untold
+    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    assert ride.system.expecting.taken
+    assert ride.system.expecting.in_place
+
+
+def an_awaited_tag_is_refused_by_a_train_that_did_not_know_where_it_was() -> None:
+    """What the odometry claimed when the cycle began counts as well (T5, P7)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    past = replace(ride.system.computer, before=odometry.past(ride.system.computer.before))
+    ride.system = replace(ride.system, computer=past)
+    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    assert not ride.system.expecting.taken
+    assert ride.system.expecting.way_nm == (tag_mm + 4_000 - past.from_mm) * NM_A_MM
+    assert ride.system.computer == past
+
+
+def an_awaited_tag_that_does_not_come_brakes_the_train() -> None:
+    """Once the train is surely past it (T5)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    while not ride.system.computer.known.window.passed:
+        ride.cycle(5_000)
+    assert ride.system.computer.brake.applied
+    assert 2_000 < ride.system.front_nm // NM_A_MM - tag_mm - 4_000 < 10_000
+
+
+def a_tag_listed_elsewhere_says_nothing() -> None:
+    """A read is put down to no place where the train certainly is not (T5, P7)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    before = ride.system.computer
+    told = computer.read_by_head(LIMITS, before, 1, tag_mm + 20_000)
+    assert told == before
+    assert computer.read_by_head(LIMITS, before, 1, tag_mm) != before
+
+
+def a_tail_that_follows_as_preset_counts() -> None:
+    """By where the front was when head and tail read the same tag; the line must answer, and nothing roll back (T3)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.step("await_none")
+    assert not ride.fits()
+    ride.until(tag_mm + 4_000 + LIMITS.antennas_mm)
+    ride.step("read_by_the_tail", uid=tag_mm, read_at_nm=(tag_mm + 4_000 + LIMITS.antennas_mm) * NM_A_MM)
+    assert ride.fits()
+    here = ride.system.computer
+    assert not computer.through_line(LIMITS, here, False).answers
+    assert computer.through_line(LIMITS, here, True).is_intact
+    parted = replace(here, known=replace(here.known, wholeness=replace(here.known.wholeness, split=True)))
+    assert not computer.through_line(LIMITS, parted, True).is_intact
+    rolled = replace(here, known=replace(here.known, movement=replace(here.known.movement, reversed=True)))
+    assert not computer.through_line(LIMITS, rolled, True).fits
+    read = ride.system
+    ride.step("read_by_the_tail", uid=tag_mm + 2_000, read_at_nm=ride.system.front_nm)
+    assert ride.system == read, "there is no such tag under it"
+
+
+def a_rear_that_was_left_behind_is_no_tail() -> None:
+    """Nor is it one again before staff has found the train whole (T3, T13)."""
+    tag_mm = START_MM + 100_000
+    ride = approaching(tag_mm)
+    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.step("await_none")
+    ride.step("come_apart", apart_nm=40_000 * NM_A_MM)
+    ride.until(tag_mm + 44_000)
+    ride.step("read_by_the_tail", uid=tag_mm, read_at_nm=(tag_mm + 44_000) * NM_A_MM)
+    assert ride.is_caught()
+    ride.draw_up()
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
+    assert ride.is_caught()
+    ride.step("find_whole")
+    assert ride.is_caught(), "it is not"
+    ride.step("come_apart", apart_nm=LIMITS.antennas_mm * NM_A_MM)
+    ride.step("find_whole")
+    assert not ride.is_caught()
+    assert ride.system.trailing.whole
 
 
 def a_tag_read_elsewhere_is_none_of_this_world() -> None:
@@ -165,12 +163,10 @@ def a_tag_read_elsewhere_is_none_of_this_world() -> None:
     ride.gather(10_000)
     ride.cycle(10_000)
     front_nm = ride.system.front_nm
-    lies_nm = front_nm - 4_000 * NM_A_MM
     for off_mm, afar_mm, late_mm in ((201, 0, 0), (0, 501, 0), (0, 0, 1_100)):
-        read_at_nm = front_nm - late_mm * NM_A_MM
-        lies_here_nm = lies_nm - (afar_mm + late_mm) * NM_A_MM
+        uid = front_nm // NM_A_MM - 4_000 - afar_mm - late_mm
         before = ride.system
-        ride.step("read_a_tag", place_mm=lies_here_nm // NM_A_MM + off_mm, lies_nm=lies_here_nm, read_at_nm=read_at_nm)
+        ride.step("read_a_tag", uid=uid, place_mm=uid + off_mm, read_at_nm=front_nm - late_mm * NM_A_MM)
         assert ride.system == before
 
 
@@ -211,7 +207,11 @@ def a_cycle_is_run_and_sensed_in_turn() -> None:
     at_mm = front_nm // NM_A_MM
     ride.step("run_a_cycle", may_proceed=True, acknowledged=False, to_nm=front_nm, speed_um_s=0)
     ride.step("take_end", end_mm=END_MM + 1)
-    ride.step("read_a_tag", place_mm=at_mm - 4_000, lies_nm=front_nm - 4_000 * NM_A_MM, read_at_nm=front_nm)
+    ride.step("read_a_tag", uid=at_mm - 4_000, place_mm=at_mm - 4_000, read_at_nm=front_nm)
+    ride.step("read_by_the_tail", uid=at_mm - 116_000, read_at_nm=front_nm)
+    ride.step("await_tag", place_mm=at_mm)
+    ride.step("await_none")
+    ride.step("find_whole")
     ride.step("locate_anew", least_mm=at_mm - 1, most_mm=at_mm + 1)
     assert ride.system is under_way
 
@@ -231,19 +231,19 @@ def a_train_located_anew_begins_as_at_the_start() -> None:
         limit=SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=9, turnout_until_mm=9),
         window=Window(expected=True, least_mm=1, most_mm=2, passed=False),
     )
-    way = Way(True, 1, 2)
     ride.system = replace(
         ride.system,
         approach=replace(ride.system.approach, wanted=True),
         watched=replace(ride.system.watched, allowed_mm_s=9),
-        computer=replace(ride.system.computer, known=known, way_began=way),
+        expecting=replace(ride.system.expecting, window=known.window),
+        computer=replace(ride.system.computer, known=known, from_mm=9),
     )
     front_mm = ride.system.front_nm // NM_A_MM
     ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
     anew = ride.system.computer
     assert computer.place(anew) == Way(True, front_mm - 2_000, front_mm + 2_000)
     assert anew.brake == braking.stand_still(front_mm + 2_000)
-    assert anew.way_began == UNKNOWN
+    assert anew.from_mm == 0
     assert anew.known.movement == LOCATED
     assert anew.known.limit == NO_TRACK_KNOWN
     assert anew.known.window == NONE_AWAITED
@@ -260,8 +260,8 @@ def a_tag_told_after_the_train_was_located_anew_says_nothing() -> None:
     front_nm = ride.system.front_nm
     front_mm = front_nm // NM_A_MM
     tag = {
+        "uid": front_mm - 4_000,
         "place_mm": front_mm - 4_000,
-        "lies_nm": front_nm - 4_000 * NM_A_MM,
         "read_at_nm": front_nm,
     }
     ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
@@ -323,7 +323,7 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     assert begun.known.wholeness == split.made_up(LIMITS.split)
     assert begun.known.window == NONE_AWAITED
     assert begun.brake == braking.stand_still(most_mm)
-    assert begun.way_began == UNKNOWN
+    assert begun.from_mm == 0
     ride.cycle(0)
 
 
@@ -338,12 +338,15 @@ def a_released_brake_counts_no_cycle() -> None:
 def a_computer_is_told_of_tags_and_of_its_train() -> None:
     """Which tag it awaits from where, that it awaits none, and that staff has found the train whole (T5, P5)."""
     ride = Ride()
-    way = Way(True, 5, 6)
-    ride.step("await_tag", at=way, least_mm=100, most_mm=200)
-    assert ride.system.computer.way_began == way
-    assert ride.system.computer.known.window == Window(expected=True, least_mm=100, most_mm=200, passed=False)
+    ride.step("await_tag", place_mm=START_MM + 100_000)
+    told = ride.system.computer
+    assert told.from_mm == START_MM - 1_000 - 2_000, "behind the train, by its range and the tolerance"
+    assert told.known.window == Window(expected=True, least_mm=107_000, most_mm=107_000, passed=False)
+    assert computer.awaits(LIMITS, told, START_MM + 100_000)
+    assert not computer.awaits(LIMITS, told, START_MM + 100_001)
     ride.step("await_none")
     assert ride.system.computer.known.window == NONE_AWAITED
+    assert not computer.awaits(LIMITS, ride.system.computer, ride.system.computer.from_mm - 4_000)
     known = ride.system.computer.known
     parted = replace(known, wholeness=replace(known.wholeness, split=True))
     ride.system = replace(ride.system, computer=replace(ride.system.computer, known=parted))
@@ -377,6 +380,12 @@ def a_wheel_that_slips_or_is_not_read_shows_what_it_likes() -> None:
 WITNESSES = (
     a_train_runs_up_to_its_end_and_is_stopped_before_it,
     a_tag_narrows_where_it_is,
+    an_awaited_tag_is_taken_where_it_lies,
+    an_awaited_tag_is_refused_by_a_train_that_did_not_know_where_it_was,
+    an_awaited_tag_that_does_not_come_brakes_the_train,
+    a_tag_listed_elsewhere_says_nothing,
+    a_tail_that_follows_as_preset_counts,
+    a_rear_that_was_left_behind_is_no_tail,
     a_tag_read_elsewhere_is_none_of_this_world,
     an_order_that_stops_it_brakes_it,
     an_end_is_withheld_at_any_moment,

@@ -1,0 +1,153 @@
+"""The train of the witnesses: its limits, at rest, and how it is run (P7, T5, T12)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import computer, odometry
+from kernel.onboard.antenna_spacing import SpacingLimits
+from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.limits import Limits
+from kernel.onboard.odometry import Readings
+from kernel.onboard.reverse_movement import ReverseLimits
+from kernel.onboard.speed_limit import SpeedTable
+from kernel.onboard.split import Acceleration, SplitLimits
+from kernel.onboard.split import Readings as TailReadings
+from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_window import WindowLimits
+from models.onboard.brake_watch import Watched
+from models.onboard.braking import Approach
+from models.onboard.train_nature import (
+    Train,
+    Whole,
+)
+from models.onboard.units import NM_A_MM
+from proofs.onboard.train import THEORY
+from proofs.onboard.witnesses.antenna_spacing import JUST_STARTED
+from proofs.onboard.witnesses.play import Play
+from proofs.onboard.witnesses.rolling_stock import AT_POWER_ON, BOUNDS, START_MM
+from proofs.onboard.witnesses.tag_window import AT_REST as NOTHING_AWAITED
+
+BRAKE = BrakeBounds(gains_mm_s2=1_300, slows_mm_s2=700, response_cycles=3, standstill_mm_s=50)
+LIMITS = Limits(
+    sensors=BOUNDS,
+    train=TrainLimits(BRAKE, SpeedTable(40_000, 20_000, 15_000), 133_000),
+    reverse=ReverseLimits(2_000),
+    split=SplitLimits(500, 3_000, 500, 600, 1_000, 10_000),
+    window=WindowLimits(2_000, 30_000),
+    tags=TagLimits(4_000, 700),
+    spacing=SpacingLimits(2_000, 20_000),
+    antennas_mm=112_000,
+)
+SITE = Train(
+    LIMITS,
+    jolt_mm_s2=1_150,
+    pace_cycles=8,
+    length_mm=120_000,
+    laid_within_mm=200,
+    read_within_mm=500,
+    tag=START_MM + 100_000,
+    preset_within_mm=500,
+)
+END_MM = START_MM + 400_000
+LEVEL = Acceleration(0, True)
+TAIL = TailReadings(LEVEL, True, LEVEL, LEVEL, 200)
+SHOWN_MM = AT_POWER_ON.motion.way_mm
+
+
+def at_rest() -> Whole:
+    """A train that stands where it was located, its brake holding it."""
+    begun = computer.put_into_service(LIMITS, START_MM - 1_000, START_MM + 1_000)
+    motion = odometry.located(START_MM - 1_000, START_MM + 1_000, SHOWN_MM)
+    watch = replace(begun.known.watch, cycles=BRAKE.response_cycles)
+    known = replace(begun.known, motion=motion, watch=watch)
+    front_nm = AT_POWER_ON.front_nm
+    return Whole(
+        front_nm=front_nm,
+        speed_um_s=0,
+        from_nm=front_nm,
+        from_um_s=0,
+        runs=False,
+        running=AT_POWER_ON,
+        approach=Approach(front_nm, 0, 0, 0, front_nm, 0, False, False, begun.brake, False, 0),
+        watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
+        expecting=NOTHING_AWAITED,
+        trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
+        computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
+    )
+
+
+class Ride(Play[Train, Whole]):
+    """A train whose wheel rolls and whose sensors show what is so."""
+
+    def __init__(self) -> None:
+        """Begin at rest."""
+        super().__init__(THEORY, SITE, at_rest())
+        self.step("find_whole")
+        self.wheel_nm = SHOWN_MM * NM_A_MM
+
+    def run(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:
+        """Begin a cycle, and run evenly to a speed in it."""
+        from_um_s, speed_um_s = self.system.speed_um_s, 1_000 * speed_mm_s
+        self.wheel_nm += 50 * (from_um_s + speed_um_s)
+        to_nm = self.system.front_nm + 50 * (from_um_s + speed_um_s)
+        event = {"may_proceed": may_proceed, "acknowledged": acknowledged, "to_nm": to_nm, "speed_um_s": speed_um_s}
+        self.step("run_a_cycle", **event)
+        assert self.system.runs
+        assert (self.system.front_nm, self.system.speed_um_s) == (to_nm, speed_um_s)
+
+    def sense(self) -> None:
+        """End it, with what the sensors show."""
+        now = self.system
+        shown, felt = now.speed_um_s // 1_000, (now.speed_um_s - now.from_um_s) // 100
+        readings = Readings(100, True, shown, self.wheel_nm // NM_A_MM, True, felt)
+        self.step("sense_the_cycle", readings=readings, tail=TAIL, gradient_mm_s2=0, slips=False, sticks=False)
+        assert not self.system.runs
+
+    def cycle(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:
+        """Begin it and end it."""
+        self.run(speed_mm_s, acknowledged=acknowledged, may_proceed=may_proceed)
+        self.sense()
+
+    def start(self) -> None:
+        """Stand until its wheel is trusted, take an end and release the brake."""
+        for _ in range(20):
+            self.cycle(0)
+        self.step("take_end", end_mm=END_MM)
+        self.cycle(0, acknowledged=True)
+        assert not self.system.computer.brake.applied
+
+    def gather(self, to_mm_s: int) -> None:
+        """Gather speed."""
+        while self.system.speed_um_s < 1_000 * to_mm_s:
+            self.cycle(self.system.speed_um_s // 1_000 + 100)
+
+    def until(self, front_mm: int) -> None:
+        """Run until the front is here, or just beyond."""
+        while self.system.front_nm < front_mm * NM_A_MM:
+            self.cycle(5_000)
+
+    def is_caught(self) -> bool:
+        """Tell whether a false tail was found."""
+        return self.system.computer.spacing.broken
+
+    def fits(self) -> bool:
+        """Tell whether the tail's reads count."""
+        return computer.through_line(LIMITS, self.system.computer, True).fits
+
+    def stop(self) -> None:
+        """Let the brake stop it, as little as is guaranteed, once it has responded."""
+        while self.system.speed_um_s:
+            responded = self.system.watched.cycles >= BRAKE.response_cycles
+            speed_mm_s = self.system.speed_um_s // 1_000
+            self.cycle(max(0, speed_mm_s - 70) if responded else speed_mm_s)
+            assert self.system.computer.brake.applied
+
+    def draw_up(self) -> None:
+        """Run a little and let the driver stop it, until its brake holds it."""
+        self.gather(3_000)
+        self.step("withhold_end")
+        self.stop()
+        for _ in range(5):
+            self.cycle(0, may_proceed=False)
