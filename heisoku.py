@@ -101,6 +101,9 @@ def prove(
         Path | None,
         typer.Option(metavar="DIR", help="Keep the SMT-LIB text of every obligation there.", show_default=False),
     ] = None,
+    whole: Annotated[
+        bool, typer.Option("--whole", help="Print what the theorem rests on, as a tree, and no matrix.")
+    ] = False,
 ) -> None:
     """Prove the kernel: every transition keeps every invariant, on every layout.
 
@@ -109,18 +112,22 @@ def prove(
     * `heisoku prove`
     * `heisoku prove --solver both --json out/prove.json --junit out/prove.xml`
     * `heisoku prove --only "^request " --seeds 10`
+    * `heisoku prove --whole`
     """
+    from proofs.chain import print_chain
     from proofs.junit import write_junit
     from proofs.matrix import print_matrix
     from proofs.run import prove_all
 
     writable(json, junit)
     pattern(only)
+    if whole and only:
+        refuse("--whole: what the theorem rests on is all of it; leave out --only")
     with progress("proving") as step:
         report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step, keep=keep)
     if not report.obligations:
         refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
-    print_matrix(console(), report)
+    (print_chain if whole else print_matrix)(console(), report)
     if json:
         write_json(json, report.record())
     if junit:

@@ -9,6 +9,9 @@ from pathlib import Path
 import pytest
 
 from models.world import assumptions as world
+from proofs import assumptions
+from proofs.joints import BY_NAME, SAME_FUNCTION, Joint, joints
+from proofs.reach import called_by
 from proofs.theories import THEORIES
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -44,7 +47,8 @@ REMAINING = rows("What is still assumed of the machines' world")
 def assumptions_of(theory: str) -> set[str]:
     """The names that a theory assumes; the interlocking's are functions of its world."""
     if theory == "interlocking":
-        return {name for name in vars(world) if not name.startswith("_")}
+        built_in = {each.name for each in assumptions.read() if each.kind == "built_in"}
+        return {name for name in vars(world) if not name.startswith("_")} | built_in
     return set(ASSUMED.get(theory, {}))
 
 
@@ -59,7 +63,7 @@ def test_a_joint_names_a_proved_invariant_and_a_real_assumption(row: list[str]) 
     assert guaranteed
     assert [(theory, name) for theory, name in guaranteed if name not in THEORIES[theory].invariants] == []
     assumed = NAME.findall(row[2])
-    assert assumed or "–" in row[2] or "built-in" in row[2]
+    assert assumed or "–" in row[2]
     assert [(theory, name) for theory, name in assumed if name not in assumptions_of(theory)] == []
 
 
@@ -70,3 +74,30 @@ def test_every_assumption_of_a_machine_is_discharged_or_said_to_remain() -> None
     assert there - discharged - remaining == set()
     assert remaining - there == set()
     assert discharged & remaining == set()
+
+
+# ---- how they are tied
+
+
+TIED = [(joint, name, tie) for joint in joints() for name, tie in joint.tied.items()]
+
+
+@pytest.mark.parametrize(("joint", "name", "tie"), TIED, ids=lambda value: value if isinstance(value, str) else "")
+def test_what_is_tied_more_than_by_name_is(joint: Joint, name: str, tie: str) -> None:
+    """By a function of the world that the one assumes and the other proves, or in a theory of which both are parts."""
+    assert name in joint.assumed
+    assert tie != BY_NAME
+    theory, _, assumed = name.partition(".")
+    if tie == SAME_FUNCTION:
+        function = getattr(world, assumed)
+        said = {each for each in (function, *called_by(function)) if each.__module__.startswith("models.world.")}
+        proved = [THEORIES[of].invariants[claim] for of, _, claim in (each.partition(".") for each in joint.guaranteed)]
+        assert all(any(each in called_by(claim) for each in said) for claim in proved)
+        return
+    parts = THEORIES[tie].parts
+    assert {theory, *(each.partition(".")[0] for each in joint.guaranteed)} <= set(parts)
+    assert name not in {f"{tie}.{each}" for each in ASSUMED[tie]}, "it is not assumed again"
+
+
+def test_the_ties_are_those_of_both_kinds() -> None:
+    assert {SAME_FUNCTION, "train"} == {tie for _, _, tie in TIED}
