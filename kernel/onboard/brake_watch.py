@@ -7,7 +7,7 @@ one of them: its motors are not cut, its brake is weak, or the rails are more sl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, smaller
 from kernel.onboard.braking import BrakeBounds
@@ -30,6 +30,11 @@ class BrakeWatch:
 def watching(speed_most_mm_s: int) -> BrakeWatch:
     """Begin to watch a train that is no faster than this (T12)."""
     return BrakeWatch(limit_mm_s=speed_most_mm_s, cycles=0, broken=False)
+
+
+def released(watch: BrakeWatch) -> BrakeWatch:
+    """Begin to count anew: the brake is released, and whoever puts it on again waits for its response (T12)."""
+    return replace(watch, cycles=0)
 
 
 def next_limit_mm_s(bounds: BrakeBounds, watch: BrakeWatch, applied: bool) -> int:

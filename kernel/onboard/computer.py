@@ -84,7 +84,7 @@ def place(computer: Computer) -> Way:
 
 
 def standstill(limits: Limits, computer: Computer) -> Standstill:
-    """Give what is known of front, speed and brake; of one that is released no cycle counts (P7, T12)."""
+    """Give what is known of front, speed and brake (P7, T12)."""
     motion, bounds = computer.known.motion, limits.train.brake
     return Standstill(
         known=odometry.is_located(motion),
@@ -93,7 +93,7 @@ def standstill(limits: Limits, computer: Computer) -> Standstill:
         speed_least_mm_s=motion.speed_least_mm_s,
         speed_most_mm_s=motion.speed_most_mm_s,
         standstill_mm_s=bounds.standstill_mm_s,
-        braked_cycles=computer.known.watch.cycles if computer.brake.applied else 0,
+        braked_cycles=computer.known.watch.cycles,
         response_cycles=bounds.response_cycles,
     )
 
@@ -109,7 +109,8 @@ def decide(limits: Limits, computer: Computer, may_proceed: bool, acknowledged: 
     way = way_to(computer, place(computer))
     known = replace(computer.known, window=tag_window.note_cycle(limits.window, computer.known.window, way))
     brake = brake_demand.decide(limits.train, computer.brake, known, may_proceed, acknowledged)
-    return replace(computer, known=known, brake=brake)
+    watch = known.watch if brake.applied else brake_watch.released(known.watch)
+    return replace(computer, known=replace(known, watch=watch), brake=brake)
 
 
 def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailReadings) -> Computer:

@@ -5,7 +5,7 @@ Speeds in µm/s, as in ``models.onboard.braking``.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kernel.onboard import brake_watch
 from kernel.onboard.brake_watch import BrakeWatch
@@ -96,3 +96,8 @@ def run_a_cycle(
         too_fast=system.too_fast or (known and speed_least_mm_s > allowed_mm_s),
         watch=brake_watch.note_cycle(site.bounds, system.watch, applied, known, speed_least_mm_s, speed_most_mm_s),
     )
+
+
+def release(site: Vehicle, system: Watched) -> Watched:
+    """The brake is released when a cycle begins, even if it is put on again before that ends (T12)."""
+    return replace(system, cycles=0, watch=brake_watch.released(system.watch))

@@ -87,6 +87,7 @@ def run_a_cycle(
             way_nm(system, system.front_nm),
             computer.way_to(system.computer, computer.place(system.computer)),
         ),
+        watched=system.watched if decided.brake.applied else brake_watch.release(watched_over(site), watched(system)),
         trailing=antenna_spacing.run(track(site), system.trailing, system.front_nm),
         computer=decided,
     )
@@ -149,7 +150,7 @@ def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: 
         return system
     if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
         return system
-    if computer.awaits(site.limits, system.computer, place_mm):
+    if place_mm == system.awaited_mm:
         expecting = tag_window.read_a_tag(
             stretch(site),
             system.expecting,
@@ -159,9 +160,9 @@ def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: 
         )
     else:
         expecting = system.expecting
-    if not computer.reads_in_window(site.limits, system.computer, place_mm):
-        return replace(system, expecting=expecting)
     told = computer.read_by_head(site.limits, system.computer, uid, place_mm)
+    if told == system.computer:
+        return replace(system, expecting=expecting)
     fix = computer.fix(site.limits, system.computer, place_mm)
     there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
     return replace(
@@ -282,7 +283,7 @@ def await_tag(site: Train, system: Whole, place_mm: int) -> Whole:
         return system
     told = computer.await_tag(site.limits, system.computer, place_mm)
     window = told.known.window
-    awaiting = replace(system, computer=told)
+    awaiting = replace(system, awaited_mm=place_mm, computer=told)
     return replace(
         awaiting,
         expecting=tag_window.expect_a_tag(

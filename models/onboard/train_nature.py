@@ -49,6 +49,7 @@ class Whole:
     ``runs``: the train has run for a cycle that its computer has yet to sense.
     ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``: the train as odometry, brake control, brake
     watch, the window for the next tag and the antennas' spacing are proved with it.
+    ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
     ``computer``: what its computer remembers.
     """
 
@@ -62,6 +63,7 @@ class Whole:
     watched: Watched
     expecting: Expecting
     trailing: Trailing
+    awaited_mm: int
     computer: Computer
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.onboard import brake_watch as machine
-from models.onboard.brake_watch import Vehicle, Watched, motors_do_not_slow, run_a_cycle
+from models.onboard.brake_watch import Vehicle, Watched, motors_do_not_slow, release, run_a_cycle
 from models.onboard.units import UM_A_MM, larger
 from proofs.theory import Theory, by_name
 
@@ -54,7 +54,7 @@ INVARIANTS = (
     the_limit_is_what_the_bounds_allow,
 )
 PREMISES = (motors_do_not_slow,)
-STEPS = (run_a_cycle,)
+STEPS = (run_a_cycle, release)
 
 THEORY = Theory(
     "brake_watch",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
+from kernel.standstill import is_braked, stands
 from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard.train import (
     await_none,
@@ -182,7 +183,29 @@ def a_tail_that_counts_is_the_trains_last(site: Train, system: Whole) -> bool:
     )
 
 
+def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
+    """What is told of a train at rest is so, and if it is told to be held its brake holds it (P7, T9, T12)."""
+    at, slow_um_s = computer.standstill(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
+    return (
+        not is_braked(at)
+        or (system.computer.brake.applied and system.watched.cycles >= site.limits.train.brake.response_cycles)
+    ) and (
+        system.runs
+        or not stands(at)
+        or (
+            NM_A_MM * at.front_least_mm <= system.front_nm <= NM_A_MM * at.front_most_mm
+            and -slow_um_s <= system.speed_um_s <= slow_um_s
+        )
+    )
+
+
 # ---- one train
+
+
+def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole) -> bool:
+    """The window is for a tag that the antenna reads where the list has it, neither nearer nor farther (T1, T5)."""
+    window, away_mm = system.computer.known.window, system.awaited_mm + site.limits.tags.antenna_mm
+    return not window.expected or (window.least_mm == window.most_mm == away_mm - system.computer.from_mm)
 
 
 def there_is_one_train(site: Train, system: Whole) -> bool:
@@ -329,6 +352,11 @@ def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -
     return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))
 
 
+def a_released_brake_counts_no_cycle(site: Train, system: Whole) -> bool:
+    """Whoever puts it on again waits for its response (T12)."""
+    return system.computer.brake.applied or system.computer.known.watch.cycles == 0
+
+
 def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
     """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
     return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
@@ -387,6 +415,8 @@ SAFETY = (
     healthy_only_after_a_preset,
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
+    a_standstill_that_is_told_is_one,
+    the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
     the_computer_has_the_proved_odometry,
     the_computer_has_the_proved_brake,
@@ -413,6 +443,7 @@ INVARIANTS = (
     the_way_left_lies_before_the_end,
     the_way_left_is_enough,
     a_train_that_keeps_is_no_faster_than_the_limit,
+    a_released_brake_counts_no_cycle,
     the_watch_counts_no_more_than_the_brake,
     what_is_not_preset_is_broken,
     what_is_caught_is_broken,

@@ -5,7 +5,8 @@ Each is a change of text in one place, as a careless or a malicious maintainer m
 too, and the obligations of its theories are put to the solvers as ``heisoku prove`` puts them.  Only an
 obligation that is refuted notices anything: *unknown* does not.
 
-Exit code 0 if each is refuted, but for those whose entry says why it is not; else 1.
+Exit code 0 if each is refuted, or fails the witness that its entry names, but for those whose entry says why nothing
+need notice; else 1.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from proofs import canaries, scripts, solvers
 from proofs.lift import Mismatch, OutsideSubset
 from proofs.lift.sources import Code
 from proofs.mutants.constants import everywhere, reads
+from proofs.mutants.plays import failing
 from proofs.mutated import Sources
 from proofs.reach import called_by
 from proofs.run import laid_out
@@ -46,6 +48,8 @@ class Change:
 
     ``theories``: those whose obligations are asked.
     ``harmless``: why it lets nothing unsafe happen, if so.
+    ``witness``: the witness of its first theory that fails with it, where no theorem speaks of what it spoils;
+    ``unproved``: why none does.
     """
 
     name: str
@@ -56,6 +60,8 @@ class Change:
     new: str
     theories: tuple[str, ...]
     harmless: str = ""
+    witness: str = ""
+    unproved: str = ""
 
     @property
     def excused(self) -> str:
@@ -156,10 +162,13 @@ class Seen:
     @property
     def objection(self) -> str:
         """What is wrong with that."""
-        excused = changes()[self.name].excused
+        change = changes()[self.name]
         if self.outcome == "refuted":
-            return f"refuted, and said to be {excused}" if excused else ""
-        return "" if excused else f"not noticed: {self.outcome}"
+            said = change.excused or ("seen by a witness alone" if change.witness else "")
+            return f"refuted, and said to be {said}" if said else ""
+        if change.witness:
+            return "" if self.by == change.witness else f"the witness does not notice: {self.outcome}"
+        return "" if change.excused else f"not noticed: {self.outcome}"
 
 
 def tried(name: str) -> Seen:
@@ -182,6 +191,8 @@ def tried(name: str) -> Seen:
         elif not by and open_parts:
             by = _refuted_by_the_other(open_parts)
             outcome, by = ("refuted", by) if by else ("undecided", open_parts[0][0])
+        if outcome == "proved" and change.witness in dict(failing(change.theories[0], made.sources, first_only=False)):
+            outcome, by = "witnessed", change.witness
     return Seen(name, outcome, by, round(time.perf_counter() - began, 1))
 
 

@@ -54,22 +54,14 @@ def test_a_brake_holds_the_train_once_it_has_been_on_for_its_response() -> None:
     assert board.hold()
 
 
-def test_a_brake_that_is_released_has_been_on_for_no_cycle() -> None:
-    board = on_board(120_000, 500_000)
-    standing(board, PLAN.brake.response_cycles + 1)
-    assert board.standstill.braked_cycles > 0
-    board.computer = replace(board.computer, brake=replace(board.brake, applied=False))
-    assert board.standstill.braked_cycles == 0
-
-
 def test_a_train_is_located_anew_only_while_its_brake_holds_it() -> None:
     """What was found of a faulty brake stays."""
     board = on_board(120_000, 500_000)
     standing(board, PLAN.brake.response_cycles + 1)
     known = board.computer.known
     found = replace(board.computer, known=replace(known, watch=replace(known.watch, broken=True)))
-    released = replace(found, brake=replace(found.brake, applied=False))
-    assert computer.locate(board.limits, released, 900_000, 901_000) == released
+    new = replace(found, known=replace(found.known, watch=replace(found.known.watch, cycles=0)))
+    assert computer.locate(board.limits, new, 900_000, 901_000) == new
     anew = computer.locate(board.limits, found, 900_000, 901_000)
     assert computer.place(anew) == Way(True, 900_000, 901_000)
     assert anew.known.watch.broken

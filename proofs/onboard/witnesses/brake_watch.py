@@ -211,6 +211,17 @@ def a_train_outside_its_range_is_not_looked_at() -> None:
         assert train.step("run_a_cycle", **told, speed_um_s=um_s).speed_um_s == um_s
 
 
+def a_brake_that_was_released_is_waited_for_anew() -> None:
+    """Though it was put on again before the cycle ended (T12)."""
+    train = Train()
+    train.respond()
+    train.step("release")
+    train.cycle(20_120_000, applied=True)
+    assert train.system.kept
+    assert not train.is_accused()
+    assert (train.system.cycles, train.system.watch.cycles) == (1, 1)
+
+
 WITNESSES = (
     motors_may_gain_as_much_as_written,
     motors_that_gain_more_are_accused,
@@ -221,6 +232,7 @@ WITNESSES = (
     the_response_is_waited_for,
     a_train_without_a_range_is_not_judged,
     a_train_that_rolls_back_is_not_accused_of_its_brakes,
+    a_brake_that_was_released_is_waited_for_anew,
     an_accusation_stays,
     a_train_certainly_too_fast_is_noted,
     the_limit_is_never_above_what_is_measured,

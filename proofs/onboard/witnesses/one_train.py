@@ -74,6 +74,7 @@ def at_rest() -> Whole:
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
+        awaited_mm=0,
         computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
     )
 
@@ -97,12 +98,12 @@ class Ride(Play[Train, Whole]):
         assert self.system.runs
         assert (self.system.front_nm, self.system.speed_um_s) == (to_nm, speed_um_s)
 
-    def sense(self) -> None:
+    def sense(self, tail: TailReadings = TAIL) -> None:
         """End it, with what the sensors show."""
         now = self.system
         shown, felt = now.speed_um_s // 1_000, (now.speed_um_s - now.from_um_s) // 100
         readings = Readings(100, True, shown, self.wheel_nm // NM_A_MM, True, felt)
-        self.step("sense_the_cycle", readings=readings, tail=TAIL, gradient_mm_s2=0, slips=False, sticks=False)
+        self.step("sense_the_cycle", readings=readings, tail=tail, gradient_mm_s2=0, slips=False, sticks=False)
         assert not self.system.runs
 
     def cycle(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:

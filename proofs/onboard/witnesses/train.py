@@ -9,6 +9,7 @@ from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.speed_limit import SpeedLimit
+from kernel.onboard.split import Acceleration
 from kernel.onboard.tag_window import NONE_AWAITED, Window
 from kernel.onboard.way import Way
 from models.onboard.train_nature import (
@@ -132,6 +133,27 @@ def a_tail_that_follows_as_preset_counts() -> None:
     read = ride.system
     ride.step("read_by_the_tail", uid=tag_mm + 2_000, read_at_nm=ride.system.front_nm)
     assert ride.system == read, "there is no such tag under it"
+
+
+def a_tail_that_is_shaken_brakes_the_train() -> None:
+    """It has parted, as far as anybody on board can tell (P5)."""
+    ride = Ride()
+    ride.start()
+    ride.run(100)
+    ride.sense(tail=replace(TAIL, left=Acceleration(-20_000, True), right=Acceleration(-20_000, True)))
+    assert ride.system.computer.known.wholeness.split
+    ride.cycle(200)
+    assert ride.system.computer.brake.applied
+
+
+def a_train_that_rolls_back_is_braked() -> None:
+    """Once its wheel has shown more than is allowed (T5)."""
+    ride = Ride()
+    ride.start()
+    for _ in range(40):
+        ride.cycle(max(ride.system.speed_um_s // 1_000 - 50, -1_000))
+    assert ride.system.computer.known.movement.reversed
+    assert ride.system.computer.brake.applied
 
 
 def a_rear_that_was_left_behind_is_no_tail() -> None:
@@ -327,12 +349,19 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     ride.cycle(0)
 
 
-def a_released_brake_counts_no_cycle() -> None:
-    """However long the watch says that it was on (T12)."""
-    held = at_rest().computer
-    assert computer.standstill(LIMITS, held).braked_cycles == BRAKE.response_cycles
-    released = replace(held, brake=replace(held.brake, applied=False))
-    assert computer.standstill(LIMITS, released).braked_cycles == 0
+def a_brake_that_is_put_on_again_waits_for_its_response() -> None:
+    """Released when a cycle begins and put on again before it ends, it holds nobody yet (T12)."""
+    ride = Ride()
+    for _ in range(20):
+        ride.cycle(0)
+    ride.step("take_end", end_mm=END_MM)
+    assert computer.standstill(LIMITS, ride.system.computer).braked_cycles == BRAKE.response_cycles
+    ride.run(0, acknowledged=True)
+    assert not ride.system.computer.brake.applied
+    ride.step("withhold_end")
+    assert computer.standstill(LIMITS, ride.system.computer).braked_cycles == 0
+    ride.sense()
+    assert computer.standstill(LIMITS, ride.system.computer).braked_cycles == 1
 
 
 def a_computer_is_told_of_tags_and_of_its_train() -> None:
@@ -385,6 +414,8 @@ WITNESSES = (
     an_awaited_tag_that_does_not_come_brakes_the_train,
     a_tag_listed_elsewhere_says_nothing,
     a_tail_that_follows_as_preset_counts,
+    a_tail_that_is_shaken_brakes_the_train,
+    a_train_that_rolls_back_is_braked,
     a_rear_that_was_left_behind_is_no_tail,
     a_tag_read_elsewhere_is_none_of_this_world,
     an_order_that_stops_it_brakes_it,
@@ -394,7 +425,7 @@ WITNESSES = (
     a_tag_told_after_the_train_was_located_anew_says_nothing,
     a_train_whose_brake_has_yet_to_hold_it_is_not_located,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
-    a_released_brake_counts_no_cycle,
+    a_brake_that_is_put_on_again_waits_for_its_response,
     a_computer_is_told_of_tags_and_of_its_train,
     a_brake_is_asked_for_nothing_before_it_has_responded,
     a_wheel_that_slips_or_is_not_read_shows_what_it_likes,
