@@ -1,0 +1,86 @@
+"""Trains in small time steps: no claim made on board breaks within the bounds, and wrong kernels are found."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from tests.independent.physics import faults, ride
+from tests.independent.physics.campaign import WHOLE_S, campaign, rides
+from tests.independent.physics.planted_faults import WRONG
+from tests.independent.physics.ride import Ride
+
+SHORT = (*range(12), *sorted({21, 43, 44}))
+LONG = 10_000
+BEYOND_EACH = 200
+FOUND_AT = {
+    "stuck": 21, "no slip": 9, "no creep": 0, "exact speed": 0, "trusts at once": 9, "gravity": 3, "no run since": 0,
+    "late place": 0, "any tail": 43, "never overdue": 44, "early window": 0, "overhangs": 2, "brakes at the end": 9,
+    "brakes well": 11,
+}  # fmt: skip
+"""A ride that shows each; all of them are among the short run's, with the kernel as it is."""
+HERE = Path(__file__).parent
+
+
+def imported(path: Path) -> set[str]:
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            found.add(str(node.module))
+    return found
+
+
+@pytest.mark.parametrize("path", sorted(HERE.glob("*.py")), ids=lambda path: path.name)
+def test_nothing_is_shared_with_the_proof(path: Path) -> None:
+    assert not {name.split(".")[0] for name in imported(path)} & {"models", "proofs", "fuzz", "evidence", "heisoku"}
+
+
+@pytest.mark.parametrize("path", [HERE / "bodies.py", HERE / "faults.py", HERE / "ride.py"], ids=lambda path: path.name)
+def test_the_world_itself_knows_nothing_of_the_kernel(path: Path) -> None:
+    assert not {name for name in imported(path) if name.startswith("kernel")}
+
+
+def test_no_claim_is_broken_within_the_bounds() -> None:
+    tally = rides(SHORT)
+    assert tally.found == []
+    assert tally.ran_mm > 1_000_000
+    assert tally.counts["tags read"] > 10
+    assert tally.counts["stops"] > 10
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_every_wrong_kernel_is_found(name: str) -> None:
+    seed = FOUND_AT[name]
+    found = rides(range(seed, seed + 1), wrong=name).found
+    assert {hazard.kind for _, hazard in found} & WRONG[name].kinds, f"{WRONG[name].why}, and nothing is seen"
+
+
+def test_a_lasting_slide_is_beyond_the_bounds_and_breaks_claims_that_are_named() -> None:
+    out = Ride(0, WHOLE_S, faults.HELD).run()
+    assert {ride.SPEED} <= {hazard.kind for hazard in out.hazards}
+    assert all("a wheel that slips keeps pace" in hazard.broken for hazard in out.hazards)
+
+
+@pytest.mark.slow
+def test_ten_thousand_rides_break_no_claim_within_the_bounds() -> None:
+    tally = campaign(LONG, 2)
+    assert tally.found == []
+    assert tally.rides == LONG
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", faults.BEYOND)
+def test_what_breaks_beyond_a_bound_is_named(kind: str) -> None:
+    tally = campaign(BEYOND_EACH, 2, kind)
+    assert tally.found == []
+    assert tally.broken > 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WRONG)
+def test_every_wrong_kernel_is_found_from_the_first_seed_on(name: str) -> None:
+    assert rides(range(200), wrong=name, enough=1).found
