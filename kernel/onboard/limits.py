@@ -42,6 +42,9 @@ class Surveyed:
     ``pace_cycles``: a wheel that slips does not keep pace with its train for so many cycles (P1).
     ``laid_within_mm``, ``read_within_mm``: so far from its place a tag is laid, and from the tag it is read (T2).
     ``preset_within_mm``: so near to their true distance that of the antennas is preset (T3).
+    ``vehicle_mm``: the shortest vehicle; no less comes off a train, or couples to it (T3).
+    ``whole_mm_s2``: so far head and tail of a whole train are measured apart in the mean of 1.5 s, at the most: by
+    their sensors, couplers, the tail's lag, and the longest train over the sharpest change of gradient (P5).
     """
 
     jolt_mm_s2: int
@@ -49,6 +52,8 @@ class Surveyed:
     laid_within_mm: int
     read_within_mm: int
     preset_within_mm: int
+    vehicle_mm: int
+    whole_mm_s2: int
 
 
 def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
@@ -81,14 +86,23 @@ def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -
 
 
 def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
-    """Tell whether what is allowed the antennas covers presetting them and both their read windows (T3, T13)."""
-    return spacing.tolerance_mm >= surveyed.preset_within_mm + 2 * surveyed.read_within_mm
+    """Tell whether what is allowed the antennas covers presetting them and both their read windows (T3, T13).
 
-
-def is_split_lawful(limits: SplitLimits) -> bool:
-    """Tell whether no limit of split detection is below zero (P5)."""
+    A vehicle that is missing is more than tolerance, read windows and width of the range can hide together: what is
+    known no better than that is not compared, and what is compared finds another antenna in the tail's place.
+    """
+    windows_mm = 2 * surveyed.read_within_mm
     return (
-        limits.threshold_mm_s2 >= 0
+        spacing.tolerance_mm >= surveyed.preset_within_mm + windows_mm
+        and spacing.tolerance_mm + windows_mm + spacing.width_mm < surveyed.vehicle_mm
+    )
+
+
+def is_split_lawful(limits: SplitLimits, surveyed: Surveyed) -> bool:
+    """Tell whether no limit of split detection is below zero, and the threshold leaves whole trains alone (P5)."""
+    return (
+        limits.threshold_mm_s2 >= surveyed.whole_mm_s2
+        and surveyed.whole_mm_s2 >= 0
         and limits.shock_mm_s2 >= 0
         and limits.disagreement_mm_s2 >= 0
         and limits.gap_ms >= 0
@@ -103,6 +117,6 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         and is_brake_lawful(limits.train.brake)
         and are_tags_lawful(limits.tags, limits.window, surveyed)
         and is_spacing_lawful(limits.spacing, surveyed)
-        and is_split_lawful(limits.split)
+        and is_split_lawful(limits.split, surveyed)
         and limits.reverse.roll_back_mm >= 0
     )

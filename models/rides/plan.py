@@ -33,9 +33,11 @@ SURVEYED = Surveyed(
     laid_within_mm=43,
     read_within_mm=TAG_ERROR_MM - 43,
     preset_within_mm=80,
+    vehicle_mm=20_000,
+    whole_mm_s2=506,
 )
-"""What the limits below are checked against: the least declared jolt of a slip, the two parts of a tag's error, and
-how near the antennas' distance is preset."""
+"""What the limits below are checked against: the least declared jolt of a slip, the two parts of a tag's error, how
+near the antennas' distance is preset, the shortest vehicle, and the sum that the split threshold has to cover."""
 
 READER = Reader(WINDOW_MM, AIR_MS, 2.0, ASKS_MS, 0.0)
 """A reader that receives 4 frames at the line's speed, as two of four needs; `heisoku reproduce 000` says why."""
@@ -62,7 +64,7 @@ PLAN = Plan(
     brake=BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700),
     reader=ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=8),
     window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=1_000_000),
-    spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=20_000),
+    spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=18_000),
     length=LengthBounds(
         line_maximum_mm=200_000,
         last_vehicle_mm=20_000,

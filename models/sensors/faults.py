@@ -178,7 +178,7 @@ BOUNDS = SensorBounds(
     brakes_mm_s2=1_700,
     agreement_cycles=20,
     pace_mm_s=40_000,
-    locked_mm_s=10_000,
+    locked_mm_s=3_000,
 )
 """The odometry's bounds for these ranges.
 
@@ -186,11 +186,12 @@ Scale: creep and diameter, 5,000 + 2,500, and their product.  Pulse: 60 a turn o
 Speed: the first pulse after a standstill comes late (450 mm/s), or the mean over a cycle (65 mm/s at 1.3 m/s²).
 Inertial: bias 20, drift 20, noise 4 × 30, mounting 34, scale 5, the lag of a cycle.  Gradient: 35 per mille.
 Slip: leaves noise, half a cycle's lag and quantisation apart.
-Pace: what the range of speeds has grown to by inertia in half a minute.  Locked: in 7 s, either way.
+Pace: what the range of speeds has grown to by inertia in half a minute.  Locked: in 2 s of agreement at rest, and
+1 s before them, either way; a wheel may well stay locked under a faster train.
 """
 
 SPLIT_LIMITS = SplitLimits(
-    threshold_mm_s2=500,
+    threshold_mm_s2=510,
     shock_mm_s2=3_000,
     disagreement_mm_s2=500,
     age_ms=600,
@@ -201,7 +202,7 @@ SPLIT_LIMITS = SplitLimits(
 
 Threshold: bias, drift, mounting and scale of both ends, 2 × 79; the mean of their noise over 15 samples,
 3 deviations, 50; one change of gradient between head and tail, 12 per mille, 118; the tail's lag of 0.3 s
-while the head goes from traction to coasting, 0.9 × 0.3 / 1.5 m/s², 180.  The head's acceleration is
+while the head goes from traction to coasting, 0.9 × 0.3 / 1.5 m/s², 180: 506 in all.  The head's acceleration is
 that of the time at which the tail measured, by GPS time.
 Shock: above the declared spike of 2 m/s² and what a train does itself.
 """

@@ -10,7 +10,7 @@ from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.train_length import UNMEASURED, Passing, PointKind
 from kernel.standstill import is_braked
-from tests.independent.physics.declared import ANTENNA_MM, SURVEYED, Type
+from tests.independent.physics.declared import ANTENNA_MM, Type
 
 
 class Host:
@@ -18,7 +18,7 @@ class Host:
 
     def __init__(self, kind: Type, least_mm: int, most_mm: int) -> None:
         """Put it into service at rest."""
-        assert limits.are_lawful(kind.limits, SURVEYED)
+        assert limits.are_lawful(kind.limits, kind.surveyed)
         self.limits, self.bounds = kind.limits, kind.length
         self.length = UNMEASURED
         self.computer = computer.put_into_service(self.limits, least_mm, most_mm)
