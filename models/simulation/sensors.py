@@ -54,8 +54,11 @@ class Sensors:
     inertial_silent_cycles: int = 0
 
     def slip(self, ms: int, speed_mm_s: float, slowing: bool) -> bool:
-        """Let the wheel slip, or slide where the train brakes; not of a slow train, whose wheel would stand."""
-        if speed_mm_s < SLIPS_FROM_MM_S:
+        """Let the wheel slip, or slide where the train brakes; not of a slow train, whose wheel would stand.
+
+        Nor one that slips already: it would be held where it is, which is no slip that jolts.
+        """
+        if speed_mm_s < SLIPS_FROM_MM_S or self.off_mm_s != 0.0:
             return False
         self.slips_cycles = max(1, ms // CYCLE_MS)
         self.slips_mm_s2 = -SLIP_JOLT_MM_S2 if slowing else SLIP_JOLT_MM_S2

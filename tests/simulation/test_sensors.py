@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from kernel.onboard import odometry
@@ -52,6 +52,7 @@ class Trip:
 
 
 @settings(max_examples=40, deadline=None)
+@example(0, [(50, 700.0, 5_000, "none"), (19, 700.0, 1_900, "none")])
 @given(
     st.integers(0, 10**6),
     st.lists(

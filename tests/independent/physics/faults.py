@@ -59,7 +59,7 @@ train's speed, or vehicles that came off."""
 
 BEYOND: dict[str, Drawing] = {
     HELD: _within(HELD, (5.0, 40.0), (0.75, 0.9)),
-    LOCKED: _within(LOCKED, (10.0, 60.0)),
+    LOCKED: _within(LOCKED, (10.0, 60.0), (1.0, 1.0)),
     SLOW: _within(SLOW, (5.0, 40.0), (0.75, 0.9)),
     ZERO: _within(ZERO, (5.0, 120.0)),
     PULSES_LOST: _within(PULSES_LOST, (5.0, 60.0), (0.02, 0.5)),
@@ -68,7 +68,7 @@ BEYOND: dict[str, Drawing] = {
     REVERSED: _always(REVERSED),
     JITTER: _within(JITTER, (5.0, 60.0), (3.0, 20.0)),
 }
-"""Beyond.  Size: share, or ms."""
+"""Beyond.  Size: share, or ms; of a locked wheel: that it stays locked below 3 m/s."""
 
 
 def drawn(rng: Random, whole_s: float, beyond: str | None) -> list[Fault]:

@@ -275,7 +275,8 @@ class Ride:
         for kind in (faults.HELD, faults.SLOW, faults.SWINGS, faults.LOCKED, faults.SPINS):
             fault = self.fault(kind)
             under = body.force > 200 if kind == faults.SPINS else body.force < -200
-            if fault is None or not under or body.speed < 3_000:
+            slowest = 300 if kind == faults.LOCKED and fault and fault.size else 3_000
+            if fault is None or not under or body.speed < slowest:
                 continue
             wheel.rolls = False
             wheel.of_train = 0.0 if kind == faults.LOCKED else fault.size
