@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import fields
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from functools import cache
-from typing import Any
+from operator import attrgetter, is_
+from typing import Any, get_type_hints
 
 from fuzz.failures.replaying import holds
 from models.simulation.simulation import Simulation
@@ -38,9 +39,8 @@ class Judge:
         system = now.play.system
         for name in INVARIANTS if now.now_s % EVERY_S == 0 else CLAIMS:
             self.asked[name] += 1
-            read = tuple(_part(system, path) for path in reads()[name])
-            before = self._read.get(name)
-            if before is not None and all(one is other for one, other in zip(before, read, strict=True)):
+            read, before = parts_of(name)(system), self._read.get(name)
+            if before is not None and all(map(is_, before, read)):
                 continue
             self._read[name] = read
             if not holds(name, now.play.site, system):
@@ -58,13 +58,21 @@ def reads() -> Mapping[str, tuple[tuple[str, ...], ...]]:
     return found
 
 
-def _part(system: System, path: tuple[str, ...]) -> object:
-    """Give what lies on a path, as far as it is of fields."""
-    part: Any = system
+@cache
+def parts_of(name: str) -> Callable[[System], tuple[object, ...]]:
+    """What gives the parts of a state that an invariant reads, as far as what lies on their paths is of fields."""
+    paths = sorted({".".join(_of_fields(path)) for path in reads()[name]})
+    if len(paths) > 1:
+        return attrgetter(*paths)
+    return lambda system: tuple(attrgetter(path)(system) for path in paths)
+
+
+def _of_fields(path: tuple[str, ...]) -> Iterator[str]:
+    """Give what of a path is of fields."""
+    part: Any = System
     for name in path:
-        if name not in {each.name for each in fields(part)}:
-            break
-        part = getattr(part, name)
-        if not hasattr(part, "__dataclass_fields__"):
-            break
-    return part
+        hints = get_type_hints(part) if is_dataclass(part) else {}
+        if name not in hints:
+            return
+        yield name
+        part = hints[name]

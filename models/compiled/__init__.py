@@ -19,6 +19,15 @@ maps are never compared: their order would count.
 
 from models.compiled.kept import compiled
 from models.compiled.machines import NotCompilable, compile_machines
-from models.compiled.records import compiled_type, packed, tuple_class, unpacked
+from models.compiled.records import compiled_type, packed, tuple_class, unpacked, unpacking
 
-__all__ = ["NotCompilable", "compile_machines", "compiled", "compiled_type", "packed", "tuple_class", "unpacked"]
+__all__ = [
+    "NotCompilable",
+    "compile_machines",
+    "compiled",
+    "compiled_type",
+    "packed",
+    "tuple_class",
+    "unpacked",
+    "unpacking",
+]

@@ -9,10 +9,11 @@ from __future__ import annotations
 import dataclasses
 import typing
 from collections import namedtuple
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
 from functools import cache
 from importlib import import_module
+from operator import itemgetter
 from typing import Any
 
 from numba import types as known_types
@@ -122,10 +123,10 @@ def packed(value: Any, type_: Any = None) -> Any:
         OverflowError: an integer in it does not fit 64 bits.
         TypeError: something in it is no record, tuple, map, set, member of an enumeration, int or bool.
     """
+    if type(value) is bool:
+        return value
     if isinstance(value, Enum):
         return number_of(value)
-    if isinstance(value, bool):
-        return value
     if isinstance(value, int):
         if not LEAST <= value <= MOST:
             raise OverflowError(f"{value} does not fit 64 bits")
@@ -133,10 +134,10 @@ def packed(value: Any, type_: Any = None) -> Any:
     if isinstance(value, Mapping | frozenset) and type_ is not None:
         return _listed(value, type_)
     if isinstance(value, tuple):
-        return tuple(packed(item) for item in value)
-    cls: Any = type(value)
-    if is_record(cls):
-        return tuple_class(cls)(*(packed(getattr(value, name), hint) for name, hint in hints_of(cls).items()))
+        return tuple([packed(item) for item in value])
+    if is_record(type(value)):
+        cls: Any = type(value)
+        return tuple_class(cls)(*[packed(getattr(value, name), hint) for name, hint in hints_of(cls).items()])
     raise TypeError(f"{value!r} cannot be handed to compiled code")
 
 
@@ -154,22 +155,66 @@ def _listed(value: Any, type_: Any) -> Any:
 
 def unpacked(value: Any, type_: Any) -> Any:
     """Return what compiled code gave as the machine's value of a type; the reverse of :func:`packed`."""
+    return unpacking(type_)(value)
+
+
+@cache
+def unpacking(type_: Any) -> Callable[[Any], Any]:
+    """Return what unpacks values of a type; its type is looked at once, and not with each value."""
     if is_record(type_):
-        hints = hints_of(type_)
-        assert type(value) is tuple_class(type_), f"{value!r} is no {type_.__name__}"
-        return type_(*(unpacked(item, hint) for item, hint in zip(value, hints.values(), strict=True)))
+        return _unpacking_record(type_)
     if is_enumeration(type_):
-        return list(type_)[value]
+        return list(type_).__getitem__
     if is_name(type_):
-        return value
+        return lambda value: value
     if is_map(type_):
-        key, of = typing.get_args(type_)
-        found = {unpacked(one, key): unpacked(other, of) for one, other in value}
-        assert len(found) == len(value), "a key stands twice"
-        return found
+        key, of = map(unpacking, typing.get_args(type_))
+
+        def a_map(value: Any) -> Any:
+            found = {key(one): of(other) for one, other in value}
+            assert len(found) == len(value), "a key stands twice"
+            return found
+
+        return a_map
     if is_set(type_):
-        return frozenset(unpacked(item, typing.get_args(type_)[0]) for item in value)
+        item = unpacking(typing.get_args(type_)[0])
+        return lambda value: frozenset(map(item, value))
     if typing.get_origin(type_) is tuple:
-        return tuple(unpacked(item, hint) for item, hint in zip(value, typing.get_args(type_), strict=True))
-    assert type(value) is type_, f"{value!r} is no {type_.__name__}"
-    return value
+        return _unpacking_tuple(typing.get_args(type_))
+
+    def plain(value: Any) -> Any:
+        assert type(value) is type_, f"{value!r} is no {type_.__name__}"
+        return value
+
+    return plain
+
+
+def _unpacking_record(cls: Any) -> Callable[[Any], Any]:
+    items, packed_as = _unpacking_tuple(tuple(hints_of(cls).values())), tuple_class(cls)
+
+    def a_record(value: Any) -> Any:
+        assert type(value) is packed_as, f"{value!r} is no {cls.__name__}"
+        return cls(*items(value))
+
+    return a_record
+
+
+def _unpacking_tuple(hints: Sequence[Any]) -> Callable[[Any], tuple[Any, ...]]:
+    """Return what unpacks items of these types; whole numbers and truth values are only looked at."""
+    if not hints:
+        return tuple
+    others = [(at, unpacking(hint)) for at, hint in enumerate(hints) if hint not in (int, bool)]
+    plain = [(at, hint) for at, hint in enumerate(hints) if hint in (int, bool)]
+    at_plain, types_of = itemgetter(*(at for at, _ in plain), 0, 0), (*(hint for _, hint in plain),)
+
+    def items(value: Any) -> tuple[Any, ...]:
+        assert len(value) == len(hints), f"{value!r} has not {len(hints)} items"
+        assert tuple(map(type, at_plain(value)))[:-2] == types_of, f"{value!r} has not items of {hints}"
+        if not others:
+            return tuple(value)
+        found = list(value)
+        for at, unpack in others:
+            found[at] = unpack(found[at])
+        return tuple(found)
+
+    return items

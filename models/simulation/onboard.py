@@ -16,8 +16,6 @@ from kernel.onboard import computer as computing
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits, are_lawful
-from kernel.onboard.odometry import Readings
-from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.way import Way
 from kernel.standstill import Standstill, ThroughLine, is_braked
@@ -71,15 +69,11 @@ class OnBoard:
         """Whether the train is known to be whole."""
         return split.is_intact(self.limits.split, self.computer.known.wholeness)
 
-    # ---- a cycle
+    # ---- the brake
 
     def decide(self, demanded: bool, acknowledged: bool) -> None:
         """Decide on the brake by all that is known on board; ``demanded``: no order lets the train proceed (T12)."""
         self.computer = computing.decide(self.limits, self.computer, not demanded, acknowledged)
-
-    def sense(self, readings: Readings, tail: TailReadings) -> None:
-        """Take what the sensors say at the end of a cycle."""
-        self.computer = computing.sense(self.limits, self.computer, readings, tail)
 
     # ---- tags
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from kernel.names import Block, Car, Train
+from models.simulation.oracles_on_board import in_range, inside
 from models.simulation.posted import ONLY_WHAT_WAS_SENT, SILENCE
 from models.simulation.road_oracles import CLOSED_IN_TIME, CLOSED_UNDER, OPENS_AGAIN
 from models.simulation.vehicle import Vehicle
@@ -31,8 +32,6 @@ ORACLES: Mapping[str, str] = {
     OPENS_AGAIN: "no road is kept closed for nobody, or for a train that is gone, for long (X4)",
     SILENCE: "a link that does not count as silent has delivered something of late (T8, T11)",
 }
-TOLERANCE_MM = 1.0
-"""A position is known to the whole millimetre."""
 
 
 @dataclass(frozen=True)
@@ -111,17 +110,19 @@ class Oracles:
 
     def on_board(self, train: Train, vehicle: Vehicle) -> None:
         """Judge what a train's machines claim, at the end of a cycle."""
-        motion, board = vehicle.board.motion, vehicle.board
+        motion, board, front_mm = vehicle.board.motion, vehicle.board, vehicle.front_mm
         if board.place.known:
-            front_mm, speed_mm_s = vehicle.front_mm, vehicle.speed_mm_s
-            so = (
-                motion.front_least_mm - TOLERANCE_MM <= front_mm <= motion.front_most_mm + TOLERANCE_MM
-                and motion.speed_least_mm_s - TOLERANCE_MM <= speed_mm_s <= motion.speed_most_mm_s + TOLERANCE_MM
-            )
+            so = in_range(motion, front_mm, vehicle.speed_mm_s)
             claimed = f"{motion.front_least_mm} to {motion.front_most_mm} mm"
             self.must("range_contains_the_train", so, f"{train} is at {front_mm:.0f} mm, claimed is {claimed}")
-        inside = vehicle.front_mm <= board.brake.end_mm + TOLERANCE_MM or not board.lists
-        self.must("the_head_stays_inside_authority", inside, f"{train} is past {board.brake.end_mm} mm")
+        so = inside(board.brake.end_mm, bool(board.lists), front_mm)
+        self.must("the_head_stays_inside_authority", so, f"{train} is past {board.brake.end_mm} mm")
         self.must(
             "brakes_keep_their_bounds", not board.computer.known.watch.broken, f"{train} gains more, or brakes less"
         )
+
+    def judged_on_board(self, cycles: int, located: int) -> None:
+        """Count so many cycles in which all of that was judged and true, so many of them of a located train."""
+        self.checked["range_contains_the_train"] += located
+        self.checked["the_head_stays_inside_authority"] += cycles
+        self.checked["brakes_keep_their_bounds"] += cycles

@@ -1,13 +1,16 @@
 """What tachometer and inertial sensors of a train say of its motion, with their errors (P1, P5).
 
 The errors are drawn from the ranges declared in ``models.sensors.faults``; a wheel that slips or a sensor that is
-silent is a fault, and comes from outside.
+silent is a fault, and comes from outside.  What is read in a cycle is a function of what the sensors remember, as
+CPython and compiled cycles (``models.simulation.cycles``) both run it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from random import Random
+from typing import Any, NamedTuple
 
 from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.odometry import Readings
@@ -25,25 +28,25 @@ A slide that is held at one speed is beyond what the proofs assume of a wheel, a
 """
 SLIP_MOST_MM_S, SLIPS_FROM_MM_S = 6_000.0, 10_000.0
 TAIL_AGE_MS = 200
+NOISES_A_CYCLE = 3
+"""The head's inertial sensor draws one, then the tail's left one, then its right one."""
 
 
-def _drawn(random: Random, fault: str) -> float:
-    described = FAULTS[PLACE[fault]]
-    return random.uniform(described.least, described.most)
+class Errors(NamedTuple):
+    """How far the sensors of a train are off; ``scale``: creep and diameter, as a share."""
 
-
-@dataclass
-class Sensors:
-    """The sensors of one train.
-
-    ``scale``: creep and diameter, as a share.  ``turned_mm``: the way that the wheel has turned.
-    ``off_mm_s``: how much faster the wheel is than the train.  ``slips_cycles``: it slips so long yet.
-    """
-
-    random: Random
     scale: float
     bias_mm_s2: float
     noise_mm_s2: float
+
+
+class Kept(NamedTuple):
+    """What the sensors of a train remember from cycle to cycle.
+
+    ``turned_mm``: the way that the wheel has turned, ``way_mm`` in whole pulses.
+    ``off_mm_s``: how much faster the wheel is than the train.  ``slips_cycles``: it slips so long yet.
+    """
+
     turned_mm: float = 0.0
     way_mm: int = 0
     wheel_mm_s: float = 0.0
@@ -53,6 +56,96 @@ class Sensors:
     tachometer_silent_cycles: int = 0
     inertial_silent_cycles: int = 0
 
+
+def slipped(kept: Kept, speed_mm_s: float) -> tuple[float, int, float]:
+    """How much faster the wheel is than the train, for how long it slips yet, and by how much.
+
+    The wheel runs away to 6 m/s off and comes back, again and again while it slips; then for good.
+    """
+    off_mm_s, slips_cycles, slips_mm_s2 = kept.off_mm_s, kept.slips_cycles, kept.slips_mm_s2
+    if slips_cycles > 0 and speed_mm_s >= SLIP_MOST_MM_S + 1_000:
+        slips_cycles -= 1
+        off_mm_s += slips_mm_s2 * CYCLE_S
+        if off_mm_s == 0.0 or abs(off_mm_s) >= SLIP_MOST_MM_S:
+            slips_mm_s2 = -slips_mm_s2
+    elif off_mm_s != 0.0:
+        slips_cycles = 0
+        step = SLIP_JOLT_MM_S2 * CYCLE_S
+        off_mm_s = off_mm_s - step if off_mm_s > 0 else off_mm_s + step
+        off_mm_s = 0.0 if abs(off_mm_s) < step / 2 else off_mm_s
+    return off_mm_s, slips_cycles, slips_mm_s2
+
+
+def turned(errors: Errors, kept: Kept, speed_mm_s: float, slip: tuple[float, int, float]) -> Kept:
+    """What is remembered at the end of a cycle in which the train got to this speed, with what :func:`slipped` gave."""
+    off_mm_s, slips_cycles, slips_mm_s2 = slip
+    wheel_mm_s = max(0.0, speed_mm_s * (1 + errors.scale) + off_mm_s)
+    turned_mm = kept.turned_mm + (kept.wheel_mm_s + wheel_mm_s) / 2 * CYCLE_S
+    return Kept(
+        turned_mm,
+        int(turned_mm / PULSE_MM) * PULSE_MM,
+        wheel_mm_s,
+        off_mm_s,
+        slips_cycles,
+        slips_mm_s2,
+        max(0, kept.tachometer_silent_cycles - 1),
+        max(0, kept.inertial_silent_cycles - 1),
+    )
+
+
+def felt_mm_s2(errors: Errors, gained_mm_s2: float, noise: float) -> int:
+    """What an inertial sensor says of a train that gains so much, with a noise in deviations."""
+    return round(gained_mm_s2 + errors.bias_mm_s2 + errors.noise_mm_s2 * max(-NOISE_MOST, min(NOISE_MOST, noise)))
+
+
+@dataclass(frozen=True)
+class Sensing:
+    """What is read at the head, and at the tail: as CPython runs it, or as compiled code does.
+
+    ``head``: from errors, what was and is remembered, what the train gained, and a noise.
+    ``tail``: its telegram of the same time, from errors, the head's readings, what it gained, and two noises.
+    """
+
+    head: Callable[..., Any]
+    tail: Callable[..., Any]
+
+
+def sensing(code: Callable[[Any], Any], readings: Any, telegram: Any, acceleration: Any) -> Sensing:
+    """Make both; ``code`` compiles a function, or leaves it; the others make the machines' records."""
+    felt = code(felt_mm_s2)
+
+    @code
+    def head(errors: Any, before: Any, now: Any, gained_mm_s2: float, noise: float) -> Any:
+        turns = now.way_mm > before.way_mm
+        tachometer_mm_s = round((before.wheel_mm_s + now.wheel_mm_s) / 2) if turns else 0
+        heard, is_felt = before.tachometer_silent_cycles == 0, before.inertial_silent_cycles == 0
+        return readings(CYCLE_MS, heard, tachometer_mm_s, now.way_mm, is_felt, felt(errors, gained_mm_s2, noise))
+
+    @code
+    def tail(errors: Any, read: Any, gained_mm_s2: float, left: float, right: float) -> Any:
+        return telegram(
+            acceleration(read.inertial_mm_s2, read.inertial_valid),
+            True,
+            acceleration(felt(errors, gained_mm_s2, left), True),
+            acceleration(felt(errors, gained_mm_s2, right), True),
+            TAIL_AGE_MS,
+        )
+
+    return Sensing(head, tail)
+
+
+INTERPRETED = sensing(lambda function: function, Readings, TailReadings, Acceleration)
+
+
+@dataclass
+class Sensors:
+    """The sensors of one train: their errors, what they remember, and the noise that is drawn ahead for them."""
+
+    random: Random
+    errors: Errors
+    kept: Kept = field(default_factory=Kept)
+    noises: list[float] = field(default_factory=list)
+
     def slip(self, ms: int, speed_mm_s: float, slowing: bool) -> bool:
         """Let the wheel slip, or slide where the train brakes; not of a slow train, whose wheel would stand.
 
@@ -60,58 +153,50 @@ class Sensors:
         """
         if speed_mm_s < SLIPS_FROM_MM_S or self.off_mm_s != 0.0:
             return False
-        self.slips_cycles = max(1, ms // CYCLE_MS)
-        self.slips_mm_s2 = -SLIP_JOLT_MM_S2 if slowing else SLIP_JOLT_MM_S2
+        slips_mm_s2 = -SLIP_JOLT_MM_S2 if slowing else SLIP_JOLT_MM_S2
+        self.kept = self.kept._replace(slips_cycles=max(1, ms // CYCLE_MS), slips_mm_s2=float(slips_mm_s2))
         return True
 
-    def read(self, speed_mm_s: float, gained_mm_s2: float) -> Readings:
-        """What the sensors say at the end of a cycle, in which the train gained so much and got to this speed."""
-        self._wheel(speed_mm_s)
-        before, self.wheel_mm_s = self.wheel_mm_s, max(0.0, speed_mm_s * (1 + self.scale) + self.off_mm_s)
-        mean_mm_s = (before + self.wheel_mm_s) / 2
-        self.turned_mm += mean_mm_s * CYCLE_S
-        way_mm = int(self.turned_mm / PULSE_MM) * PULSE_MM
-        turns, self.way_mm = way_mm > self.way_mm, way_mm
-        heard, felt = self.tachometer_silent_cycles == 0, self.inertial_silent_cycles == 0
-        self.tachometer_silent_cycles -= not heard
-        self.inertial_silent_cycles -= not felt
-        tachometer_mm_s = round(mean_mm_s) if turns else 0
-        return Readings(CYCLE_MS, heard, tachometer_mm_s, way_mm, felt, self._felt(gained_mm_s2))
+    def silence_tachometer(self, ms: int) -> None:
+        """Let the tachometer give nothing for so long."""
+        self.kept = self.kept._replace(tachometer_silent_cycles=ms // CYCLE_MS)
 
-    def tail(self, head: Readings, gained_mm_s2: float) -> TailReadings:
-        """The tail's telegram of the same time; its two sensors err on their own."""
-        left, right = self._felt(gained_mm_s2), self._felt(gained_mm_s2)
-        return TailReadings(
-            Acceleration(head.inertial_mm_s2, head.inertial_valid),
-            True,
-            Acceleration(left, True),
-            Acceleration(right, True),
-            TAIL_AGE_MS,
-        )
+    def silence_inertial(self, ms: int) -> None:
+        """Let the inertial sensor at the head give nothing for so long."""
+        self.kept = self.kept._replace(inertial_silent_cycles=ms // CYCLE_MS)
 
-    def _wheel(self, speed_mm_s: float) -> None:
-        """The wheel runs away to 6 m/s off and comes back, again and again while it slips; then for good."""
-        if self.slips_cycles > 0 and speed_mm_s >= SLIP_MOST_MM_S + 1_000:
-            self.slips_cycles -= 1
-            self.off_mm_s += self.slips_mm_s2 * CYCLE_S
-            if self.off_mm_s == 0.0 or abs(self.off_mm_s) >= SLIP_MOST_MM_S:
-                self.slips_mm_s2 = -self.slips_mm_s2
-        elif self.off_mm_s != 0.0:
-            self.slips_cycles = 0
-            step = SLIP_JOLT_MM_S2 * CYCLE_S
-            self.off_mm_s = self.off_mm_s - step if self.off_mm_s > 0 else self.off_mm_s + step
-            self.off_mm_s = 0.0 if abs(self.off_mm_s) < step / 2 else self.off_mm_s
+    def read(self, speed_mm_s: float, gained_mm_s2: float, tail_mm_s2: float) -> tuple[Readings, TailReadings]:
+        """Read head and tail at the end of one cycle, in which they gained so much and got to this speed."""
+        before, (noise, left, right) = self.kept, self.noise(1)[:NOISES_A_CYCLE]
+        now = turned(self.errors, before, speed_mm_s, slipped(before, speed_mm_s))
+        head = INTERPRETED.head(self.errors, before, now, gained_mm_s2, noise)
+        self.ran(1, now)
+        return head, INTERPRETED.tail(self.errors, head, tail_mm_s2, left, right)
 
-    def _felt(self, gained_mm_s2: float) -> int:
-        noise = self.random.gauss(0.0, 1.0)
-        return round(gained_mm_s2 + self.bias_mm_s2 + self.noise_mm_s2 * max(-NOISE_MOST, min(NOISE_MOST, noise)))
+    def noise(self, cycles: int) -> list[float]:
+        """Give the noise of the next so many cycles, which may not all be run."""
+        lacking = NOISES_A_CYCLE * cycles - len(self.noises)
+        self.noises += [self.random.gauss(0.0, 1.0) for _ in range(lacking)]
+        return self.noises
+
+    def ran(self, cycles: int, kept: Kept) -> None:
+        """So many cycles have been run; what they drew is gone."""
+        self.kept = kept
+        del self.noises[: NOISES_A_CYCLE * cycles]
+
+
+def _drawn(random: Random, fault: str) -> float:
+    described = FAULTS[PLACE[fault]]
+    return random.uniform(described.least, described.most)
 
 
 def sensors(random: Random) -> Sensors:
     """Draw the sensors of a train."""
     return Sensors(
-        random=random,
-        scale=(_drawn(random, "creep_ppm") + _drawn(random, "diameter_ppm")) * 1e-6,
-        bias_mm_s2=1_000 * _drawn(random, "head_bias_m_s2"),
-        noise_mm_s2=1_000 * _drawn(random, "head_noise_m_s2"),
+        random,
+        Errors(
+            scale=(_drawn(random, "creep_ppm") + _drawn(random, "diameter_ppm")) * 1e-6,
+            bias_mm_s2=1_000 * _drawn(random, "head_bias_m_s2"),
+            noise_mm_s2=1_000 * _drawn(random, "head_noise_m_s2"),
+        ),
     )

@@ -364,7 +364,7 @@ class Service:
         if not board.hold():
             return False
         rear_mm, motion = train.rear_mm, board.motion
-        self.vehicle.pending_mm = 0.0
+        self.vehicle.rolled(0.0)
         train.turn()
         top_mm = train.front_mm + rear_mm
         least_mm = top_mm - motion.front_most_mm + board.length_mm

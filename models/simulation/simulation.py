@@ -18,6 +18,7 @@ from models.simulation.agenda import Agenda
 from models.simulation.air import Air
 from models.simulation.beginning import Plan, begun, rails_of
 from models.simulation.crossings import Crossings
+from models.simulation.cycles import INTERPRETED
 from models.simulation.diary import Diary
 from models.simulation.facing import Orders
 from models.simulation.faults import BY_NAME
@@ -33,7 +34,7 @@ from models.simulation.sensors import sensors
 from models.simulation.service import Office, Phase, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
-from models.simulation.vehicle import Line, Vehicle
+from models.simulation.vehicle import Cycling, Line, Vehicle
 from models.simulation.waiting import Waits
 from models.simulation.wording import RANGING, Fields, Wording
 from models.simulator import messages
@@ -48,8 +49,10 @@ TALKS_S = 2
 class Simulation:
     """The line, its trains, and everything that is written down of them."""
 
-    def __init__(self, plan: Plan, watch: Watcher | None = None) -> None:
-        self.plan = plan
+    def __init__(
+        self, plan: Plan, watch: Watcher | None = None, cycling: Callable[[], Cycling] = lambda: INTERPRETED
+    ) -> None:
+        self.plan, self.cycling = plan, cycling
         self.random = Random(f"{plan.seed} line")
         self.rails = rails_of(plan.imported)
         self.diary = Diary()
@@ -98,7 +101,7 @@ class Simulation:
         front_mm = (length_mm + CAR_MM * len(cars)) // 2
         on_rails = OnRails(train, list(cars), [Piece(heading, 0, length_mm)], front_mm, self.random)
         made = sensors(Random(f"{self.plan.seed} sensors of {train}"))
-        return Vehicle(on_rails, on_board(CAR_MM * len(cars), front_mm), made)
+        return Vehicle(on_rails, on_board(CAR_MM * len(cars), front_mm), made, self.cycling())
 
     def _board(self) -> Board:
         return {train: service.standing for train, service in self.services.items()}
@@ -163,11 +166,12 @@ class Simulation:
         self.diary.now_ms = self.oracles.now_ms = self.line.now_ms = now_ms
 
     def _second_of(self, vehicle: Vehicle) -> None:
-        for _ in range(CYCLES):
-            if vehicle.is_idle:
-                return
-            vehicle.cycle(self.line)
+        left = CYCLES
+        while left and not vehicle.is_idle:
+            ran = vehicle.cycles(self.line, left)
+            self.oracles.judged_on_board(ran.cycles - 1, ran.located)
             self.oracles.on_board(vehicle.on_rails.name, vehicle)
+            left -= ran.cycles
 
     def _recovers(self) -> None:
         """What is lost and can be found again is; runs that hold nothing are forgotten."""
@@ -200,16 +204,16 @@ class Simulation:
 
     def _wheel_slip(self, each: Occurrence) -> bool:
         vehicle = self.vehicles[Train(each.who)]
-        return vehicle.sensors.slip(each.lasts_ms, vehicle.speed_mm_s, vehicle.gained_mm_s2 < 0)
+        return vehicle.sensors.slip(each.lasts_ms, vehicle.speed_mm_s, vehicle.moving.gained_mm_s2 < 0)
 
     def _tachometer_silent(self, each: Occurrence) -> bool:
         vehicle = self.vehicles[Train(each.who)]
-        vehicle.sensors.tachometer_silent_cycles = 0 if vehicle.stands else each.lasts_ms // CYCLE_MS
+        vehicle.sensors.silence_tachometer(0 if vehicle.stands else each.lasts_ms)
         return not vehicle.stands
 
     def _inertial_silent(self, each: Occurrence) -> bool:
         vehicle = self.vehicles[Train(each.who)]
-        vehicle.sensors.inertial_silent_cycles = 0 if vehicle.stands else each.lasts_ms // CYCLE_MS
+        vehicle.sensors.silence_inertial(0 if vehicle.stands else each.lasts_ms)
         return not vehicle.stands
 
     def _line_broken(self, each: Occurrence) -> bool:

@@ -5,8 +5,9 @@ A train that stands, and whose odometry is sure of it, is left alone until it go
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from random import Random
+from typing import Any
 
 from kernel.names import Block, Run, Tag, Train
 from kernel.standstill import Standstill, ThroughLine
@@ -15,12 +16,15 @@ from models.concrete.drive import Drive
 from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
 from models.concrete.train import Happening, OnRails
 from models.rides.plan import PLAN
-from models.simulation.driver import BELOW_MM_S, CYCLE_S, asked_mm_s2, gained_mm_s2, shown_mm_s
+from models.simulation.cycles import INTERPRETED, Given, Moving, Ran
+from models.simulation.driver import BELOW_MM_S, shown_mm_s
 from models.simulation.faults import Chosen, happens
 from models.simulation.onboard import OnBoard
 from models.simulation.sensors import Sensors
 from models.simulator.play import Play
 
+Cycling = Callable[..., Any]
+"""What runs cycles: ``models.simulation.cycles`` says what it takes and gives."""
 NEAR_END_MM = 12_000
 SETTLES_CYCLES = 100
 """If the odometry is not sure by then that the train stands, it is located anew."""
@@ -33,7 +37,8 @@ class Vehicle:
     ``holds``: the driver keeps it where it is, or stops it.  ``restarted``: the unit has just begun a new life.
     """
 
-    def __init__(self, on_rails: OnRails, board: OnBoard, sensors: Sensors) -> None:
+    def __init__(self, on_rails: OnRails, board: OnBoard, sensors: Sensors, cycles: Cycling = INTERPRETED) -> None:
+        self._cycles = cycles
         self.on_rails = on_rails
         self.board = board
         self.sensors = sensors
@@ -42,14 +47,26 @@ class Vehicle:
         self.holds = True
         self.restarted = False
         self.line_broken_until_ms = 0
-        self.speed_mm_s = 0.0
-        self.gained_mm_s2 = 0.0
-        self.pending_mm = 0.0
+        self.moving = Moving()
         self.next_mm = 0.0
         self.at_rest_cycles = 0
-        self.way_mm = 0.0
         self._unit: Unit | None = None
         self._asked_at = (0, 0, 0)
+
+    @property
+    def speed_mm_s(self) -> float:
+        """How fast it is."""
+        return self.moving.speed_mm_s
+
+    @property
+    def pending_mm(self) -> float:
+        """How far it has run since what lies on its way was looked at last."""
+        return self.moving.pending_mm
+
+    @property
+    def way_mm(self) -> float:
+        """How far it has run in all."""
+        return self.moving.way_mm
 
     @property
     def front_mm(self) -> float:
@@ -87,39 +104,40 @@ class Vehicle:
         """Whether the cab shows it that it may not go on."""
         return shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm) <= BELOW_MM_S
 
-    # ---- a cycle of 100 ms
+    # ---- cycles of 100 ms
 
-    def cycle(self, line: Line) -> None:
-        """Let its computer decide on the brake, the train move, and its sensors read."""
-        self.board.decide(self.demanded(line.play), False)
-        if self.board.computer.known.window.passed and not self.restarted:
+    def cycles(self, line: Line, most: int) -> Ran:
+        """Let its computer decide on the brake, the train move, and its sensors read: so often at most.
+
+        Whatever else is to happen does, after the last of these cycles.
+        """
+        self.demanded(line.play)
+        board, sensors = self.board, self.sensors
+        ran = Ran(*self._cycles(
+            board.limits, board.computer, self.moving, sensors.kept, sensors.errors, self._given(),
+            sensors.noise(most), most,
+        ))  # fmt: skip
+        board.computer, self.moving = ran.computer, ran.moving
+        sensors.ran(ran.cycles, ran.kept)
+        if board.computer.known.window.passed and not self.restarted:
             line.play.take("window_passes", train=self.on_rails.name)
-        before = self.speed_mm_s
-        self._drive()
-        moved_mm = (before + self.speed_mm_s) / 2 * CYCLE_S
-        gained_mm_s2 = (self.speed_mm_s - before) / CYCLE_S
-        self.pending_mm += moved_mm
-        self.way_mm += moved_mm
-        readings = self.sensors.read(self.speed_mm_s, gained_mm_s2)
-        tail_mm_s2 = -before / CYCLE_S if self.on_rails.standing and before else gained_mm_s2
-        self.board.sense(readings, self.sensors.tail(readings, tail_mm_s2))
         if self.pending_mm >= self.next_mm or (self.stands and self.pending_mm >= 1):
             self.advance(line)
         self.at_rest_cycles = self.at_rest_cycles + 1 if self.stands else 0
+        return ran
 
-    def _drive(self) -> None:
-        """The speed at the end of the cycle: the driver's, or the emergency brake's."""
-        board = self.board
-        if board.brake.applied:
-            self.gained_mm_s2 = gained_mm_s2(self.gained_mm_s2, 0.0, True)
-        else:
-            shown = shown_mm_s(PLAN.brake, board.motion, board.brake.end_mm)
-            to_stop_mm = 0.0 if self.holds else self.target_mm - self.front_mm
-            asked = asked_mm_s2(self.speed_mm_s, to_stop_mm, shown)
-            self.gained_mm_s2 = gained_mm_s2(self.gained_mm_s2, asked, False)
-        self.speed_mm_s = max(0.0, self.speed_mm_s + self.gained_mm_s2 * CYCLE_S)
-        if self.speed_mm_s == 0.0:
-            self.gained_mm_s2 = 0.0
+    def _given(self) -> Given:
+        """What stays as it is while cycles are run."""
+        return Given(
+            front_mm=self.on_rails.front_mm,
+            next_mm=self.next_mm,
+            target_mm=self.target_mm,
+            holds=self.holds,
+            runs=self.run is not None,
+            listed=bool(self.board.lists),
+            parted=bool(self.on_rails.standing),
+            restarted=self.restarted,
+        )
 
     def demanded(self, play: Play) -> bool:
         """Whether the unit wants the emergency brake: no run, or no end of authority that can be held (T5, T9)."""
@@ -153,12 +171,16 @@ class Vehicle:
             before_mm = train.front_mm
             line.move(train, self.run, whole_mm)
             run_mm = train.front_mm - before_mm
-            self.pending_mm = self.pending_mm - run_mm if run_mm == whole_mm else 0.0
+            self.rolled(self.pending_mm - run_mm if run_mm == whole_mm else 0.0)
         train.look()
         self._forget()
         here = train.happenings(line.rails, train.path[-1].to_mm - train.front_mm)
         ends_mm = train.path[-1].to_mm - train.front_mm
         self.next_mm = float(min([ends_mm, *(each.after_mm for each in here[:1])]))
+
+    def rolled(self, pending_mm: float) -> None:
+        """What lies on its way has been looked at, but for so much."""
+        self.moving = self.moving._replace(pending_mm=pending_mm)
 
     def _forget(self) -> None:
         """What lies far behind the train is of no use any more."""

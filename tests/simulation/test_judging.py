@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from operator import attrgetter
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from fuzz.simulation import judging
-from fuzz.simulation.judging import Judge, _part, reads
+from fuzz.simulation.judging import Judge, parts_of, reads
 from models.world.state import Site, System
 from proofs.catalogue import INVARIANTS
 from proofs.witnesses.long_day import two_trains_pass
@@ -42,8 +43,8 @@ def test_an_invariant_reads_what_is_listed(day: Scenario, name: str) -> None:
     seen: Any = Seen(day.system, (), paths)
     assert INVARIANTS[name](day.site, seen)
     assert paths, "it reads something"
-    listed = [_part(day.system, path) for path in reads()[name]]
-    unlisted = {path for path in paths if not any(_part(day.system, path) is part for part in listed)}
+    listed = parts_of(name)(day.system)
+    unlisted = {path for path in paths if not any(attrgetter(".".join(path))(day.system) is part for part in listed)}
     assert not {path for path in unlisted if not any(getattr(day.system, path[0]) is part for part in listed)}
 
 

@@ -12,8 +12,9 @@ from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.way import Way
 from models.concrete.rails import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
+from models.simulation.cycles import Ran
 from models.simulation.onboard import OnBoard, on_board
-from models.simulation.sensors import Sensors
+from models.simulation.sensors import Errors, Sensors
 from models.simulation.simulation import Simulation
 from models.simulation.vehicle import Line, Vehicle
 from models.simulator.play import Play
@@ -39,11 +40,10 @@ def test_the_tags_of_a_boundary_lie_farther_apart_than_a_train_rolls_back_unnoti
 
 def standing(board: OnBoard, cycles: int) -> None:
     """So many cycles pass at rest."""
-    sensors = Sensors(Random(1), 0.0, 0.0, 0.0)
+    sensors = Sensors(Random(1), Errors(0.0, 0.0, 0.0))
     for _ in range(cycles):
-        head = sensors.read(0.0, 0.0)
         board.decide(True, False)
-        board.sense(head, sensors.tail(head, 0.0))
+        board.computer = computer.sense(board.limits, board.computer, *sensors.read(0.0, 0.0, 0.0))
 
 
 def test_a_brake_holds_the_train_once_it_has_been_on_for_its_response() -> None:
@@ -91,13 +91,13 @@ def test_the_brake_is_asked_where_the_train_is_and_not_where_it_was(monkeypatch:
         asked.append(is_there(vehicle))
         return asks(vehicle, play)
 
-    def cycle(vehicle: Vehicle, line: Line) -> None:
+    def cycles(vehicle: Vehicle, line: Line, most: int) -> Ran:
         decided.append(is_there(vehicle))
-        goes(vehicle, line)
+        return goes(vehicle, line, min(most, 1))
 
-    asks, goes = Vehicle.demanded, Vehicle.cycle
+    asks, goes = Vehicle.demanded, Vehicle.cycles
     monkeypatch.setattr(Vehicle, "demanded", demanded)
-    monkeypatch.setattr(Vehicle, "cycle", cycle)
+    monkeypatch.setattr(Vehicle, "cycles", cycles)
     Simulation(plan("passing_station", seed=3, chosen={})).run()
     assert len(asked) > 1_000
     assert all(asked)

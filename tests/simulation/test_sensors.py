@@ -42,9 +42,9 @@ class Trip:
         self.gains_mm_s2 = gained_mm_s2(self.gains_mm_s2, asked_mm_s2, emergency)
         speed_um_s = max(0, before.speed_um_s + round(self.gains_mm_s2 * CYCLE_MS))
         gained_um_s = speed_um_s - before.speed_um_s
-        was_off = self.sensors.off_mm_s
-        readings = self.sensors.read(speed_um_s / 1000, gained_um_s / CYCLE_MS)
-        slips = was_off != 0 or self.sensors.off_mm_s != 0
+        was_off = self.sensors.kept.off_mm_s
+        readings, _ = self.sensors.read(speed_um_s / 1000, gained_um_s / CYCLE_MS, 0.0)
+        slips = was_off != 0 or self.sensors.kept.off_mm_s != 0
         to_nm = before.front_nm + CYCLE_MS * (before.speed_um_s + speed_um_s) // 2
         self.system = run_a_cycle(SITE, before, readings, to_nm, speed_um_s, 0, slips, False)
         assert self.system is not before, f"no step of the world: {readings} after {before}, at {speed_um_s} um/s"
@@ -71,8 +71,8 @@ def test_slips_and_silence_stay_within_what_is_assumed_of_nature(
     for cycles, asked_mm_s2, slips_ms, silence in legs:
         if slips_ms:
             trip.sensors.slip(slips_ms, trip.system.speed_um_s / 1000, asked_mm_s2 < 0)
-        trip.sensors.tachometer_silent_cycles = cycles // 2 if silence == "tachometer" else 0
-        trip.sensors.inertial_silent_cycles = cycles // 2 if silence == "inertial" else 0
+        trip.sensors.silence_tachometer(CYCLE_MS * (cycles // 2) if silence == "tachometer" else 0)
+        trip.sensors.silence_inertial(CYCLE_MS * (cycles // 2) if silence == "inertial" else 0)
         for _ in range(cycles):
             trip.cycle(asked_mm_s2, False)
 
@@ -89,7 +89,7 @@ def test_a_slip_of_the_longest_kind_is_never_taken_for_rolling(slowing: bool) ->
     for _ in range(79):
         trip.cycle(-EMERGENCY_MM_S2 if slowing else 0.0, False)
         trusted += trip.system.motion.trusted
-        most_off_mm_s = max(most_off_mm_s, abs(trip.sensors.off_mm_s))
+        most_off_mm_s = max(most_off_mm_s, abs(trip.sensors.kept.off_mm_s))
     assert trusted == 0
     assert most_off_mm_s > 5_000
     for _ in range(60):
