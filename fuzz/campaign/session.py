@@ -29,6 +29,7 @@ from fuzz.campaign.worker import work_on
 from fuzz.targets.days import Days
 from fuzz.targets.interlocking import Interlocking
 from fuzz.targets.jolted import Jolted
+from fuzz.targets.lines import Lines, runs_on
 from fuzz.targets.link import LinkRuns
 from fuzz.targets.rides import Rides
 from fuzz.targets.target import Target
@@ -36,6 +37,7 @@ from fuzz.targets.walks import Walks
 from models.commands import console
 from models.days.systems import NAMES
 from models.exit_codes import UNDECIDED
+from models.layouts import BadInput
 from proofs.records import commit, versions, write_json
 
 SECONDS_AN_HOUR = 3600
@@ -63,13 +65,14 @@ Making = Callable[[Sequence[Path]], Sequence[Target]]
 OFFERED: Mapping[str, Making] = {
     "interlocking": lambda layouts: [Interlocking(path) for path in layouts],
     "jolted": lambda layouts: [Jolted(path) for path in layouts],
+    "lines": lambda layouts: [Lines(path) for path in layouts if runs_on(path)],
     "walks": lambda layouts: [Walks()],
     "link": lambda layouts: [LinkRuns()],
     "rides": lambda layouts: [Rides()],
     "days": lambda layouts: [Days(name) for name in NAMES],
 }
 """What --target names: each gives the targets that it stands for.  Those that need layouts stand in ON_LAYOUTS too."""
-ON_LAYOUTS: frozenset[str] = frozenset({"interlocking", "jolted"})
+ON_LAYOUTS: frozenset[str] = frozenset({"interlocking", "jolted", "lines"})
 
 
 def chosen(names: Sequence[str], layouts: Sequence[Path]) -> list[Target]:
@@ -86,7 +89,14 @@ def chosen(names: Sequence[str], layouts: Sequence[Path]) -> list[Target]:
         raise CampaignError(f"{layouts[0]}: {', '.join(asked)} runs on no layout; leave it out")
     if not layouts and ON_LAYOUTS & set(asked):
         raise CampaignError(f"--target {min(ON_LAYOUTS & set(asked))}: runs on layouts; name a layout file")
-    return [target for name in dict.fromkeys(asked) for target in OFFERED[name](layouts)]
+    try:
+        without = [path for path in layouts if "lines" in names and not runs_on(path)]
+        found = [target for name in dict.fromkeys(asked) for target in OFFERED[name](layouts)]
+    except BadInput as bad:
+        raise CampaignError(str(bad)) from bad
+    if without:
+        raise CampaignError(f"{without[0]}: has no track with room for a train; leave it out, or --target lines")
+    return found
 
 
 def go_on(options: Options, targets: Sequence[Target] | None = None) -> int:

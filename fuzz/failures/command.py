@@ -12,10 +12,21 @@ from rich.table import Table
 from rich.text import Text
 
 from fuzz.failures.batches import Again, run_again
+from fuzz.failures.lines import Simulated, simulate_again
 from fuzz.failures.links import Played, play_again
 from fuzz.failures.replaying import Outcome, Replay, replay
 from fuzz.failures.rides import Ridden, ride_again, unknown_faults
-from fuzz.failures.trace import TRAFFIC, BatchTrace, LinkTrace, RideTrace, Trace, event_as_json, layout_of, load_trace
+from fuzz.failures.trace import (
+    TRAFFIC,
+    BatchTrace,
+    LineTrace,
+    LinkTrace,
+    RideTrace,
+    Trace,
+    event_as_json,
+    layout_of,
+    load_trace,
+)
 from fuzz.failures.words import claim, comes_to, otherwise, told, verdict
 from models.exit_codes import DOES_NOT_HOLD, HOLDS
 from models.layouts import BadInput
@@ -100,13 +111,36 @@ class Rerun:
         return DOES_NOT_HOLD if self.found.violated else HOLDS
 
 
-def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridden | Relinked | Rerun:
+@dataclass(frozen=True)
+class Resimulated:
+    """A simulated line, simulated again."""
+
+    path: Path
+    found: Simulated
+
+    def report(self, out: Console, html: Path | None, json: Path | None) -> int:
+        """Print what happened, write the page and the record where they are wanted, and give the exit code."""
+        print_line_again(out, self.found)
+        if html is not None:
+            from models.simulation.page.writing import page_of
+
+            write_whole(html, page_of(self.found.outcome).encode())
+            _line(out, f"{html}: the page")
+        if json is not None:
+            write_json(json, {**line_record(self.path, self.found), "versions": versions(), "commit": commit()})
+        _line(out, self.found.verdict)
+        return DOES_NOT_HOLD if self.found.came.violated else HOLDS
+
+
+def replay_file(path: Path, page: bool, progress: Progress) -> Replayed | Reridden | Relinked | Rerun | Resimulated:
     """Replay the trace of a file; ``page``: whether a page of it is wanted.
 
     Raises:
         BadInput: the file, its layout or what they name cannot be used.
     """
     trace = load_trace(path)
+    if isinstance(trace, LineTrace):
+        return Resimulated(path, simulate_again(trace, path))
     if page and not isinstance(trace, Trace):
         target = _target_of(trace)
         raise BadInput(str(path), "target", f"is {target}, of which there is no page", "leave out --html")
@@ -266,6 +300,44 @@ def link_record(path: Path, found: Played) -> dict[str, Any]:
         "violated": list(found.violated),
         "at_step": len(found.events) if found.violated else None,
         "steps": [f"{step} {told(event)}" for step, event in found.events],
+    }
+
+
+# ---- simulated lines
+
+
+def print_line_again(out: Console, found: Simulated) -> None:
+    """Print what happened, and what is violated by it."""
+    rows = Table(box=None, pad_edge=False, show_edge=False)
+    rows.add_column("s", justify="right")
+    for heading in ("kind", "who", "what"):
+        rows.add_column(heading, overflow="fold")
+    for event in found.came.sim.diary.events:
+        texts = (f"{event.at_ms / 1_000:.0f}", event.kind, event.who, event.text)
+        rows.add_row(*(Text(_printable(text)) for text in texts))
+    out.print(rows)
+    for each in found.came.sim.oracles.found:
+        _line(out, f"{each.oracle}, after {each.at_ms / 1_000:.0f} s: {each.text}")
+    if not found.as_told:
+        _line(out, f"the trace says: {', '.join(found.trace.violated)} violated in second {found.trace.at_s}")
+    line = found.came.line
+    planted = "" if line.planted is None else f", with the planted fault '{line.planted}'"
+    goes = line.trains - len(line.still)
+    _line(out, f"{goes} of {line.trains} trains go anywhere, {len(found.came.drawn)} faults come at some time{planted}")
+
+
+def line_record(path: Path, found: Simulated) -> dict[str, Any]:
+    """A simulated line as plain data."""
+    return {
+        "verdict": "does not hold" if found.came.violated else "holds",
+        "reproduced": bool(found.came.violated),
+        "as_told": found.as_told,
+        "trace": str(path),
+        "target": "lines",
+        "planted": found.came.line.planted,
+        "violated": list(found.came.violated),
+        "at_s": found.came.sim.now_s,
+        "line": found.outcome.record(),
     }
 
 

@@ -129,7 +129,20 @@ class BatchTrace:
     layout: str = ""
 
 
-AnyTrace = Trace | RideTrace | LinkTrace | BatchTrace
+@dataclass(frozen=True)
+class LineTrace:
+    """A simulated line: ``told`` is what it follows from, as plain data (``fuzz.simulation.lines``).
+
+    ``violated``: the oracles and invariants that were false, in second ``at_s``.
+    """
+
+    layout: LayoutFile
+    told: Mapping[str, Any]
+    violated: tuple[str, ...]
+    at_s: int
+
+
+AnyTrace = Trace | RideTrace | LinkTrace | BatchTrace | LineTrace
 """What a trace file may hold."""
 
 # ---- writing
@@ -212,6 +225,9 @@ def parse(name: str, text: str) -> AnyTrace:
         return _ride(data)
     if target in ("walks", "jolted"):
         return _batch(data)
+    if target == "lines":
+        layout = LayoutFile(data["layout"]["file"], data["layout"]["sha256"])
+        return LineTrace(layout, data, tuple(data["violated"]), data["at_s"])
     return _link(data) if target == "link" else _interlocking(name, data)
 
 
@@ -299,19 +315,28 @@ def layout_of(trace: Trace, path: Path) -> Imported:
     Raises:
         BadInput: it is not there, is no layout, has changed, or has other blocks and points than the trace.
     """
-    place = path.parent / trace.layout.file
+    imported = layout_at(trace.layout, path)
+    _fits(trace, str(path), site(trace, imported))
+    return imported
+
+
+def layout_at(layout: LayoutFile, path: Path) -> Imported:
+    """Read the layout that a trace at ``path`` names, which must be the one that the trace was made on.
+
+    Raises:
+        BadInput: it is not there, is no layout, or has changed.
+    """
+    place = path.parent / layout.file
     try:
         content = place.read_bytes()
     except OSError as error:
         what = f"the layout {place} cannot be read ({error.strerror})"
         raise BadInput(str(path), "layout.file", what, "put the layout there, or name where it is") from error
     found = hashlib.sha256(content).hexdigest()
-    if found != trace.layout.sha256:
-        what = f"the layout {place} has changed since (sha256 {found[:12]}…, not {trace.layout.sha256[:12]}…)"
+    if found != layout.sha256:
+        what = f"the layout {place} has changed since (sha256 {found[:12]}…, not {layout.sha256[:12]}…)"
         raise BadInput(str(path), "layout.sha256", what, "put the layout of the campaign there")
-    imported = load_text(str(place), read_text(place))
-    _fits(trace, str(path), site(trace, imported))
-    return imported
+    return load_text(str(place), read_text(place))
 
 
 def _fits(trace: Trace, name: str, there: Site) -> None:

@@ -72,6 +72,11 @@ def usual_trains(imported: Imported, cars: int = CARS) -> int:
     return max(1, min(USUAL_TRAINS, len(room(imported.layout, rails_of(imported), Random(0), cars)) // 2))
 
 
+def drawn_room(imported: Imported, rails: Rails, seed: int, cars: int) -> list[list[Block]]:
+    """Each draw of where trains may stand at first."""
+    return [room(imported.layout, rails, Random(f"{seed} berths {draw}"), cars) for draw in range(DRAWS)]
+
+
 def begun(plan: Plan, names: Sequence[Train], rails: Rails, foresight: Foresight) -> Begun:
     """Draw where trains stand and where they are to go.
 
@@ -79,8 +84,7 @@ def begun(plan: Plan, names: Sequence[Train], rails: Rails, foresight: Foresight
         BadInput: so many trains have no room.
     """
     best: Begun | None = None
-    for draw in range(DRAWS):
-        free = room(plan.imported.layout, rails, Random(f"{plan.seed} berths {draw}"), plan.cars)
+    for draw, free in enumerate(drawn_room(plan.imported, rails, plan.seed, plan.cars)):
         where = dict(zip(names, free, strict=False))
         if len(where) < len(names):
             what, do = f"only {len(where)} of {len(names)} trains can stand apart", "ask for fewer"

@@ -72,21 +72,12 @@ class Machines:
     sensing: sensors.Sensing
 
 
-def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., Any]:
-    """Make the function that runs cycles; ``code`` compiles a function, or leaves it as it is.
-
-    It takes the limits, the computer, :class:`Moving`, the sensors' ``Kept`` and ``Errors``, :class:`Given`, the
-    noise of the sensors, and how many cycles at most; it gives the fields of :class:`Ran`.
-    """
-    decide, sense, is_located = machines.decide, machines.sense, machines.is_located
-    head, tail = machines.sensing.head, machines.sensing.tail
-    slipped, turned = code(sensors.slipped), code(sensors.turned)
+def driven_of(code: Callable[[Any], Any]) -> Any:
+    """Make what moves the train for a cycle: at its end the speed is the driver's, or the emergency brake's."""
     shown, asked, gained = code(driver.shown_mm_s), code(driver.asked_mm_s2), code(driver.gained_mm_s2)
-    in_range, inside = code(oracles_on_board.in_range), code(oracles_on_board.inside)
 
     @code
     def driven(bounds: Any, motion: Any, brake: Any, moving: Any, given: Any) -> Any:
-        """The speed at the end of the cycle: the driver's, or the emergency brake's."""
         if brake.applied:
             gains = gained(moving.gained_mm_s2, 0.0, True)
         else:
@@ -99,9 +90,15 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
         moved_mm = (moving.speed_mm_s + speed_mm_s) / 2 * CYCLE_S
         return Moving(speed_mm_s, gains, moving.pending_mm + moved_mm, moving.way_mm + moved_mm)
 
+    return driven
+
+
+def goes_on_of(is_located: Callable[..., Any], code: Callable[[Any], Any]) -> Any:
+    """Make what tells whether only another cycle comes after one: what is claimed is true, and nothing is due."""
+    in_range, inside = code(oracles_on_board.in_range), code(oracles_on_board.inside)
+
     @code
     def claims_hold(computer: Any, moving: Any, given: Any) -> bool:
-        """Whether what the machines claim is true at the end of a cycle, as the oracles have it."""
         motion, front_mm = computer.known.motion, given.front_mm + moving.pending_mm
         return (
             (not is_located(motion) or in_range(motion, front_mm, moving.speed_mm_s))
@@ -111,7 +108,6 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
 
     @code
     def goes_on(computer: Any, moving: Any, given: Any) -> bool:
-        """Whether nothing but another cycle comes after this one."""
         return (
             moving.speed_mm_s > 0.0
             and moving.pending_mm < given.next_mm
@@ -119,6 +115,20 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
             and not (computer.brake.withheld and given.listed)
             and claims_hold(computer, moving, given)
         )
+
+    return goes_on
+
+
+def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., Any]:
+    """Make the function that runs cycles; ``code`` compiles a function, or leaves it as it is.
+
+    It takes the limits, the computer, :class:`Moving`, the sensors' ``Kept`` and ``Errors``, :class:`Given`, the
+    noise of the sensors, and how many cycles at most; it gives the fields of :class:`Ran`.
+    """
+    decide, sense, is_located = machines.decide, machines.sense, machines.is_located
+    head, tail = machines.sensing.head, machines.sensing.tail
+    slipped, turned = code(sensors.slipped), code(sensors.turned)
+    driven, goes_on = driven_of(code), goes_on_of(is_located, code)
 
     @code
     def cycles(

@@ -23,13 +23,14 @@ class Event:
 
 
 class Diary:
-    """Events in their order, and how often each step of the world was taken."""
+    """Events in their order, and how often each step of the world was taken; ``last_fault``: the newest, by name."""
 
     def __init__(self) -> None:
         self.now_ms = 0
         self.events: list[Event] = []
         self.steps: Counter[str] = Counter()
         self.faults: Counter[str] = Counter()
+        self.last_fault = ""
 
     def note(self, kind: str, who: str, text: str) -> None:
         """Write something down."""
@@ -38,6 +39,7 @@ class Diary:
     def fault(self, name: str, who: str, text: str) -> None:
         """Write a fault down, and count it."""
         self.faults[name] += 1
+        self.last_fault = name
         self.note(FAULT, who, text)
 
     def after(self, step: str, event: Mapping[str, Any], system: System) -> None:
