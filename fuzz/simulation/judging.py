@@ -24,20 +24,21 @@ PARTS = frozenset(part.name for part in fields(System))
 
 
 class Judge:
-    """Looks on, second by second; ``asked`` counts how often each invariant was.
+    """Looks on, second by second; ``asked`` counts how often each invariant was; ``every_s``: so often all are.
 
     What an invariant says follows from the parts of the state that it reads: while each of them is the same as when
     it held, its answer stands and is not worked out again.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, every_s: int = EVERY_S) -> None:
+        self.every_s = every_s
         self.asked: Counter[str] = Counter(dict.fromkeys(INVARIANTS, 0))
         self._read: dict[str, tuple[object, ...]] = {}
 
     def look(self, now: Simulation) -> None:
         """Ask what is to be asked now; the simulation ends where something is false."""
         system = now.play.system
-        for name in INVARIANTS if now.now_s % EVERY_S == 0 else CLAIMS:
+        for name in INVARIANTS if now.now_s % self.every_s == 0 else CLAIMS:
             self.asked[name] += 1
             read, before = parts_of(name)(system), self._read.get(name)
             if before is not None and all(map(is_, before, read)):

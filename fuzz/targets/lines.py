@@ -6,6 +6,7 @@ and step that may have made it false; the invariants of the proofs are asked as 
 
 from __future__ import annotations
 
+import gc
 import json
 import time
 from collections import Counter
@@ -190,12 +191,15 @@ def counts(came: Came) -> dict[str, int]:
 
 @lru_cache(maxsize=4)
 def imported(path: Path) -> Imported:
-    """Read a layout, once in each process.
+    """Read a layout, once in each process; what lasts so long is not looked through for garbage again and again.
 
     Raises:
-        BadInput: it is no layout, or has no track for trains to run on.
+        BadInput: it is no layout.
     """
-    return load(path)
+    found = load(path)
+    gc.collect()
+    gc.freeze()
+    return found
 
 
 def have_room(path: Path, seed: int) -> int:

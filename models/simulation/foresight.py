@@ -28,6 +28,8 @@ class Standing:
 
 Board = Mapping[Train, Standing]
 AGAIN_S = 120
+REMEMBERED = 1_000
+"""So many boards are remembered with what they came to: trains ask again and again while nobody has moved."""
 
 
 class Foresight:
@@ -39,6 +41,7 @@ class Foresight:
         self._bit = {block: 1 << at for at, block in enumerate(sorted(layout.blocks))}
         self._needs = {route: self._mask(self._swept(route)) for route in layout.routes}
         self._masks: dict[frozenset[Block], int] = {}
+        self._arriving: dict[tuple[Train, tuple[tuple[Train, Standing], ...]], frozenset[Train]] = {}
         self._towards: dict[tuple[Block, Block], list[tuple[int, Block]]] = {}
 
     def _swept(self, route: Route) -> Iterable[Block]:
@@ -59,6 +62,14 @@ class Foresight:
 
     def arriving(self, board: Board, first: Train) -> frozenset[Train]:
         """The trains that get to their goals, one after the other; one is moved before all others."""
+        asked = first, tuple(board.items())
+        if asked not in self._arriving:
+            if len(self._arriving) >= REMEMBERED:
+                self._arriving.clear()
+            self._arriving[asked] = self._reckoned(board, first)
+        return self._arriving[asked]
+
+    def _reckoned(self, board: Board, first: Train) -> frozenset[Train]:
         at = {train: self._there(each.blocks) for train, each in board.items()}
         order = sorted(board, key=lambda train: train != first)
         left = {train: board[train] for train in order if board[train].goal is not None}
