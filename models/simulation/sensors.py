@@ -149,12 +149,16 @@ class Sensors:
     def slip(self, ms: int, speed_mm_s: float, slowing: bool) -> bool:
         """Let the wheel slip, or slide where the train brakes; not of a slow train, whose wheel would stand.
 
-        Nor one that slips already: it would be held where it is, which is no slip that jolts.
+        One that is off already goes on as it does, for longer: turned round at its farthest it would stay there.
         """
-        if speed_mm_s < SLIPS_FROM_MM_S or self.off_mm_s != 0.0:
+        if speed_mm_s < SLIPS_FROM_MM_S:
             return False
-        slips_mm_s2 = -SLIP_JOLT_MM_S2 if slowing else SLIP_JOLT_MM_S2
-        self.kept = self.kept._replace(slips_cycles=max(1, ms // CYCLE_MS), slips_mm_s2=float(slips_mm_s2))
+        cycles = max(1, ms // CYCLE_MS)
+        if self.kept.off_mm_s:
+            self.kept = self.kept._replace(slips_cycles=max(cycles, self.kept.slips_cycles))
+        else:
+            slips_mm_s2 = -SLIP_JOLT_MM_S2 if slowing else SLIP_JOLT_MM_S2
+            self.kept = self.kept._replace(slips_cycles=cycles, slips_mm_s2=float(slips_mm_s2))
         return True
 
     def silence_tachometer(self, ms: int) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from random import Random
 
 import pytest
@@ -13,7 +14,7 @@ from kernel.onboard.arithmetic import CYCLE_MS
 from models.onboard.odometry import Line, Running, run_a_cycle
 from models.rides.plan import PLAN
 from models.simulation.driver import EMERGENCY_MM_S2, gained_mm_s2
-from models.simulation.sensors import Sensors, sensors
+from models.simulation.sensors import SLIP_MOST_MM_S, Sensors, sensors
 from proofs.onboard.odometry import INVARIANTS
 
 SILENT = st.sampled_from(("none", "none", "none", "tachometer", "inertial"))
@@ -95,3 +96,23 @@ def test_a_slip_of_the_longest_kind_is_never_taken_for_rolling(slowing: bool) ->
     for _ in range(60):
         trip.cycle(0.0, False)
     assert trip.system.motion.trusted
+
+
+@pytest.mark.parametrize("cycles", range(1, 24))
+def test_a_wheel_that_begins_to_slip_again_while_it_is_off_stays_nowhere(cycles: int) -> None:
+    """Wherever in its way out and back the second slip meets it, it is off by no more than it may be, and moves on."""
+    trip = Trip(1)
+    for _ in range(320):
+        trip.cycle(700.0, False)
+    speed_mm_s = trip.system.speed_um_s / 1000
+    assert trip.sensors.slip(4_000, speed_mm_s, False)
+    offs_mm_s = []
+    for cycle in range(60):
+        if cycle == cycles:
+            assert trip.sensors.slip(5_000, speed_mm_s, False)
+        trip.cycle(0.0, False)
+        assert not trip.system.motion.trusted
+        offs_mm_s.append(trip.sensors.kept.off_mm_s)
+    assert max(map(abs, offs_mm_s)) <= SLIP_MOST_MM_S
+    twice = [one + other for one, other in pairwise(offs_mm_s[:50])]
+    assert all(len({one, two, three}) > 1 for one, two, three in zip(twice, twice[1:], twice[2:], strict=False))
