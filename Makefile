@@ -76,7 +76,7 @@ ride: setup
 fuzz: setup
 	@mkdir -p out
 	rm -rf out/fuzz
-	$(BIN)/heisoku fuzz layouts/passing_station.toml $(foreach target,interlocking jolted walks link,--target $(target)) \
+	$(BIN)/heisoku fuzz layouts/passing_station.toml $(foreach target,interlocking jolted lines walks link,--target $(target)) \
 		--batches $(BATCHES) --out out/fuzz --json out/fuzz.json
 
 beyond: setup
