@@ -11,7 +11,7 @@ import typing
 from collections import namedtuple
 from collections.abc import Callable, Mapping, Sequence
 from enum import Enum
-from functools import cache
+from functools import cache, lru_cache
 from importlib import import_module
 from operator import itemgetter
 from typing import Any
@@ -25,6 +25,8 @@ types: Any = known_types
 LEAST, MOST = -(2**63), 2**63 - 1
 """The integers that compiled code can hold. A sum or product beyond them wraps round without a word:
 that none arises from inputs within the declared ranges is the machine's duty, and tests watch it."""
+REMEMBERED = 256
+"""Many of a machine's records are the same from one cycle to the next."""
 BETWEEN = ":"
 """In place of a point in a named tuple's qualified name, which is one attribute here, and none of an attribute."""
 
@@ -190,13 +192,15 @@ def unpacking(type_: Any) -> Callable[[Any], Any]:
 
 
 def _unpacking_record(cls: Any) -> Callable[[Any], Any]:
-    items, packed_as = _unpacking_tuple(tuple(hints_of(cls).values())), tuple_class(cls)
+    """Return what unpacks a record; of one with nothing but numbers and truth values the newest are remembered."""
+    hints = tuple(hints_of(cls).values())
+    items, packed_as = _unpacking_tuple(hints), tuple_class(cls)
 
     def a_record(value: Any) -> Any:
         assert type(value) is packed_as, f"{value!r} is no {cls.__name__}"
         return cls(*items(value))
 
-    return a_record
+    return lru_cache(REMEMBERED, typed=True)(a_record) if set(hints) <= {int, bool} else a_record
 
 
 def _unpacking_tuple(hints: Sequence[Any]) -> Callable[[Any], tuple[Any, ...]]:

@@ -7,7 +7,7 @@ others leave free; whoever got there before must still get there with the route 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
@@ -41,7 +41,7 @@ class Foresight:
         self._bit = {block: 1 << at for at, block in enumerate(sorted(layout.blocks))}
         self._needs = {route: self._mask(self._swept(route)) for route in layout.routes}
         self._masks: dict[frozenset[Block], int] = {}
-        self._arriving: dict[tuple[Train, tuple[tuple[Train, Standing], ...]], frozenset[Train]] = {}
+        self._arriving: dict[Hashable, frozenset[Train]] = {}
         self._towards: dict[tuple[Block, Block], list[tuple[int, Block]]] = {}
 
     def _swept(self, route: Route) -> Iterable[Block]:
@@ -62,15 +62,15 @@ class Foresight:
 
     def arriving(self, board: Board, first: Train) -> frozenset[Train]:
         """The trains that get to their goals, one after the other; one is moved before all others."""
-        asked = first, tuple(board.items())
+        at = {train: self._there(each.blocks) for train, each in board.items()}
+        asked = first, tuple(at.items()), tuple([each.goal for each in board.values()])
         if asked not in self._arriving:
             if len(self._arriving) >= REMEMBERED:
                 self._arriving.clear()
-            self._arriving[asked] = self._reckoned(board, first)
+            self._arriving[asked] = self._reckoned(board, first, at)
         return self._arriving[asked]
 
-    def _reckoned(self, board: Board, first: Train) -> frozenset[Train]:
-        at = {train: self._there(each.blocks) for train, each in board.items()}
+    def _reckoned(self, board: Board, first: Train, at: dict[Train, int]) -> frozenset[Train]:
         order = sorted(board, key=lambda train: train != first)
         left = {train: board[train] for train in order if board[train].goal is not None}
         found: set[Train] = set()
