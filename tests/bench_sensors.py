@@ -88,10 +88,7 @@ class OneRun:
     gain: float = 0.0
     stays: int = 0
     wheel: float = 0.0
-    turned: float = 0.0
-    count: float = 0.0
-    since: float = tachometer.OVERFLOW_TICKS
-    shown: float = 0.0
+    counter: tachometer.Counter = field(default_factory=tachometer.Counter)
     gains: list[float] = field(default_factory=list)
     walks: dict[str, float] = field(default_factory=dict)
     arrivals: dict[int, int] = field(default_factory=dict)
@@ -248,21 +245,8 @@ class OneRun:
         creep = self.gain * value["creep_ppm"] * 1e-6 / FULL_M_S2
         self.wheel = max(0.0, self.speed * (1 + creep) + self._slip(cycle))
         pulses_a_m = 1 / (tachometer.PULSE_M * (1 + value["diameter_ppm"] * 1e-6))
-        turned = (before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S
-        self.turned += turned
-        count, before_since, ticks_a_cycle = math.floor(self.turned), self.since, tachometer.CYCLE_TICKS
-        if count > self.count:
-            ticks = math.floor((self.turned - count) / max(turned * tachometer.TIMER_S / CYCLE_S, 1e-9))
-            self.since = min(ticks, ticks_a_cycle)
-            spent = max(1, ticks_a_cycle - self.since + before_since)
-            self.shown = (count - self.count) * tachometer.PULSE_M / tachometer.TIMER_S / spent
-        else:
-            self.since = min(self.since + ticks_a_cycle, tachometer.OVERFLOW_TICKS)
-        least = tachometer.PULSE_M / tachometer.TIMER_S / max(1, self.since)
-        overflows = self.since >= tachometer.OVERFLOW_TICKS
-        speed = self.shown if count > self.count else 0.0 if overflows else min(self.shown, least)
-        self.count = count
-        way_m, valid = count * tachometer.PULSE_M, True
+        speed = self.counter.turn((before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S)
+        way_m, valid = self.counter.way_m, True
         for hold in self.holds:
             way_m, speed, valid = hold.of(cycle, way_m, speed, valid)
         if not valid:

@@ -22,6 +22,9 @@ JERK_MM_S3 = 1_000.0
 EMERGENCY_JERK_MM_S3 = 1_500.0
 BELOW_MM_S = 1_500.0
 """So much below what the cab shows."""
+CREEPS_MM_S = 1_000.0
+"""He stops where the cab lets him go no faster than this: what it shows falls as he nears it, and he would go on ever
+more slowly, and come to rest after minutes."""
 NEAR_MM = 400.0
 CYCLE_S = CYCLE_MS / 1_000
 
@@ -36,11 +39,16 @@ def shown_mm_s(bounds: BrakeBounds, motion: Motion, end_mm: int) -> float:
     return max(0.0, worst - (bounds.response_cycles + 1) * CYCLE_S * bounds.gains_mm_s2)
 
 
+def is_barred(shown: float) -> bool:
+    """Tell whether the cab shows the driver that he is to stop."""
+    return shown - BELOW_MM_S <= CREEPS_MM_S
+
+
 def asked_mm_s2(speed_mm_s: float, to_stop_mm: float, shown: float) -> float:
     """What the driver asks of the train: so far it is to where he wants to stop."""
     curve = sqrt(2 * COMFORT_MM_S2 * max(0.0, to_stop_mm))
-    limit = min(LINE_MM_S, max(0.0, shown - BELOW_MM_S), curve)
-    if to_stop_mm <= NEAR_MM or limit <= 0.0:
+    limit = min(LINE_MM_S, shown - BELOW_MM_S, curve)
+    if to_stop_mm <= NEAR_MM or shown - BELOW_MM_S <= CREEPS_MM_S:
         return -BRAKES_MM_S2
     falls = COMFORT_MM_S2 if limit < LINE_MM_S and speed_mm_s > limit - 500 else 0.0
     return max(-BRAKES_MM_S2, min(ACCELERATES_MM_S2, limit - speed_mm_s - falls))

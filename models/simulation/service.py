@@ -413,7 +413,8 @@ class Service:
         if board.brake.applied and not self.waits_for_staff:
             board.decide(vehicle.demanded(self.play), True)
         wide = board.motion.front_most_mm - board.motion.front_least_mm > WIDE_MM
-        if self.waits_for_staff or (wide and (board.brake.applied or vehicle.is_barred)):
+        short = not vehicle.is_there and (board.brake.applied or vehicle.is_barred)
+        if self.waits_for_staff or (wide and short):
             told = "cannot go on with so wide a range, and is located anew"
             self.waits_for_staff = not self._is_located(told)
         elif self.onward is None and (vehicle.is_there or vehicle.is_barred):

@@ -17,7 +17,7 @@ from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
 from models.concrete.train import Happening, OnRails
 from models.rides.plan import PLAN
 from models.simulation.cycles import INTERPRETED, Given, Moving, Ran
-from models.simulation.driver import BELOW_MM_S, shown_mm_s
+from models.simulation.driver import is_barred, shown_mm_s
 from models.simulation.faults import Chosen, happens
 from models.simulation.onboard import OnBoard
 from models.simulation.sensors import Sensors
@@ -102,7 +102,7 @@ class Vehicle:
     @property
     def is_barred(self) -> bool:
         """Whether the cab shows it that it may not go on."""
-        return shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm) <= BELOW_MM_S
+        return is_barred(shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm))
 
     # ---- cycles of 100 ms
 
