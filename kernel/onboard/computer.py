@@ -227,6 +227,16 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
     )
 
 
+def note_place(computer: Computer, least_mm: int, most_mm: int) -> Computer:
+    """Narrow the range by what a person says who sees the train stand: from where to where its front may be (P7, T8).
+
+    He may say no more than on which side of a boundary it is.  The wheel stays trusted, as it would not if the train
+    were located anew.
+    """
+    motion = odometry.note_fix(computer.known.motion, least_mm, most_mm)
+    return replace(computer, known=replace(computer.known, motion=motion))
+
+
 def withhold_end(computer: Computer) -> Computer:
     """Brake, until an end of authority is taken (T4, T12)."""
     return replace(computer, brake=braking.withhold_end(computer.brake))

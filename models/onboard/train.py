@@ -236,6 +236,19 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
     return _at_rest(site, replace(system, trailing=turned, computer=located), least_mm, most_mm)
 
 
+def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
+    """At rest somebody says between which places the front is, and the computer goes on (P7, T8)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
+        return system
+    return replace(
+        system,
+        running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
+        computer=computer.note_place(system.computer, least_mm, most_mm),
+    )
+
+
 def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
     """At rest the computer begins, or begins again: the train is inspected, and somebody says where it is (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):

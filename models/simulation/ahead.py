@@ -57,6 +57,15 @@ def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Poin
     return Ahead(begins_mm, ends_mm, tags_mm, arrives)
 
 
+def block_begins_mm(rails: Rails, train: OnRails) -> int:
+    """Where the block that the front is in begins on the train's path, or the path as far as it is remembered."""
+    at = next(place for place, each in enumerate(train.path) if each.to_mm > train.front_mm)
+    block = rails.block[train.path[at].heading[0]]
+    while at > 0 and rails.block[train.path[at - 1].heading[0]] == block:
+        at -= 1
+    return train.path[at].from_mm
+
+
 def _pieces(rails: Rails, train: OnRails, wanted: Set[Block], lies: Map[Point, Position]) -> Iterator[Piece]:
     """Track from where the train came into these blocks, or from its front, as far as it goes on."""
     front = next(place for place, each in enumerate(train.path) if each.to_mm > train.front_mm)

@@ -8,7 +8,7 @@ others leave free; whoever got there before must still get there with the route 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from random import Random
 
 from kernel.layout import Layout
@@ -20,10 +20,14 @@ from models.simulation.waiting import Barred
 
 @dataclass(frozen=True)
 class Standing:
-    """Where a train is, or will be when it has run what it was granted, and where it wants to; None: it stays."""
+    """Where a train is, or will be when it has run what it was granted, and where it wants to; None: it stays.
+
+    ``ways_on``: of one that lies over several blocks the routes that it can run; None: all that begin in its block.
+    """
 
     blocks: frozenset[Block]
     goal: Block | None
+    ways_on: frozenset[Route] | None = None
 
 
 Board = Mapping[Train, Standing]
@@ -63,7 +67,7 @@ class Foresight:
     def arriving(self, board: Board, first: Train) -> frozenset[Train]:
         """The trains that get to their goals, one after the other; one is moved before all others."""
         at = {train: self._there(each.blocks) for train, each in board.items()}
-        asked = first, tuple(at.items()), tuple([each.goal for each in board.values()])
+        asked = first, tuple(at.items()), tuple([(each.goal, each.ways_on) for each in board.values()])
         if asked not in self._arriving:
             if len(self._arriving) >= REMEMBERED:
                 self._arriving.clear()
@@ -92,14 +96,14 @@ class Foresight:
         if goal in standing.blocks:
             return True
         todo, seen = list(standing.blocks), set(standing.blocks)
+        if standing.ways_on is not None:
+            todo = [self.layout.destination[route] for route in standing.ways_on if not self._needs[route] & others]
         while todo:
             block = todo.pop()
-            for needs, end in self._onward(block, goal):
-                if end not in seen and not needs & others:
-                    if end == goal:
-                        return True
-                    seen.add(end)
-                    todo.append(end)
+            if block == goal:
+                return True
+            seen.add(block)
+            todo += [end for needs, end in self._onward(block, goal) if end not in seen and not needs & others]
         return False
 
     def _onward(self, block: Block, goal: Block) -> list[tuple[int, Block]]:
@@ -117,7 +121,7 @@ class Foresight:
 
     def lets_begin(self, board: Board, train: Train, goal: Block) -> bool:
         """Tell whether a train may make for a goal: it gets there, and so do all that did."""
-        begun = self.arriving({**board, train: Standing(board[train].blocks, goal)}, train)
+        begun = self.arriving({**board, train: replace(board[train], goal=goal)}, train)
         return train in begun and self.arriving(board, train) <= begun
 
     def barring(self, board: Board, train: Train, goal: Block) -> Barred | None:

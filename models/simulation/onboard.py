@@ -140,6 +140,10 @@ class OnBoard:
         self.computer = computing.locate(self.limits, self.computer, least_mm, most_mm)
         self.lists = {}
 
+    def note_place(self, least_mm: int, most_mm: int) -> None:
+        """Somebody says of the train at rest between which places its front is (P7, T8)."""
+        self.computer = computing.note_place(self.computer, least_mm, most_mm)
+
     @property
     def takes_hold(self) -> bool:
         """Whether the brake is on, and has yet to respond."""

@@ -19,6 +19,7 @@ from models.simulation.driver import margin_mm
 from models.simulation.facing import Orders, exits, leads_back, leads_forward
 from models.simulation.foresight import Board, Foresight, Standing, far
 from models.simulation.onboard import LOCATED_WITHIN_MM
+from models.simulation.staff import Staff
 from models.simulation.talking import Talk
 from models.simulation.timetable import Trip, Ways
 from models.simulation.vehicle import SETTLES_CYCLES, Line, Vehicle
@@ -50,6 +51,7 @@ class Office:
     """What the trains' services share: the diary, the dispatcher's foresight, and where all the trains are.
 
     ``diverts``: a train that cannot make for its goal for long gets another one; else its timetable stands.
+    ``deadlocked``: the trains of which each way on is barred by one of them, or by one that will not move any more.
     ``orders``: which end of a train leads in each run.
     ``lets_depart``: whether the roads that are near ahead of a train are closed for it.
     """
@@ -58,6 +60,7 @@ class Office:
     foresight: Foresight
     board: Callable[[], Board]
     diverts: bool
+    deadlocked: Callable[[], frozenset[Train]]
     orders: Orders
     lets_depart: Callable[[Train], bool]
 
@@ -81,6 +84,7 @@ class Service:
         self.talk = talk
         self.ways = ways
         self.diary = office.diary
+        self.staff = Staff(vehicle, line.rails, office.diary)
         self.random = Random(f"{line.random.random()} {self.train}")
         self.phase = Phase.LOST
         self.base: Run | None = None
@@ -135,21 +139,8 @@ class Service:
             board.made_up()
             self.diary.note(STAFF, self.train, "is found whole by its staff")
         if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):
-            return not self._is_located("is located anew at a standstill")
+            return not self.staff.locates("is located anew at a standstill")
         return False
-
-    def _is_located(self, told: str) -> bool:
-        """Staff locates it, once it is held, by the tag or post beside it; it has not turned, so its lists stay."""
-        if not self.vehicle.board.hold():
-            return False
-        front_mm, board = round(self.vehicle.front_mm), self.vehicle.board
-        lists = board.lists
-        board.locate(front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM)
-        board.lists = lists
-        self.vehicle.at_rest_cycles = 0
-        self.vehicle.look_again()
-        self.diary.note(STAFF, self.train, told)
-        return True
 
     def _rests(self) -> None:
         for run in [run for run in self.play.system.track.rolling if run.train == self.train]:
@@ -180,7 +171,7 @@ class Service:
             vehicle.restarted = False
             self.base, self.run, self.onward = told, None, None
             messages.retire_what_is_over(self.play, self.train)
-            self._is_located("is told under which run it stands")
+            self.staff.locates("is told under which run it stands")
             self.become(Phase.STANDS, 5)
         elif unit.answered == self.play.system.centre.epoch and unit.life == self.life_before:
             self.play.take("restart_unit", train=self.train, life=UnitLife(unit.life + 1))
@@ -205,6 +196,8 @@ class Service:
         self.begun = self.begun or self._begins()
         if self.begun:
             self._ask(self.base, self._routes(), "run")
+            if self.train in self.office.deadlocked():
+                self._is_diverted()
 
     def _begins(self) -> bool:
         """Make for the next goal, as soon as that bars nobody's way."""
@@ -215,15 +208,23 @@ class Service:
         if not foresight.lets_begin(board, self.train, goal):
             bar = foresight.barring(board, self.train, goal)
             self.waits = () if bar is None else (bar,)
-            if not self.office.diverts or self.now_s - max(self.since_s, self.trips[self.done].begins_s) < DIVERTED_S:
-                return False
-            other = far(foresight, board, self.train, self.ways.places, self.random)
-            if other is None:
-                return False
-            self.diary.note(TRAIN, self.train, f"cannot make for {goal}, and is diverted")
-            self.trips[self.done], goal = Trip(other, self.now_s), other
+            return self._is_diverted()
         self.waits = ()
         self.diary.note(TRAIN, self.train, f"makes for {goal}")
+        return True
+
+    def _is_diverted(self) -> bool:
+        """Make for another goal, if this one has been out of reach for long."""
+        goal, begins_s = self.trips[self.done].goal, self.trips[self.done].begins_s
+        if not self.office.diverts or self.now_s - max(self.since_s, begins_s) < DIVERTED_S:
+            return False
+        other = far(self.office.foresight, self.office.board(), self.train, self.ways.places, self.random)
+        if other is None:
+            return False
+        self.diary.note(TRAIN, self.train, f"cannot make for {goal}, and is diverted")
+        self.trips[self.done] = Trip(other, self.now_s)
+        self.waits = ()
+        self.diary.note(TRAIN, self.train, f"makes for {other}")
         return True
 
     @property
@@ -238,7 +239,8 @@ class Service:
         run = self.onward or self.run
         blocks = self.under if run is None else frozenset({self.play.site.layout.destination[run.route]})
         stays = not self.begun or self.phase in (Phase.PARTED, Phase.GONE)
-        return Standing(blocks, None if stays else self.trips[self.done].goal)
+        ways_on = self._ways_on() if run is None and len(blocks) > 1 else None
+        return Standing(blocks, None if stays else self.trips[self.done].goal, ways_on)
 
     @property
     def finished(self) -> bool:
@@ -255,14 +257,20 @@ class Service:
 
     def _routes(self) -> list[Route]:
         """The routes from where it stands that lead towards its goal, and not back over it."""
-        assert self.base is not None
+        goal = self.trips[self.done].goal
+        if len(self.under) > 1:
+            return self.ways.shortest_first(self._ways_on(), goal)
+        return [route for start in self.under for route in self.ways.towards(start, goal) if route in self._ways_on()]
+
+    def _ways_on(self) -> frozenset[Route]:
+        """The routes that it can run from where it stands, as it stands or once it has changed ends."""
         layout, under = self.play.site.layout, self.under
-        return [
+        return frozenset(
             route
-            for start in sorted(under)
-            for route in self.ways.towards(start, self.trips[self.done].goal)
+            for start in under
+            for route in self.ways.from_block.get(start, ())
             if under & layout.claims[route] == {start} and (self._leads(route) or self._leads(route, back=True))
-        ]
+        )
 
     def _leads(self, route: Route, back: bool = False) -> bool:
         """Whether the train leads into a route as it stands, or once it has changed ends."""
@@ -283,8 +291,7 @@ class Service:
             if refusal is None and not self.office.foresight.lets(self.office.board(), self.train, route):
                 continue
             if refusal is None and self.play.take("request", run=run, base=base):
-                forward = what == "onward" or self._leads(route)
-                self.office.orders.note(run, self.vehicle.on_rails, forward)
+                self.office.orders.note(run, self.vehicle.on_rails, what == "onward" or self._leads(route))
                 setattr(self, what, run)
                 if what == "run":
                     self.become(Phase.WAITS)
@@ -319,10 +326,7 @@ class Service:
     def _gives_up(self, run: Run, stage: Stage) -> None:
         """The signaller takes a route back that does not come about."""
         self.since_s = self.now_s
-        if stage == Stage.RESERVED:
-            self.play.take("withdraw", run=run)
-        else:
-            self.play.take("cancel", run=run)
+        self.play.take("withdraw" if stage == Stage.RESERVED else "cancel", run=run)
 
     def _departs(self, run: Run) -> None:
         vehicle, board = self.vehicle, self.vehicle.board
@@ -413,10 +417,12 @@ class Service:
         if board.brake.applied and not self.waits_for_staff:
             board.decide(vehicle.demanded(self.play), True)
         wide = board.motion.front_most_mm - board.motion.front_least_mm > WIDE_MM
+        if board.brake.withheld and self.staff.names_its_block():
+            return
         short = not vehicle.is_there and (board.brake.applied or vehicle.is_barred)
         if self.waits_for_staff or (wide and short):
             told = "cannot go on with so wide a range, and is located anew"
-            self.waits_for_staff = not self._is_located(told)
+            self.waits_for_staff = not self.staff.locates(told)
         elif self.onward is None and (vehicle.is_there or vehicle.is_barred):
             self._arrives(run)
 
@@ -471,8 +477,8 @@ class Service:
         board, destination = self.vehicle.board, self.play.site.layout.destination[run.route]
         bounds_mm = board.lists[run].bounds_mm(destination) if run in board.lists else None
         if bounds_mm is not None:
-            event = {"at": board.standstill, "begin_mm": bounds_mm[0], "end_mm": bounds_mm[1]}
-            self.play.take("note_stopped", run=run, **event)
+            begin_mm, end_mm = bounds_mm
+            self.play.take("note_stopped", run=run, at=board.standstill, begin_mm=begin_mm, end_mm=end_mm)
 
     # ---- a train that has parted
 

@@ -35,7 +35,7 @@ from models.simulation.service import Office, Phase, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
 from models.simulation.vehicle import Cycling, Line, Vehicle
-from models.simulation.waiting import Waits
+from models.simulation.waiting import Waits, deadlocked
 from models.simulation.wording import RANGING, Fields, Wording
 from models.simulator import messages
 from models.simulator.play import Watcher, begin, site_of
@@ -83,7 +83,15 @@ class Simulation:
         roads = [WaysToRoad(self.rails, road) for road in plan.roads]
         self.crossings = Crossings(roads, self.links, self.vehicles, self.diary, self.oracles.must, plan.seed)
         self.links.acts = self._hears
-        office = Office(self.diary, foresight, self._board, plan.trips is None, orders, self.crossings.lets_depart)
+        office = Office(
+            diary=self.diary,
+            foresight=foresight,
+            board=self._board,
+            diverts=plan.trips is None,
+            deadlocked=lambda: deadlocked(self.waits, self.gone),
+            orders=orders,
+            lets_depart=self.crossings.lets_depart,
+        )
         self.services = {
             train: Service(self.vehicles[train], trips[train], self.line, self.talk, self.ways, office)
             for train in names

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import networkx as nx
@@ -56,9 +57,14 @@ class Ways:
 
     def towards(self, block: Block, goal: Block) -> list[Route]:
         """The routes from a block that lead nearer to a goal, the shortest way first."""
-        here_mm, found = self.left_mm(block, goal), []
-        for route in self.from_block.get(block, ()):
+        here_mm = self.left_mm(block, goal)
+        return self.shortest_first(self.from_block.get(block, ()), goal, math.inf if here_mm is None else here_mm)
+
+    def shortest_first(self, routes: Iterable[Route], goal: Block, here_mm: float = math.inf) -> list[Route]:
+        """Of some routes those that lead to within less than ``here_mm`` of a goal, the shortest way first."""
+        found = []
+        for route in routes:
             left_mm = self.left_mm(self.layout.destination[route], goal)
-            if left_mm is not None and here_mm is not None and left_mm < here_mm:
+            if left_mm is not None and left_mm < here_mm:
                 found.append((left_mm + self.length_mm[route], route))
         return [route for _, route in sorted(found)]

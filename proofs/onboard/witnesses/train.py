@@ -315,6 +315,37 @@ def a_train_whose_brake_has_yet_to_hold_it_is_not_located() -> None:
     assert ride.system != held
 
 
+def a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust() -> None:
+    """The range is narrowed by what is said of a train at rest, and of no other place than where it is (P7, T8)."""
+    ride = Ride()
+    ride.start()
+    ride.draw_up()
+    front_mm = ride.system.front_nm // NM_A_MM
+    before = ride.system
+    ride.step("note_place", least_mm=front_mm + 1, most_mm=front_mm + 2_000)
+    assert ride.system == before
+    ride.step("note_place", least_mm=front_mm, most_mm=front_mm + 10**6)
+    said = ride.system.computer
+    assert said.known.motion.front_least_mm == front_mm
+    assert said.known.motion.front_most_mm == before.computer.known.motion.front_most_mm
+    assert said.known.motion.trusted == before.computer.known.motion.trusted
+    assert said == replace(before.computer, known=replace(before.computer.known, motion=said.known.motion))
+    ride.cycle(0)
+    assert front_mm - ride.system.computer.known.motion.front_least_mm <= SITE.limits.sensors.pulse_mm + 1
+    assert ride.system.computer.known.motion.trusted
+
+
+def nothing_is_said_of_a_train_that_runs() -> None:
+    """Nobody sees it stand, and what was said before a cycle counts before it is sensed (P7, T8)."""
+    ride = Ride()
+    ride.start()
+    ride.run(100)
+    at_mm = ride.system.front_nm // NM_A_MM
+    under_way = ride.system
+    ride.step("note_place", least_mm=at_mm - 1_000, most_mm=at_mm + 1_000)
+    assert ride.system is under_way
+
+
 # ---- what the computer is told
 
 
@@ -424,6 +455,8 @@ WITNESSES = (
     a_train_located_anew_begins_as_at_the_start,
     a_tag_told_after_the_train_was_located_anew_says_nothing,
     a_train_whose_brake_has_yet_to_hold_it_is_not_located,
+    a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust,
+    nothing_is_said_of_a_train_that_runs,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
     a_brake_that_is_put_on_again_waits_for_its_response,
     a_computer_is_told_of_tags_and_of_its_train,

@@ -1,0 +1,42 @@
+"""What a dispatcher foresees of a train that a fault has stopped over several blocks."""
+
+from __future__ import annotations
+
+import pytest
+
+from kernel.names import Block, Car, Route, Train
+from models.simulation.beginning import rails_of
+from models.simulation.foresight import Foresight, Standing
+from models.simulation.timetable import Ways
+from models.simulator.play import site_of
+from tests.simulation.lines import imported
+
+STOPPED, OTHER = Train("T01"), Train("T02")
+OVER_THE_DIAMOND = frozenset(map(Block, ("B:A0+A1", "diamond", "stand 1")))
+
+
+def foresight() -> Foresight:
+    place = imported("figure_of_eight")
+    site = site_of(place.layout, place.ground, place.records, {STOPPED: (Car("T01.1"),)})
+    return Foresight(site.layout, Ways(site.layout, rails_of(place)))
+
+
+@pytest.mark.parametrize(
+    ("ways_on", "gets_there"),
+    [({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from diamond"}, True), (set(), False)],
+)
+def test_only_the_ways_that_a_train_can_run_count(ways_on: set[str], gets_there: bool) -> None:
+    """From the diamond it is near to stand 3, on the line that the train is not on; past stand 2 it cannot."""
+    goal = Block("stand 3")
+    board = {
+        STOPPED: Standing(OVER_THE_DIAMOND, None, frozenset(map(Route, ways_on))),
+        OTHER: Standing(frozenset({Block("stand 2")}), None),
+    }
+    assert foresight().lets_begin(board, STOPPED, goal) is gets_there
+
+
+def test_of_the_ways_on_the_shortest_comes_first() -> None:
+    ways = foresight().ways
+    on = [Route("1 to 2"), Route("1 back to 4 from diamond")]
+    assert ways.shortest_first(on, Block("stand 4")) == list(reversed(on))
+    assert ways.shortest_first(on, Block("stand 2")) == on
