@@ -32,7 +32,7 @@ MOST_TOLD = 10_000
 
 
 def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
-    """Every pair: a conflict that follows must be declared by both; one that does not follow is needless."""
+    """Every pair: a conflict that follows must be declared by both, and one that is declared must follow."""
     following, (declares, declared) = _following(routes), _declared(routes)
     told = missed = needless = 0
     for at, first in enumerate(routes):
@@ -48,7 +48,8 @@ def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
         text = f"{missed:,} more pairs of routes conflict and do not declare it"
         findings.violation("conflicts are declared", (), text)
     if needless:
-        findings.remark((), f"{needless:,} more conflicts are declared that are needless")
+        text = f"{needless:,} more conflicts are declared that follow from nothing: nothing keeps the routes apart"
+        findings.violation("declared conflicts follow", (), text)
     for route in routes:
         if route.name in route.conflicts:
             findings.remark((route.name,), f"route '{route.name}' is declared to conflict with itself")
@@ -65,8 +66,8 @@ def _tell(first: TableRoute, second: TableRoute, findings: Findings) -> None:
         text = f"{names} conflict by {', '.join(words)}, and {by}"
         findings.violation("conflicts are declared", (first.name, second.name, *elements), text)
     else:
-        text = f"{names} are declared to conflict but share neither path nor points: needless"
-        findings.remark((first.name, second.name), text)
+        text = f"{names} are declared to conflict but share neither path nor points: nothing keeps them apart"
+        findings.violation("declared conflicts follow", (first.name, second.name), text)
         if not all(declared):
             findings.remark((first.name, second.name), f"{names}: the conflict is declared by one of them only")
 

@@ -5,7 +5,9 @@ the points between sections.  Which piece of path belongs to which section is re
 a whole: they are the pieces that nearly always come with it.
 
 A route starts in the last block of the routes of its orientation that end at its source signal;
-where there is none, in a block ``before <signal>`` of its own.  Track is known only as far as
+where there is none, in the block that routes the other way run into over the same leg.
+Several such blocks, or none where the route leaves over points, are a violation; at a section where
+the table begins the route starts in a block ``before <signal>`` of its own.  Track is known only as far as
 routes run over it: from one block lead those that follow it on some route which came the same way.
 """
 

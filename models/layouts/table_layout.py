@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -66,6 +66,7 @@ def assemble_table(file: str, routes: Sequence[TableRoute], trains: Sequence[str
     _start(rows, findings)
     stands_in = _stand(rows, findings)
     _agree(rows, stands_in, findings)
+    _merge(rows, stands_in, findings)
     track = Track(rows)
     layout = _layout(rows, stands_in, track, trains)
     places = Places(
@@ -114,24 +115,79 @@ def _list(names: Iterable[str]) -> str:
 
 
 def _start(rows: Sequence[Row], findings: Findings) -> None:
-    """Where each route starts: at the end of those that end at its source signal, running the same way."""
+    """Where each route starts: at the end of those that end at its source signal, running the same way.
+
+    Where none ends there, it is the block that routes the other way run into over the same leg of the same point.
+    """
     ends: dict[tuple[str, str], Counter[Block]] = defaultdict(Counter)
     for row in rows:
         ends[row.route.destination, row.route.orientation][row.covers[-1]] += 1
     told: set[str] = set()
+    met, sections = _met_by_track(rows), {section for row in rows for section in row.route.sections}
     for row in rows:
         source, found = row.route.source, ends.get((row.route.source, row.route.orientation))
         if not found:
-            row.start = Block(f"before {source}")
-            if source not in told:
-                text = f"no route ends at signal '{source}': routes from it start in a block of their own"
-                findings.remark((source,), text)
+            _start_by_track(row, met[source], sections, findings, source not in told)
         else:
             row.start = min(found, key=lambda block: (-found[block], block))
             if len(found) > 1 and source not in told:
                 text = f"routes to signal '{source}' end in different sections: {_list(sorted(found))}"
                 findings.violation("a signal stands at one section", (source, *sorted(found)), text)
         told.add(source)
+
+
+def _met_by_track(rows: Sequence[Row]) -> dict[str, set[Block]]:
+    """For each source signal, the blocks behind the first of its routes on rows that run over it the other way.
+
+    A row the other way counts if it comes from the route's second block, where there is one, and wants the first
+    point of the route in the same position.
+    """
+    behind: dict[Block, list[tuple[Row, Block | None, Block]]] = defaultdict(list)
+    for row in rows:
+        for before, block, onward in zip([None, *row.covers], row.covers, row.covers[1:], strict=False):
+            behind[block].append((row, before, onward))
+    found: dict[str, set[Block]] = defaultdict(set)
+    for row in rows:
+        for other, before, onward in behind[row.covers[0]]:
+            same = all(other.needs.get(point, at) == at for point, at in list(row.needs.items())[:1])
+            comes = before is None or row.covers[1:2] in ([], [before])
+            if same and comes and other.route.orientation != row.route.orientation:
+                found[row.route.source] |= {onward} - set(row.covers)
+    return found
+
+
+def _start_by_track(row: Row, met: set[Block], sections: Set[str], findings: Findings, tell: bool) -> None:
+    """Start a route at whose source no route ends.
+
+    Several blocks that may lie before it, or none where it leaves over points, are a violation: a train there would
+    stand in two blocks.  Where a section is the first that it runs over, the table may begin there: a remark.
+    """
+    source = row.route.source
+    row.start = min(met) if met else Block(f"before {source}")
+    if len(met) == 1 or not tell:
+        return
+    if not met and row.covers[0] in sections:
+        findings.remark((source,), f"no route ends at signal '{source}': routes from it start in a block of their own")
+        return
+    found = f"{_list(sorted(met))} may lie before it" if met else "no route the other way shows what lies before it"
+    text = f"no route ends at signal '{source}' and {found}: it is not known where its routes start"
+    findings.violation("a route starts in a known block", (source, *sorted(met)), text)
+
+
+def _merge(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
+    """Routes that run the same way from two blocks into a third and on alike do so over a point."""
+    from_: dict[tuple[str, Block, Block | None], dict[Block, str]] = defaultdict(dict)
+    for row in rows:
+        for before, block, onward in zip(row.chain, row.covers, [*row.covers[1:], None], strict=False):
+            from_[row.route.orientation, block, onward].setdefault(before, row.route.name)
+    told: set[tuple[str, ...]] = set()
+    for (_, block, _), routes in from_.items():
+        if len(routes) > 1 and block not in stands_in.values():
+            elements = (*sorted(routes.values()), *sorted(routes))
+            text = f"routes {_list(sorted(routes.values()))} come into '{block}' from {_list(sorted(routes))}: no point"
+            if elements not in told:
+                findings.violation("tracks merge at a point", (*elements, str(block)), f"{text} stands there")
+            told.add(elements)
 
 
 def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:

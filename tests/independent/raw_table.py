@@ -140,7 +140,32 @@ def _start(found: Enumerated, row: Row) -> str:
     }
     if len(before) > 1:
         found.violations.append(Finding("a signal stands at one section", (row.source, *sorted(before))))
-    return min(before, default=f"before {row.source}")
+    if before:
+        return min(before)
+    known = _facing(found, row)
+    mine = next(each for each in found.rows.values() if each.source == row.source)
+    edge = _blocks(found, mine)[0] in {section for each in found.rows.values() for section in each.sections}
+    if len(known) > 1 or not (known or edge):
+        found.violations.append(Finding("a route starts in a known block", (row.source, *sorted(known))))
+    return min(known, default=f"before {row.source}")
+
+
+def _facing(found: Enumerated, row: Row) -> set[str]:
+    """What rows of the other orientation run into that come back along the beginning of rows from this source."""
+    known: set[str] = set()
+    for mine in (each for each in found.rows.values() if each.source == row.source):
+        way = _blocks(found, mine)
+        for other in found.rows.values():
+            back = _blocks(found, other)
+            if other.orientation == mine.orientation or way[0] not in back[:-1]:
+                continue
+            place = back.index(way[0])
+            if place and len(way) > 1 and back[place - 1] != way[1]:
+                continue
+            first = next(iter(mine.points), None)
+            if first is None or other.points.get(first, mine.points[first]) == mine.points[first]:
+                known |= {back[place + 1]} - set(way)
+    return known
 
 
 def _follow(found: Enumerated, row: Row) -> None:
@@ -227,6 +252,6 @@ def _compare_conflicts(found: Enumerated) -> None:
             if (points or sections or track) and not all(declared):
                 found.violations.append(Finding("conflicts are declared", (one, other, *points, *sections, *track)))
             elif not (points or sections or track) and any(declared):
-                found.remarks.append(Finding("needless conflict", (one, other)))
+                found.violations.append(Finding("declared conflicts follow", (one, other)))
                 if not all(declared):
                     found.remarks.append(Finding("conflict declared by one only", (one, other)))

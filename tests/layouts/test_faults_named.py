@@ -158,6 +158,55 @@ def test_a_slip_in_the_start_block_lies_open_to_every_leg() -> None:
     assert "from A1 'A1_B1', from A2 'A2_B1'" in found[0].text
 
 
+def rows_up(*paths: tuple[str, list[str], list[str]]) -> list[dict[str, object]]:
+    """Rows of a table without points, each from its source over a path; all conflict with all."""
+    return [
+        {
+            "id": name,
+            "source": name,
+            "destination": f"to {path[-1]}",
+            "orientation": "up",
+            "path": [{"id": piece} for piece in path],
+            "sections": [{"id": section} for section in sections],
+            "points": [],
+            "conflicts": [{"id": other} for other, _, _ in paths if other != name],
+        }
+        for name, path, sections in paths
+    ]
+
+
+def test_tracks_of_a_table_that_merge_without_a_point_are_found() -> None:
+    rows = rows_up(("1", ["a1", "m", "c1"], ["a", "c"]), ("2", ["b1", "m", "c1"], ["b", "c"]))
+    found = check(import_table("merge", {"interlocking-table": rows}, ("T1",))).violations
+    assert [(v.axiom, v.elements) for v in found] == [("tracks merge at a point", ("1", "2", "a", "b", "c"))]
+
+
+def test_a_crossing_that_a_table_does_not_draw_is_found() -> None:
+    rows = rows_up(("1", ["a1"], ["a"]), ("2", ["c1"], ["c"]))
+    found = check(import_table("diamond", {"interlocking-table": rows}, ("T1",))).violations
+    assert [(v.axiom, v.elements) for v in found] == [("declared conflicts follow", ("1", "2"))]
+
+
+def test_a_route_of_a_table_starts_in_the_block_behind_the_leg_it_leaves_over() -> None:
+    rows = [row for row in table_rows() if row["destination"] != "outWt1"]
+    kept = {row["id"] for row in rows}
+    for row in rows:
+        row["conflicts"] = [entry for entry in row["conflicts"] if entry["id"] in kept]
+    imported = import_table("table", {"interlocking-table": rows}, ("T1",))
+    starts = {row["id"]: imported.layout.start[Route(row["id"])] for row in rows if row["source"] == "outWt1"}
+    assert starts == {"t1-W": Block("t1")}
+    assert check(imported).verdict == "holds"
+
+
+def test_a_start_over_a_point_that_no_row_shows_is_a_violation() -> None:
+    rows = [row for row in table_rows() if row["id"] in ("t1-W", "t2-W", "in W")]
+    for row in rows:
+        row["conflicts"] = [{"id": other["id"]} for other in rows if other is not row]
+    imported = import_table("table", {"interlocking-table": rows}, ("T1",))
+    found = of_rule(imported, "a route starts in a known block")
+    assert [v.elements for v in found] == [("outWt1",), ("outWt2",)]
+
+
 def test_a_row_from_a_signal_that_no_row_ends_at_is_compared() -> None:
     rows = table_rows()
     arriving = next(row for row in rows if row["id"] == "W-t1")
@@ -167,5 +216,5 @@ def test_a_row_from_a_signal_that_no_row_ends_at_is_compared() -> None:
     extra = {**arriving, "id": "odd", "points": [{"id": "p", "position": "reverse"}]}
     again = {**arriving, "id": "again"}
     imported = import_table("table", {"interlocking-table": [*rows, extra, again]}, ("T1",))
-    assert imported.layout.start[Route("odd")] == Block("before homeW")
+    assert imported.layout.start[Route("odd")] == Block("w")
     assert [v.elements for v in of_rule(imported, "a point lies one way between two blocks")] == [("odd", "p")]
