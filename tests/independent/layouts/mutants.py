@@ -1,0 +1,288 @@
+"""The importer changed in one decision at a time; each change must be noticed from the rails or by a plain walk.
+
+Run ``python -m tests.independent.layouts.mutants [module ...]``: what is noticed is counted, the rest is listed.  The
+files are the samples, the real layouts where their folder is, and stations and networks made up at random.  A
+mutant under which every file is imported as before is not noticed; of the others every differing file is looked at.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+import importlib
+import json
+import random
+import signal
+import sys
+import tomllib
+import types
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from models.layouts import Imported, check, load_text
+from tests.independent import files, raw_native, raw_railjson, raw_table
+from tests.independent.compare import disagreements
+from tests.independent.edits import RAILJSON, TABLE
+from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
+from tests.independent.layouts.driving import Driver
+from tests.independent.layouts.rails import Survey
+from tests.independent.layouts.stations import station
+from tests.independent.layouts.survey import survey_text
+from tests.independent.made_up import made_up
+from tests.independent.test_edited_layouts import edited
+
+PACKAGE = ROOT / "models" / "layouts"
+MODULES = (
+    *("assemble", "blocks", "conflicts", "distances", "following", "granting", "native", "numbers", "railjson"),
+    *("table", "table_layout", "track", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes"),
+    *("railml.sections", "railml.topology"),
+)
+RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
+STATIONS, MADE_UP, EDITED = 24, 60, 6
+SECONDS = 60
+
+
+# ---- what is changed
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change: the module, the function, the line as it was, and what was done to it."""
+
+    module: str
+    function: str
+    line: int
+    what: str
+    code: types.CodeType
+
+    @property
+    def name(self) -> str:
+        """What it is called in a list; lines move, so they are no part of it."""
+        return f"{self.module}.{self.function}: {self.what}"
+
+
+def changes(node: ast.AST) -> Iterator[tuple[str, Callable[[], None]]]:
+    """What can be changed at a place in the code: conditions turned round, conditions left out, bounds moved."""
+    if isinstance(node, ast.If | ast.While | ast.IfExp | ast.match_case):
+        field = "guard" if isinstance(node, ast.match_case) else "test"
+        test = getattr(node, field)
+        if test is not None:
+            turned = ast.UnaryOp(ast.Not(), test)
+            yield f"not ({ast.unparse(test)})", lambda: setattr(node, field, turned)
+    if isinstance(node, ast.comprehension):
+        for at, test in enumerate(node.ifs):
+            yield f"for without if {ast.unparse(test)}", lambda at=at: node.ifs.pop(at)  # type: ignore[misc]
+    if isinstance(node, ast.BoolOp):
+        without = ast.Constant(isinstance(node.op, ast.And))
+        for at, value in enumerate(node.values):
+            what = f"{ast.unparse(node)} without {ast.unparse(value)}"
+            yield what, lambda at=at: node.values.__setitem__(at, without)  # type: ignore[misc]
+    bounds: dict[type[ast.cmpop], ast.cmpop] = {
+        ast.Lt: ast.LtE(),
+        ast.LtE: ast.Lt(),
+        ast.Gt: ast.GtE(),
+        ast.GtE: ast.Gt(),
+    }
+    if isinstance(node, ast.Compare):
+        for at, sign in enumerate(node.ops):
+            if type(sign) in bounds:
+                other = bounds[type(sign)]
+                yield f"{ast.unparse(node)} at its bound", lambda at=at, other=other: node.ops.__setitem__(at, other)  # type: ignore[misc]
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("min", "max"):
+        name = node.func
+        yield f"{ast.unparse(node)} the other way", lambda: setattr(name, "id", "max" if name.id == "min" else "min")
+
+
+def mutants(module: str) -> Iterator[Mutant]:
+    """Every change of one place in a module."""
+    path = PACKAGE / (module.replace(".", "/") + ".py")
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for at, node in enumerate(ast.walk(tree)):
+        for number, (what, _) in enumerate(changes(node)):
+            copied = copy.deepcopy(tree)
+            place = list(ast.walk(copied))[at]
+            list(changes(place))[number][1]()
+            line = getattr(node, "lineno", 0) or getattr(getattr(node, "target", node), "lineno", 0)
+            function = _function_around(tree, node)
+            if function is not None:
+                compiled = compile(ast.fix_missing_locations(copied), str(path), "exec")
+                yield Mutant(module, function, line, " ".join(what.split()), _code_of(compiled, function))
+
+
+def _function_around(tree: ast.Module, wanted: ast.AST) -> str | None:
+    """The function or method that a place is in; none for a module's own statements."""
+    for outer in tree.body:
+        inner = outer.body if isinstance(outer, ast.ClassDef) else [outer]
+        for each in inner:
+            if isinstance(each, ast.FunctionDef) and any(node is wanted for node in ast.walk(each)):
+                return f"{outer.name}.{each.name}" if isinstance(outer, ast.ClassDef) else each.name
+    return None
+
+
+def _code_of(code: types.CodeType, function: str) -> types.CodeType:
+    for name in function.split("."):
+        code = next(each for each in code.co_consts if isinstance(each, types.CodeType) and each.co_name == name)
+    return code
+
+
+@contextmanager
+def planted(mutant: Mutant) -> Iterator[None]:
+    """The change in place, in the function that everybody who imported it has."""
+    found: Any = importlib.import_module(f"models.layouts.{mutant.module}")
+    for name in mutant.function.split("."):
+        found = vars(found)[name]
+    while not isinstance(found, types.FunctionType):
+        found = (
+            getattr(found, "__func__", None)
+            or getattr(found, "func", None)
+            or getattr(found, "fget", None)
+            or found.__wrapped__
+        )
+    before = found.__code__
+    found.__code__ = mutant.code
+    try:
+        yield
+    finally:
+        found.__code__ = before
+
+
+# ---- who notices
+
+
+@dataclass
+class File:
+    """A file, what it is imported as, and what is known of it without the importer."""
+
+    name: str
+    text: str
+
+    @cached_property
+    def before(self) -> Imported:
+        return load_text(self.name, self.text)
+
+    @cached_property
+    def survey(self) -> Survey:
+        return survey_text(self.name, self.text)
+
+    @cached_property
+    def walked(self) -> files.Enumerated | None:
+        match Path(self.name).suffix:
+            case ".json":
+                return raw_railjson.enumerate_data(json.loads(self.text))
+            case ".toml":
+                return raw_native.enumerate_data(tomllib.loads(self.text))
+            case ".yml":
+                return raw_table.enumerate_data(yaml.safe_load(self.text))
+        return None
+
+    @cached_property
+    def unlike(self) -> list[str]:
+        return disagreements(self.before, check(self.before), self.walked) if self.walked is not None else []
+
+    @cached_property
+    def hazards(self) -> int:
+        return len(Driver.of(self.survey, self.before).drive().hazards)
+
+    def noticed(self, imported: Imported) -> str | None:
+        """Who notices that a file was imported otherwise."""
+        if self.walked is not None and disagreements(imported, check(imported), self.walked) != self.unlike:
+            return "walk"
+        if len(Driver.of(self.survey, imported).drive().hazards) > self.hazards:
+            return "rails"
+        return None
+
+
+def corpus() -> Iterator[File]:
+    """The files, those that take least first."""
+    for name in SAMPLES:
+        yield File(name, files.path_of(name).read_text(encoding="utf-8"))
+    for number in range(STATIONS):
+        yield File(f"station {number}.json", json.dumps(station(random.Random(number))))
+    for number in range(MADE_UP):
+        data = made_up(random.Random(number))
+        if data is not None:
+            yield File(f"made up {number}.json", json.dumps(data))
+    if FOLDER.is_dir():
+        for name in (*RAILML, *OTHERS):
+            yield File(name, (FOLDER / name).read_text(encoding="utf-8"))
+        for number in range(EDITED):
+            what, data = edited("osrd-tiny_infra.json", RAILJSON, random.Random(number))
+            yield File(f"{what}.json", json.dumps(data))
+        for number in range(EDITED):
+            what, data = edited("swtbahn-lite.yml", TABLE, random.Random(number))
+            yield File(f"{what}.yml", yaml.safe_dump(data, sort_keys=False))
+
+
+def reads(module: str, file: File) -> bool:
+    """Whether a module has a part in importing a file."""
+    kinds = {"railjson": ".json", "native": ".toml", "conflicts": ".yml", "table": ".yml", "table_layout": ".yml"}
+    kind = kinds.get(module, ".railml" if module.startswith("railml") else "")
+    return file.name.endswith(kind) if kind else not file.name.endswith(".yml")
+
+
+def loads(file: File) -> bool:
+    """Whether a file is a layout at all, to the importer and to the survey."""
+    try:
+        return file.hazards + len(file.unlike) >= 0
+    except Exception:  # made-up files are refused in many ways, and none of these is looked at here
+        return False
+
+
+class OutOfTime(BaseException):
+    """A mutant that does not come to an end."""
+
+
+def _out_of_time(*_: object) -> None:
+    raise OutOfTime
+
+
+def who_notices(mutant: Mutant, known: list[File]) -> str | None:
+    """Who notices a mutant first: a good file refused, the plain walk, or trains on the rails."""
+    same = True
+    signal.signal(signal.SIGALRM, _out_of_time)
+    signal.alarm(SECONDS)
+    try:
+        with planted(mutant):
+            for file in known:
+                try:
+                    imported = load_text(file.name, file.text)
+                except Exception:  # whatever it is: a file that is a layout is refused
+                    return "refused"
+                if imported != file.before:
+                    same = False
+                    by = file.noticed(imported)
+                    if by is not None:
+                        return by
+    except OutOfTime:
+        return "no end"
+    finally:
+        signal.alarm(0)
+    return None if same else ""
+
+
+def main() -> int:
+    """Count who notices what; list what nobody does."""
+    known = [file for file in corpus() if loads(file)]
+    print(f"{len(known)} files")
+    left = 0
+    for module in sys.argv[1:] or MODULES:
+        found: dict[str, int] = {}
+        concerned = [file for file in known if reads(module, file)]
+        for mutant in mutants(module):
+            by = who_notices(mutant, concerned)
+            found[by or "nobody"] = found.get(by or "nobody", 0) + 1
+            if not by:
+                left += 1
+                print(f"  {'same' if by is None else 'OTHER'} {mutant.name} (line {mutant.line})", flush=True)
+        print(module, found, flush=True)
+    return 1 if left else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
