@@ -1,0 +1,41 @@
+"""A decision of the importer made otherwise is noticed, from the rails or by a plain walk, or it is listed why not."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from tests.independent.layouts.mutants import File, corpus, loads, mutants, reads, who_notices
+from tests.independent.test_verdicts import needs_folder
+
+LISTED = tomllib.loads((Path(__file__).parent / "mutants_left.toml").read_text(encoding="utf-8"))
+"""Module -> mutants that nobody notices, each with the reason."""
+SAMPLE_FILES, SAMPLE_MUTANTS = 12, 12
+
+
+@cache
+def known() -> tuple[File, ...]:
+    return tuple(file for file in corpus() if loads(file))
+
+
+def left(module: str) -> set[str]:
+    concerned = [file for file in known() if reads(module, file)]
+    return {mutant.name for mutant in mutants(module) if not who_notices(mutant, concerned)}
+
+
+@needs_folder
+@pytest.mark.slow
+@pytest.mark.parametrize("module", sorted(LISTED))
+def test_what_nobody_notices_is_listed(module: str) -> None:
+    assert left(module) == set(LISTED[module])
+    assert all(reason.strip() for reason in LISTED[module].values())
+
+
+def test_of_the_first_mutants_of_the_track_a_few_files_notice_most() -> None:
+    files = [file for file, _ in zip(corpus(), range(SAMPLE_FILES), strict=False) if loads(file)]
+    tried = [mutant for mutant, _ in zip(mutants("track"), range(SAMPLE_MUTANTS), strict=False)]
+    noticed = [mutant.name for mutant in tried if who_notices(mutant, files)]
+    assert len(noticed) >= SAMPLE_MUTANTS // 2
