@@ -84,12 +84,14 @@ class Crossing:
 def are_lawful(settings: Settings) -> bool:
     """Tell whether a crossing may be set so; if not, it is not put into service (X5).
 
+    Some time for lamps and bells alone, in which the road clears, and some for the arms to fall (ours).
+
     Fifteen seconds from barriers down to the arrival; and the start points far enough for the warning time, for
     what a terminal may be silent, for the cycle until the decision and for that of the arrival.
     """
     return (
         settings.cycle_ms > 0
-        and settings.bell_cycles >= 0
+        and settings.bell_cycles > 0
         and settings.lowering_cycles > 0
         and settings.cycle_ms * settings.least_down_cycles >= LEAST_DOWN_MS
         and settings.bell_cycles + settings.lowering_cycles + settings.least_down_cycles <= settings.warning_cycles
@@ -98,6 +100,14 @@ def are_lawful(settings: Settings) -> bool:
         and settings.silence_cycles >= 0
         and settings.warning_cycles + settings.silence_cycles + 2 <= settings.start_cycles
     )
+
+
+def have_one_warning_time(bounds: ArrivalBounds, settings: Settings) -> bool:
+    """Tell whether rangings are reckoned in the crossing's own cycle and warning time (X2, X5).
+
+    If not, the crossing is not put into service: what an answer secures would be shorter than the arms need.
+    """
+    return bounds.cycle_ms == settings.cycle_ms and bounds.warning_cycles == settings.warning_cycles
 
 
 def due(bounds: ArrivalBounds, followed: Followed, reopening_cycles: int) -> Due:

@@ -63,7 +63,7 @@ def the_ranging_bounds_the_train(site: Way, system: Answered, ranging: Ranging) 
     """By a ranging and its age the head is no nearer and no faster, as ``arrival`` proves of all that it takes (X1)."""
     return not ranging.valid or (
         UM_A_MM * ranging.way_mm - ranging.age_cycles * site.bounds.line_um <= system.way_um
-        and system.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um
+        and system.pace_um <= site.settings.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um
     )
 
 
@@ -91,7 +91,9 @@ def who_is_at_the_crossing_has_come_all_the_way(system: Answered) -> bool:
 
 
 def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
-    """The ground unit takes a ranging, or none came (X1)."""
+    """The ground unit takes a ranging, or none came; before bounds and settings are checked it takes none (X1, X5)."""
+    if not machine.have_one_warning_time(site.bounds, site.settings):
+        return system
     if not the_ranging_bounds_the_train(site, system, ranging):
         return system
     return replace(system, followed=arrival.follow(site.bounds, system.followed, ranging))
@@ -100,10 +102,13 @@ def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
 def answer(site: Way, system: Answered) -> Answered:
     """It answers by what it knows of the train, and what that secures is held against it (X2, X4).
 
-    Any answer may be the one that is held: those that are not did not happen here.
+    Any answer may be the one that is held: those that are not did not happen here.  None is given before bounds
+    and settings are checked: what is secured is by the crossing's own warning time (X5).
     """
+    if not machine.have_one_warning_time(site.bounds, site.settings):
+        return system
     due = machine.due(site.bounds, system.followed, site.settings.reopening_cycles)
-    warning_cycles, reopening_cycles = site.bounds.warning_cycles, site.settings.reopening_cycles
+    warning_cycles, reopening_cycles = site.settings.warning_cycles, site.settings.reopening_cycles
     if due == Due.NEAR:
         near_cycles = secured_cycles(warning_cycles, reopening_cycles, Due.NEAR)
         return replace(system, worst=system.followed, left_cycles=near_cycles)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.crossing.arrival import ArrivalBounds
-from kernel.crossing.crossing import Settings, are_lawful
+from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -185,5 +185,7 @@ TRIALS = (STRAIGHT, CURVED)
 
 
 def lawful() -> bool:
-    """Tell whether the settings pass the kernel's own check (X5)."""
-    return are_lawful(SETTINGS)
+    """Tell whether the settings pass the kernel's own checks, with what each kind of train is held to (X5)."""
+    return are_lawful(SETTINGS) and all(
+        have_one_warning_time(trial.bounds(kind), SETTINGS) for trial in TRIALS for kind in (trial.express, trial.local)
+    )

@@ -55,6 +55,7 @@ class Crossings:
         self, ways: list[Ways], links: Links, vehicles: Mapping[Train, Vehicle], diary: Diary, must: Must, seed: int
     ) -> None:
         assert machine.are_lawful(SETTINGS), "it is not put into service"
+        assert machine.have_one_warning_time(BOUNDS, SETTINGS), "rangings are reckoned as the crossing is set"
         self.links = links
         self.vehicles = vehicles
         self.diary = diary

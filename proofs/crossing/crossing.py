@@ -92,12 +92,15 @@ def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
 
 
 def arms_fall_after_the_bell(site: Road, system: Level) -> bool:
-    """Lamps and bells come first, for their time; without a warning no arm is lowered (X5)."""
+    """Lamps and bells come first, for their time, and that is some; without a warning no arm is lowered (X5)."""
     has_opened = system.decided and not system.crossing.warns
     return (
         not system.in_service
         or has_opened
-        or system.lowered_cycles == greater(0, system.crossing.warned_cycles - site.settings.bell_cycles)
+        or (
+            system.lowered_cycles == greater(0, system.crossing.warned_cycles - site.settings.bell_cycles)
+            and (system.lowered_cycles == 0 or system.lowered_cycles < system.crossing.warned_cycles)
+        )
     )
 
 

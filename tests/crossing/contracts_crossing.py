@@ -12,6 +12,7 @@ from kernel.crossing.crossing import (
     arms_are_to_be_down,
     decide,
     due,
+    have_one_warning_time,
     must_warn,
 )
 
@@ -47,6 +48,19 @@ def a_start_point_that_is_too_near_is_refused(start_cycles: int) -> None:
     """Warning time, silence, and two cycles (X3)."""
     assert start_cycles < 44
     assert not are_lawful(Settings(1_000, 40, 5, 10, 20, 6, 20, 2, start_cycles))
+
+
+def no_bell_is_refused(bell_cycles: int) -> None:
+    """The road clears in that time (X5)."""
+    assert bell_cycles <= 0
+    assert not are_lawful(Settings(1_000, 40, bell_cycles, 10, 20, 6, 20, 2, 44))
+
+
+def another_warning_time_is_refused(warning_cycles: int, cycle_ms: int) -> None:
+    """And another cycle (X2, X5)."""
+    assert isinstance(warning_cycles, int)
+    bounds = ArrivalBounds(30_000_000, 1_000_000, cycle_ms, warning_cycles, 3, 1, 1)
+    assert have_one_warning_time(bounds, SETTINGS) == (warning_cycles == 40 and cycle_ms == 1_000)
 
 
 def arms_wait_for_the_bell(warned_cycles: int, warns: bool) -> None:

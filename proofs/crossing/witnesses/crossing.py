@@ -352,13 +352,13 @@ def lamps_and_bells_come_first() -> None:
 def settings_are_checked() -> None:
     """Each at its edge (X5)."""
     assert Day(SETTINGS).system.in_service
-    fastest = Settings(1, 15_001, 0, 1, 15_000, 0, 1, 0, 15_003)
+    fastest = Settings(1, 15_002, 1, 1, 15_000, 0, 1, 0, 15_004)
     assert Day(fastest).system.in_service
     for name, value in (
         ("cycle_ms", 0),
-        ("warning_cycles", 15_000),
-        ("bell_cycles", -1),
-        ("bell_cycles", 1),
+        ("warning_cycles", 15_001),
+        ("bell_cycles", 0),
+        ("bell_cycles", 2),
         ("lowering_cycles", 0),
         ("lowering_cycles", 2),
         ("least_down_cycles", 14_999),
@@ -368,7 +368,7 @@ def settings_are_checked() -> None:
         ("reopening_cycles", 0),
         ("silence_cycles", -1),
         ("silence_cycles", 1),
-        ("start_cycles", 15_002),
+        ("start_cycles", 15_003),
     ):
         day = Day(Settings(**{**vars(fastest), name: value}))
         assert not day.system.in_service

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from kernel.crossing.crossing import Settings
+from kernel.crossing.crossing import Settings, have_one_warning_time
 from models.crossing.due import Answered, Way
 from proofs.crossing.due import THEORY
 from proofs.onboard.witnesses.play import Play
@@ -152,7 +152,21 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert fast.system.pace_um == 3_000_000
 
 
+def another_warning_time_or_cycle_is_refused() -> None:
+    """20 s reckoned for a crossing that is set for 35 s, and a cycle of half the length: no ranging, no answer (X5)."""
+    for name, value in (("warning_cycles", 200), ("warning_cycles", 351), ("cycle_ms", 50), ("cycle_ms", 101)):
+        train = Train(1_700_000, 30_000)
+        bounds = replace(BOUNDS, **{name: value})
+        assert not have_one_warning_time(bounds, SITE.settings)
+        train.site = replace(SITE, bounds=bounds)
+        start = train.system
+        assert train.step("take_ranging", ranging=train.ranging()) == start
+        assert train.step("answer") == start
+    assert have_one_warning_time(BOUNDS, SITE.settings)
+
+
 WITNESSES = (
+    another_warning_time_or_cycle_is_refused,
     an_answer_secures_what_it_says_to_the_cycle,
     each_answer_takes_the_place_of_the_one_before,
     an_answer_that_is_not_held_leaves_the_one_before,
