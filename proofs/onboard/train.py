@@ -353,11 +353,6 @@ def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -
     return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))
 
 
-def a_released_brake_counts_no_cycle(site: Train, system: Whole) -> bool:
-    """Whoever puts it on again waits for its response (T12)."""
-    return system.computer.brake.applied or system.computer.known.watch.cycles == 0
-
-
 def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
     """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
     return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
@@ -444,7 +439,6 @@ INVARIANTS = (
     the_way_left_lies_before_the_end,
     the_way_left_is_enough,
     a_train_that_keeps_is_no_faster_than_the_limit,
-    a_released_brake_counts_no_cycle,
     the_watch_counts_no_more_than_the_brake,
     what_is_not_preset_is_broken,
     what_is_caught_is_broken,
