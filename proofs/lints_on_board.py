@@ -48,6 +48,7 @@ HELD: Mapping[str, frozenset[str]] = {"joint": frozenset({"begins_mm", "block_en
 """Fields of a state that a machine holds though they are plain numbers: the lists that a unit was given."""
 
 NOTED: Mapping[str, Mapping[str, str]] = {
+    "train": {"awaited_mm": "the place of a tag that the orders told of, as it was told to the computer"},
     "antenna_spacing": {
         "head_newest": "a tag is numbered by where it lies; that it was read is what the machine is told"
     },
