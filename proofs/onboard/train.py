@@ -206,7 +206,10 @@ def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
 def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole) -> bool:
     """The window is for a tag that the antenna reads where the list has it, neither nearer nor farther (T1, T5)."""
     window, away_mm = system.computer.known.window, system.awaited_mm + site.limits.tags.antenna_mm
-    return not window.expected or (window.least_mm == window.most_mm == away_mm - system.computer.from_mm)
+    return not window.expected or (
+        window.least_mm == window.most_mm == away_mm - system.computer.from_mm
+        and computer.awaits(site.limits, system.computer, system.awaited_mm)
+    )
 
 
 def there_is_one_train(site: Train, system: Whole) -> bool:
