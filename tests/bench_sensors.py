@@ -88,7 +88,7 @@ class OneRun:
     gain: float = 0.0
     stays: int = 0
     wheel: float = 0.0
-    counter: tachometer.Counter = field(default_factory=tachometer.Counter)
+    pulses: tachometer.Pulses = field(default_factory=tachometer.Pulses)
     gains: list[float] = field(default_factory=list)
     walks: dict[str, float] = field(default_factory=dict)
     arrivals: dict[int, int] = field(default_factory=dict)
@@ -245,8 +245,11 @@ class OneRun:
         creep = self.gain * value["creep_ppm"] * 1e-6 / FULL_M_S2
         self.wheel = max(0.0, self.speed * (1 + creep) + self._slip(cycle))
         pulses_a_m = 1 / (tachometer.PULSE_M * (1 + value["diameter_ppm"] * 1e-6))
-        speed = self.counter.turn((before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S)
-        way_m, valid = self.counter.way_m, True
+        last, self.pulses = (
+            self.pulses,
+            tachometer.counted(self.pulses, (before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S),
+        )
+        speed, way_m, valid = tachometer.shown_m_s(last, self.pulses), self.pulses.came * tachometer.PULSE_M, True
         for hold in self.holds:
             way_m, speed, valid = hold.of(cycle, way_m, speed, valid)
         if not valid:

@@ -6,14 +6,14 @@ cycle, half a cycle old.  In a cycle without a pulse it is what it was, or a pul
 one if that is less; once the timer overflows it is 0 (ours).
 
 Rides measure whole runs at once (:func:`measure`); where a train's motion is not known beforehand there is the same
-tachometer a cycle at a time (:class:`Counter`).  A test holds the two to each other.
+tachometer a cycle at a time (:func:`counted`).  A test holds the two to each other.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,9 +45,8 @@ class Tachometer:
     valid: Bools
 
 
-@dataclass
-class Counter:
-    """One tachometer, cycle by cycle.
+class Pulses(NamedTuple):
+    """One tachometer at the end of a cycle.
 
     ``turned``: pulses since power-on, and the part of the next one; ``came``: those that have come.
     ``since_ticks``: so long before the end of the cycle the last one came.  ``held_m_s``: the speed by the last pulse.
@@ -58,26 +57,25 @@ class Counter:
     since_ticks: int = OVERFLOW_TICKS
     held_m_s: float = 0.0
 
-    @property
-    def way_m(self) -> float:
-        """The way since power-on, by the nominal wheel (P1)."""
-        return self.came * PULSE_M
 
-    def turn(self, pulses: float) -> float:
-        """Take a cycle in which the wheel turns by so many pulses, evenly; the speed at its end (P1)."""
-        self.turned += pulses
-        came, before_ticks = math.floor(self.turned), self.since_ticks
-        if came > self.came:
-            ticks = math.floor((self.turned - came) / max(pulses * TIMER_S / CYCLE_S, 1e-9))
-            self.since_ticks = min(ticks, CYCLE_TICKS)
-            spent_ticks = max(1, CYCLE_TICKS - self.since_ticks + before_ticks)
-            self.held_m_s = (came - self.came) * PULSE_M / TIMER_S / spent_ticks
-            self.came = came
-            return self.held_m_s
-        self.since_ticks = min(self.since_ticks + CYCLE_TICKS, OVERFLOW_TICKS)
-        if self.since_ticks >= OVERFLOW_TICKS:
-            return 0.0
-        return min(self.held_m_s, PULSE_M / TIMER_S / max(1, self.since_ticks))
+def counted(before: Pulses, pulses: float) -> Pulses:
+    """Take a cycle in which the wheel turns by so many pulses, evenly (P1)."""
+    turned = before.turned + pulses
+    came = int(turned)
+    if came == before.came:
+        return Pulses(turned, came, min(before.since_ticks + CYCLE_TICKS, OVERFLOW_TICKS), before.held_m_s)
+    since_ticks = min(int((turned - came) / max(pulses * TIMER_S / CYCLE_S, 1e-9)), CYCLE_TICKS)
+    spent_ticks = max(1, CYCLE_TICKS - since_ticks + before.since_ticks)
+    return Pulses(turned, came, since_ticks, (came - before.came) * PULSE_M / TIMER_S / spent_ticks)
+
+
+def shown_m_s(before: Pulses, now: Pulses) -> float:
+    """Give the speed that it shows at the end of a cycle (P1)."""
+    if now.came > before.came:
+        return now.held_m_s
+    if now.since_ticks >= OVERFLOW_TICKS:
+        return 0.0
+    return min(now.held_m_s, PULSE_M / TIMER_S / max(1, now.since_ticks))
 
 
 def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:

@@ -126,8 +126,8 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
     noise of the sensors, and how many cycles at most; it gives the fields of :class:`Ran`.
     """
     decide, sense, is_located = machines.decide, machines.sense, machines.is_located
-    head, tail = machines.sensing.head, machines.sensing.tail
-    slipped, turned = code(sensors.slipped), code(sensors.turned)
+    turned, head, tail = machines.sensing.turned, machines.sensing.head, machines.sensing.tail
+    slipped = code(sensors.slipped)
     driven, goes_on = driven_of(code), goes_on_of(is_located, code)
 
     @code

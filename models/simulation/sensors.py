@@ -1,8 +1,8 @@
 """What tachometer and inertial sensors of a train say of its motion, with their errors (P1, P5).
 
-The errors are drawn from the ranges declared in ``models.sensors.faults``; a wheel that slips or a sensor that is
-silent is a fault, and comes from outside.  What is read in a cycle is a function of what the sensors remember, as
-CPython and compiled cycles (``models.simulation.cycles``) both run it.
+The tachometer is the rides' own, and errors are drawn from the ranges declared in ``models.sensors.faults``; a wheel
+that slips or a sensor that is silent is a fault, and comes from outside.  What is read in a cycle is a function of
+what the sensors remember, as CPython and compiled cycles (``models.simulation.cycles``) both run it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
-from models.rides.plan import PLAN
+from models.sensors import tachometer
 from models.sensors.faults import FAULTS, NOISE_MOST, PLACE
+from models.sensors.tachometer import PULSE_M, Pulses
 
 CYCLE_S = CYCLE_MS / 1_000
-PULSE_MM = PLAN.sensors.pulse_mm
 SLIP_JOLT_MM_S2 = 6_000
 """A wheel runs away by so much, beyond what trusts it; then it comes back, again and again.
 
@@ -43,12 +43,11 @@ class Errors(NamedTuple):
 class Kept(NamedTuple):
     """What the sensors of a train remember from cycle to cycle.
 
-    ``turned_mm``: the way that the wheel has turned, ``way_mm`` in whole pulses.
+    ``pulses``: the tachometer's count and time of them.
     ``off_mm_s``: how much faster the wheel is than the train.  ``slips_cycles``: it slips so long yet.
     """
 
-    turned_mm: float = 0.0
-    way_mm: int = 0
+    pulses: Pulses = Pulses()
     wheel_mm_s: float = 0.0
     off_mm_s: float = 0.0
     slips_cycles: int = 0
@@ -76,23 +75,6 @@ def slipped(kept: Kept, speed_mm_s: float) -> tuple[float, int, float]:
     return off_mm_s, slips_cycles, slips_mm_s2
 
 
-def turned(errors: Errors, kept: Kept, speed_mm_s: float, slip: tuple[float, int, float]) -> Kept:
-    """What is remembered at the end of a cycle in which the train got to this speed, with what :func:`slipped` gave."""
-    off_mm_s, slips_cycles, slips_mm_s2 = slip
-    wheel_mm_s = max(0.0, speed_mm_s * (1 + errors.scale) + off_mm_s)
-    turned_mm = kept.turned_mm + (kept.wheel_mm_s + wheel_mm_s) / 2 * CYCLE_S
-    return Kept(
-        turned_mm,
-        int(turned_mm / PULSE_MM) * PULSE_MM,
-        wheel_mm_s,
-        off_mm_s,
-        slips_cycles,
-        slips_mm_s2,
-        max(0, kept.tachometer_silent_cycles - 1),
-        max(0, kept.inertial_silent_cycles - 1),
-    )
-
-
 def felt_mm_s2(errors: Errors, gained_mm_s2: float, noise: float) -> int:
     """What an inertial sensor says of a train that gains so much, with a noise in deviations."""
     return round(gained_mm_s2 + errors.bias_mm_s2 + errors.noise_mm_s2 * max(-NOISE_MOST, min(NOISE_MOST, noise)))
@@ -102,24 +84,40 @@ def felt_mm_s2(errors: Errors, gained_mm_s2: float, noise: float) -> int:
 class Sensing:
     """What is read at the head, and at the tail: as CPython runs it, or as compiled code does.
 
+    ``turned``: what is remembered after a cycle: from errors, what was, the train's speed, and what slipped.
     ``head``: from errors, what was and is remembered, what the train gained, and a noise.
     ``tail``: its telegram of the same time, from errors, the head's readings, what it gained, and two noises.
     """
 
+    turned: Callable[..., Any]
     head: Callable[..., Any]
     tail: Callable[..., Any]
 
 
 def sensing(code: Callable[[Any], Any], readings: Any, telegram: Any, acceleration: Any) -> Sensing:
-    """Make both; ``code`` compiles a function, or leaves it; the others make the machines' records."""
-    felt = code(felt_mm_s2)
+    """Make all three; ``code`` compiles a function, or leaves it; the others make the machines' records."""
+    felt, counted, shown_m_s = code(felt_mm_s2), code(tachometer.counted), code(tachometer.shown_m_s)
+
+    @code
+    def turned(errors: Any, kept: Any, speed_mm_s: float, slip: Any) -> Any:
+        off_mm_s, slips_cycles, slips_mm_s2 = slip
+        wheel_mm_s = max(0.0, speed_mm_s * (1 + errors.scale) + off_mm_s)
+        return Kept(
+            counted(kept.pulses, (kept.wheel_mm_s + wheel_mm_s) / 2_000 * CYCLE_S / PULSE_M),
+            wheel_mm_s,
+            off_mm_s,
+            slips_cycles,
+            slips_mm_s2,
+            max(0, kept.tachometer_silent_cycles - 1),
+            max(0, kept.inertial_silent_cycles - 1),
+        )
 
     @code
     def head(errors: Any, before: Any, now: Any, gained_mm_s2: float, noise: float) -> Any:
-        turns = now.way_mm > before.way_mm
-        tachometer_mm_s = round((before.wheel_mm_s + now.wheel_mm_s) / 2) if turns else 0
+        tachometer_mm_s = round(1_000 * shown_m_s(before.pulses, now.pulses))
+        way_mm = round(1_000 * PULSE_M * now.pulses.came)
         heard, is_felt = before.tachometer_silent_cycles == 0, before.inertial_silent_cycles == 0
-        return readings(CYCLE_MS, heard, tachometer_mm_s, now.way_mm, is_felt, felt(errors, gained_mm_s2, noise))
+        return readings(CYCLE_MS, heard, tachometer_mm_s, way_mm, is_felt, felt(errors, gained_mm_s2, noise))
 
     @code
     def tail(errors: Any, read: Any, gained_mm_s2: float, left: float, right: float) -> Any:
@@ -131,7 +129,7 @@ def sensing(code: Callable[[Any], Any], readings: Any, telegram: Any, accelerati
             TAIL_AGE_MS,
         )
 
-    return Sensing(head, tail)
+    return Sensing(turned, head, tail)
 
 
 INTERPRETED = sensing(lambda function: function, Readings, TailReadings, Acceleration)
@@ -172,7 +170,7 @@ class Sensors:
     def read(self, speed_mm_s: float, gained_mm_s2: float, tail_mm_s2: float) -> tuple[Readings, TailReadings]:
         """Read head and tail at the end of one cycle, in which they gained so much and got to this speed."""
         before, (noise, left, right) = self.kept, self.noise(1)[:NOISES_A_CYCLE]
-        now = turned(self.errors, before, speed_mm_s, slipped(before, speed_mm_s))
+        now = INTERPRETED.turned(self.errors, before, speed_mm_s, slipped(before, speed_mm_s))
         head = INTERPRETED.head(self.errors, before, now, gained_mm_s2, noise)
         self.ran(1, now)
         return head, INTERPRETED.tail(self.errors, head, tail_mm_s2, left, right)

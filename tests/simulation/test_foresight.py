@@ -35,6 +35,17 @@ def test_only_the_ways_that_a_train_can_run_count(ways_on: set[str], gets_there:
     assert foresight().lets_begin(board, STOPPED, goal) is gets_there
 
 
+def test_a_board_is_not_taken_for_one_on_which_the_train_has_other_ways() -> None:
+    """What a board came to is remembered."""
+    seen, goal = foresight(), Block("stand 3")
+    for ways_on, gets_there in (({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from diamond"}, True)):
+        board = {
+            STOPPED: Standing(OVER_THE_DIAMOND, None, frozenset(map(Route, ways_on))),
+            OTHER: Standing(frozenset({Block("stand 2")}), None),
+        }
+        assert seen.lets_begin(board, STOPPED, goal) is gets_there
+
+
 def test_of_the_ways_on_the_shortest_comes_first() -> None:
     ways = foresight().ways
     on = [Route("1 to 2"), Route("1 back to 4 from diamond")]
