@@ -87,11 +87,6 @@ DECISIONS: Mapping[str, str] = {
 }
 """Steps refused by the kernel because they are the machine's own deed, by their names' beginnings; why."""
 
-THEOREMS: Mapping[str, tuple[str, str]] = {
-    "joint: the_head_stays_inside_authority": ("braking", "head_stays_inside_authority"),
-}
-"""What one theory assumes of a machine's word because another proves it of that machine: the theory and its claim."""
-
 TOLD: Mapping[str, Mapping[str, str]] = {
     "joint": {
         "begins_mm": "where the lists of the train's runs begin: what its unit was given",
@@ -212,7 +207,6 @@ def noted_in_assumptions(theory: Theory) -> list[str]:
     return [
         f"{theory.name}: {name} rests on {path}"
         for name, predicate in assumed(theory).items()
-        if f"{theory.name}: {name}" not in THEOREMS
         for path in sorted({each for word in own_words(predicate) for each in paths_in(definition_of(word), machine)})
     ]
 

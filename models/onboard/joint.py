@@ -23,6 +23,7 @@ from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.onboard.odometry import Loss, Motion
 from kernel.unit import Unit
 from models.world.state import Site, System
+from models.world.truth import goes_by_the_centres_list
 
 
 @dataclass(frozen=True)
@@ -152,34 +153,24 @@ def no_car_is_ahead_of_the_head(
 
 def the_unit_goes_by_the_centres_list(site: Survey, unit: Unit) -> bool:
     """What a unit keeps of a route that it is permitted to enter is the centre's list of it (T4)."""
-    return all(
-        not order.permitted
-        or (
-            run.route in site.site.layout.way
-            and run.route in site.site.layout.tag_list
-            and order.tag_list == site.site.layout.tag_list[run.route]
-        )
-        for run, order in unit.orders.items()
-    )
+    return goes_by_the_centres_list(site.site, unit)
 
 
-def the_head_stays_inside_authority(system: Joint, train: Train, to_mm: int) -> bool:
-    """The brake control's theorem, `head_stays_inside_authority`; and a brake that no end has freed holds (T12)."""
-    return train in system.brake and train not in system.standing and to_mm <= system.brake[train].end_mm
+def the_head_stays_inside_authority(held: bool, brake: Brake, from_mm: int, to_mm: int) -> bool:
+    """A head gets no farther than the end that its brake holds; and one that no end has freed holds it there (T12).
+
+    ``held``: no end has freed the brake since the train was located at rest.
+    """
+    return to_mm <= brake.end_mm and (not held or to_mm <= from_mm)
 
 
-def the_brake_takes_the_end_or_stays_applied(
-    before: Brake, brake: Brake, head_mm: int, wanted_mm: frozenset[int]
-) -> bool:
-    """The brake control's theorems: the end it holds is never behind the head, and changes only to the one wanted.
+def the_brake_takes_the_end_or_stays_applied(before: Brake, brake: Brake, head_mm: int, is_wanted: bool) -> bool:
+    """The end that the brake holds is never behind the head, and changes only to the one wanted.
 
     While it holds another one, or none is wanted, the brake stays applied (T12).
+    ``is_wanted``: it holds the end that is wanted.
     """
-    return (
-        head_mm <= brake.end_mm
-        and (brake.end_mm == before.end_mm or brake.end_mm in wanted_mm)
-        and (brake.withheld or brake.end_mm in wanted_mm)
-    )
+    return head_mm <= brake.end_mm and (brake.end_mm == before.end_mm or is_wanted) and (brake.withheld or is_wanted)
 
 
 def the_head_runs_forward(system: Joint, train: Train, to_mm: int) -> bool:
@@ -310,14 +301,15 @@ def ask_for_the_end(
     if not the_range_contains_the_head(system.head_mm[train], front_least_mm, front_most_mm):
         return system
     wanted_mm = wanted_ends_mm(site, system, train, front_least_mm, front_most_mm)
-    if not the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], wanted_mm):
+    is_wanted = brake.end_mm in wanted_mm
+    if not the_brake_takes_the_end_or_stays_applied(system.brake[train], brake, system.head_mm[train], is_wanted):
         return system
     asked = replace(
         system,
         brake=system.brake | {train: brake},
         standing=system.standing if brake.withheld else system.standing - {train},
     )
-    return with_end(site, asked, train) if brake.end_mm in wanted_mm else asked
+    return with_end(site, asked, train) if is_wanted else asked
 
 
 def obey_the_orders(site: Survey, system: Joint, train: Train, bounds: BrakeBounds, motion: Motion) -> Joint:
@@ -339,7 +331,8 @@ def obey_the_orders(site: Survey, system: Joint, train: Train, bounds: BrakeBoun
         return system
     wanted_mm = wanted_ends_mm(site, system, train, least_mm, most_mm)
     does = all(
-        the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], wanted_mm) for brake in made
+        the_brake_takes_the_end_or_stays_applied(before, brake, system.head_mm[train], brake.end_mm in wanted_mm)
+        for brake in made
     )
     return written_down(system, train, made, does, may_move(system, train), any(True for _ in wanted_mm))
 
@@ -429,7 +422,9 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
 
 def head_runs(site: Survey, system: Joint, train: Train, to_mm: int) -> Joint:
     """The head runs on within its block, as far as the brake control lets it (T12)."""
-    if not the_head_stays_inside_authority(system, train, to_mm) or not the_head_runs_forward(system, train, to_mm):
+    if train not in system.brake or not the_head_runs_forward(system, train, to_mm):
+        return system
+    if not the_head_stays_inside_authority(train in system.standing, system.brake[train], system.head_mm[train], to_mm):
         return system
     block, block_end_mm = system.block[train], system.block_end_mm[train]
     if not a_head_is_in_its_block(system, train, to_mm):
@@ -441,7 +436,9 @@ def head_runs(site: Survey, system: Joint, train: Train, to_mm: int) -> Joint:
 
 def head_passes(site: Survey, system: Joint, train: Train, to_mm: int, block: Block, block_end_mm: int) -> Joint:
     """The head runs over the end of its block into the next, where track and points lead it (T12)."""
-    if not the_head_stays_inside_authority(system, train, to_mm):
+    if train not in system.brake or train not in system.head_mm:
+        return system
+    if not the_head_stays_inside_authority(train in system.standing, system.brake[train], system.head_mm[train], to_mm):
         return system
     if not a_head_passes_one_boundary_at_a_time(system, train, to_mm, block_end_mm):
         return system

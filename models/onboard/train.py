@@ -210,6 +210,8 @@ def take_end(site: Train, system: Whole, end_mm: int) -> Whole:
         approach=braking.take_end(
             braked(site), approach(system), at.front_most_mm, at.speed_least_mm_s, at.speed_most_mm_s, end_mm
         ),
+        asked=system.computer.brake,
+        held=system.held and brake.withheld,
         computer=replace(system.computer, brake=brake),
     )
 
@@ -219,6 +221,7 @@ def withhold_end(site: Train, system: Whole) -> Whole:
     return replace(
         system,
         approach=braking.withhold_end(braked(site), approach(system)),
+        asked=system.computer.brake,
         computer=computer.withhold_end(system.computer),
     )
 
@@ -286,6 +289,8 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             wanted=False,
         ),
         watched=replace(watched(system), allowed_mm_s=0),
+        asked=system.computer.brake,
+        held=True,
         expecting=tag_window.expect_none(stretch(site), system.expecting),
     )
 

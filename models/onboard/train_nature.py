@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
@@ -50,6 +51,7 @@ class Whole:
     ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``: the train as odometry, brake control, brake
     watch, the window for the next tag and the antennas' spacing are proved with it.
     ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
+    ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
     ``computer``: what its computer remembers.
     """
 
@@ -64,6 +66,8 @@ class Whole:
     expecting: Expecting
     trailing: Trailing
     awaited_mm: int
+    asked: Brake
+    held: bool
     computer: Computer
 
 

@@ -29,3 +29,8 @@ def smaller(one: int, other: int) -> int:
 def magnitude(value: int) -> int:
     """Give a value without its sign."""
     return value if value >= 0 else -value
+
+
+def whole_mm(place_nm: int) -> int:
+    """Give the nearest whole mm that is no less: where a place in nm counts for those who know millimetres."""
+    return -(-place_nm // NM_A_MM)

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from kernel.names import Block, Car, Read, Run, Tag, Train
 from kernel.standstill import Standstill
+from kernel.unit import Unit
 from models.world.state import Site, System
 
 
 def is_genuine(site: Site, read: Read) -> bool:
     """The read carries what is written in the tag that it names: not foreign, copied or corrupted."""
     return site.records.record.get(read.tag) == read.record
+
+
+def goes_by_the_centres_list(site: Site, unit: Unit) -> bool:
+    """What the unit keeps of a route that it is permitted to enter is the list that the centre sends of it (T4)."""
+    return all(
+        not order.permitted
+        or (
+            run.route in site.layout.way
+            and run.route in site.layout.tag_list
+            and order.tag_list == site.layout.tag_list[run.route]
+        )
+        for run, order in unit.orders.items()
+    )
 
 
 def its_front_leads(site: Site, system: System, run: Run) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.authority import may_proceed
 from kernel.names import Cause, Stage
 from models.world.state import Site, System
+from models.world.truth import goes_by_the_centres_list
 from proofs.invariants.vocabulary import genuine, reaches, track_is_open
 
 
@@ -141,6 +142,11 @@ def every_other_release_has_its_reason(site: Site, system: System) -> bool:
         for run, grant in system.centre.runs.items()
         for block, cause in grant.ended.items()
     )
+
+
+def a_unit_may_enter_only_by_the_centres_list(site: Site, system: System) -> bool:
+    """Whatever a unit is permitted to enter, it goes there by the list of the centre's own layout (T4)."""
+    return all(goes_by_the_centres_list(site, system.units[train]) for train in system.units)
 
 
 def a_claim_ends_by_one_cause(site: Site, system: System) -> bool:

@@ -10,6 +10,11 @@ from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
 from kernel.standstill import is_braked, stands
 from models.onboard import antenna_spacing as world_of_antennas
+from models.onboard.joint import (
+    the_brake_takes_the_end_or_stays_applied,
+    the_head_stays_inside_authority,
+    the_range_contains_the_head,
+)
 from models.onboard.train import (
     await_none,
     await_tag,
@@ -28,11 +33,9 @@ from models.onboard.train import (
 from models.onboard.train_nature import (
     Train,
     Whole,
-    approach,
     before,
     braked,
     line,
-    running,
     stretch,
     the_brakes_bounds_fit,
     the_odometrys_bounds_fit,
@@ -40,12 +43,34 @@ from models.onboard.train_nature import (
     the_tags_bounds_fit,
     the_windows_bounds_fit,
     track,
-    watched,
-    watched_over,
     way_nm,
 )
-from models.onboard.units import NM_A_MM, UM_A_MM
-from proofs.onboard import antenna_spacing, brake_watch, braking, odometry, tag_window
+from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
+from proofs.onboard import antenna_spacing, braking, odometry, tag_window
+from proofs.onboard.train_parts import (
+    a_train_that_keeps_is_no_faster_than_the_limit,
+    a_trusted_wheel_has_not_slipped,
+    a_trusted_wheel_is_known_as_it_was_shown,
+    a_wheel_that_agrees_keeps_pace,
+    a_whole_train_has_passed_what_its_tail_read,
+    a_whole_train_is_near_its_preset,
+    anchor_contained_front,
+    it_gets_no_farther_before_the_response,
+    it_gets_no_faster_before_the_response,
+    range_contains_front,
+    speed_range_contains_speed,
+    the_gradient_estimate_is_no_steeper_than_the_line,
+    the_heads_last_eight_are_remembered,
+    the_response_ends,
+    the_tails_newest_read_is_noted,
+    the_watch_counts_no_more_than_the_brake,
+    the_way_left_is_enough,
+    the_way_left_lies_before_the_end,
+    what_agrees_is_known_as_it_was_shown,
+    what_is_caught_is_broken,
+    what_is_not_preset_is_broken,
+    what_is_remembered_was_read,
+)
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -71,6 +96,8 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.computer.known.watch == system.watched.watch
         and system.computer.before.loss == Loss.LOCATED_ANEW
         and system.computer.brake == system.approach.brake
+        and system.computer.brake == system.asked
+        and system.held
     )
 
 
@@ -118,6 +145,29 @@ def the_speed_is_what_the_computer_says(site: Train, system: Whole) -> bool:
         or motion.loss != Loss.NONE
         or UM_A_MM * motion.speed_least_mm_s <= system.speed_um_s <= UM_A_MM * motion.speed_most_mm_s
     )
+
+
+def the_end_is_asked_for_with_the_head_in_range(site: Train, system: Whole) -> bool:
+    """Whenever an end of authority may be asked for, the head is in the range that it is worked out by (P7, T12)."""
+    motion = system.computer.known.motion
+    return (
+        system.runs
+        or motion.loss != Loss.NONE
+        or the_range_contains_the_head(whole_mm(system.front_nm), motion.front_least_mm, motion.front_most_mm)
+    )
+
+
+def the_brake_takes_the_wanted_end_or_stays_applied(site: Train, system: Whole) -> bool:
+    """The end that the brake holds is the wanted one, or stands as it was with the brake applied (T4, T12)."""
+    brake = system.computer.brake
+    is_wanted = system.approach.wanted and brake.end_mm == system.approach.wanted_mm
+    return the_brake_takes_the_end_or_stays_applied(system.asked, brake, whole_mm(system.front_nm), is_wanted)
+
+
+def the_head_runs_no_farther_than_its_brake_lets_it(site: Train, system: Whole) -> bool:
+    """Within a cycle the head gets no farther than its end, and nowhere while no end has freed the brake (T12)."""
+    from_mm, to_mm = whole_mm(system.from_nm), whole_mm(system.front_nm)
+    return not system.runs or the_head_stays_inside_authority(system.held, system.computer.brake, from_mm, to_mm)
 
 
 def no_fix_contradicts(site: Train, system: Whole) -> bool:
@@ -212,6 +262,17 @@ def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole)
     )
 
 
+def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
+    """A train whose brake no end has freed since it was located is held by it, and runs forward no more (T8, T12)."""
+    return not system.held or (
+        system.speed_um_s <= 0
+        and system.computer.brake.withheld
+        and system.computer.brake.applied
+        and system.watched.cycles >= site.limits.train.brake.response_cycles
+        and (not system.runs or system.front_nm <= system.from_nm)
+    )
+
+
 def there_is_one_train(site: Train, system: Whole) -> bool:
     """The worlds of the machines see the same front and the same speed: none has refused what happened."""
     seen = before(system)
@@ -283,125 +344,15 @@ def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
     )
 
 
-# ---- what odometry, brake control and brake watch rest on, of the one train
-
-
-def range_contains_front(site: Train, system: Whole) -> bool:
-    """The front is in the range, but for what a fix was false by (P7)."""
-    return odometry.range_contains_front(line(site), running(system))
-
-
-def anchor_contained_front(site: Train, system: Whole) -> bool:
-    """At the anchor the front was in the anchor's range, but for what a fix was false by (P1)."""
-    return odometry.anchor_contained_front(line(site), running(system))
-
-
-def a_trusted_wheel_has_not_slipped(site: Train, system: Whole) -> bool:
-    """A wheel that is trusted has rolled and been read since the anchor (P1)."""
-    return odometry.a_trusted_wheel_has_not_slipped(line(site), running(system))
-
-
-def a_trusted_wheel_is_known_as_it_was_shown(site: Train, system: Whole) -> bool:
-    """Of a wheel that is trusted the last reading is remembered, and the pulses at the anchor (P1)."""
-    return odometry.a_trusted_wheel_is_known_as_it_was_shown(line(site), running(system))
-
-
-def what_agrees_is_known_as_it_was_shown(site: Train, system: Whole) -> bool:
-    """After a cycle that agreed the last reading is remembered; after two it was neither stuck nor gross (P1)."""
-    return odometry.what_agrees_is_known_as_it_was_shown(line(site), running(system))
-
-
-def a_wheel_that_agrees_keeps_pace(site: Train, system: Whole) -> bool:
-    """While the wheel agrees it keeps pace with the train, but for the first two cycles (P1)."""
-    return odometry.a_wheel_that_agrees_keeps_pace(line(site), running(system))
-
-
-def the_gradient_estimate_is_no_steeper_than_the_line(site: Train, system: Whole) -> bool:
-    """The estimate stays within the steepest gradient, so that it hides no jolt (P1)."""
-    return odometry.the_gradient_estimate_is_no_steeper_than_the_line(line(site), running(system))
-
-
-def speed_range_contains_speed(site: Train, system: Whole) -> bool:
-    """While a range is claimed, the train's speed is in the range of speeds; the brake reckons with it (P1, T12)."""
-    return odometry.speed_range_contains_speed(line(site), running(system))
-
-
-def the_response_ends(site: Train, system: Whole) -> bool:
-    """The brake responds in no negative time, and in its full time if it is off (T12)."""
-    return braking.the_response_ends(braked(site), approach(system))
-
-
-def it_gets_no_faster_before_the_response(site: Train, system: Whole) -> bool:
-    """Until the brake has responded the speed stays below the worst that was reckoned with (T12)."""
-    return braking.it_gets_no_faster_before_the_response(braked(site), approach(system))
-
-
-def it_gets_no_farther_before_the_response(site: Train, system: Whole) -> bool:
-    """Until the brake has responded the head stays short of the place that was reckoned with (T12)."""
-    return braking.it_gets_no_farther_before_the_response(braked(site), approach(system))
-
-
-def the_way_left_lies_before_the_end(site: Train, system: Whole) -> bool:
-    """From that place, the cycle in which the brake takes hold and the way left end before the authority does (T12)."""
-    return braking.the_way_left_lies_before_the_end(braked(site), approach(system))
-
-
-def the_way_left_is_enough(site: Train, system: Whole) -> bool:
-    """The guaranteed brake stops the train from the worst speed within the way left: u² <= 2 b s (T12)."""
-    return braking.the_way_left_is_enough(braked(site), approach(system))
-
-
-def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -> bool:
-    """While the bounds are kept, the train is no faster than the limit; what is faster is found out (T12)."""
-    return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))
-
-
-def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
-    """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
-    return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
-
-
-def what_is_not_preset_is_broken(site: Train, system: Whole) -> bool:
-    """Until staff presets the distance no read puts right what a restart has latched (T8, T13)."""
-    return antenna_spacing.what_is_not_preset_is_broken(track(site), system.trailing)
-
-
-def what_is_caught_is_broken(site: Train, system: Whole) -> bool:
-    """What was latched is still latched (T13)."""
-    return antenna_spacing.what_is_caught_is_broken(track(site), system.trailing)
-
-
-def a_whole_train_is_near_its_preset(site: Train, system: Whole) -> bool:
-    """While the train is as it was preset, its antennas are as far apart as that, and farther than a window (T3)."""
-    return antenna_spacing.a_whole_train_is_near_its_preset(track(site), system.trailing)
-
-
-def a_whole_train_has_passed_what_its_tail_read(site: Train, system: Whole) -> bool:
-    """While the train is whole, the tag that its tail has read is behind its head by the antenna distance (T13)."""
-    return antenna_spacing.a_whole_train_has_passed_what_its_tail_read(track(site), system.trailing)
-
-
-def what_is_remembered_was_read(site: Train, system: Whole) -> bool:
-    """Every read that is remembered was one, in its place (T13)."""
-    return antenna_spacing.what_is_remembered_was_read(track(site), system.trailing)
-
-
-def the_tails_newest_read_is_noted(site: Train, system: Whole) -> bool:
-    """The machine knows whether the tail has read, and which tag last (T13)."""
-    return antenna_spacing.the_tails_newest_read_is_noted(track(site), system.trailing)
-
-
-def the_heads_last_eight_are_remembered(site: Train, system: Whole) -> bool:
-    """The one tag, if it is among the head's last eight, is remembered as it was read last (T13)."""
-    return antenna_spacing.the_heads_last_eight_are_remembered(track(site), system.trailing)
-
-
 INITIAL = (the_train_stands_held_by_its_brake, the_antennas_are_not_preset_yet)
 SAFETY = (
     the_front_stays_before_the_end,
     the_front_is_where_the_computer_says,
     the_rear_is_where_the_computer_says,
     the_speed_is_what_the_computer_says,
+    the_end_is_asked_for_with_the_head_in_range,
+    the_brake_takes_the_wanted_end_or_stays_applied,
+    the_head_runs_no_farther_than_its_brake_lets_it,
     no_fix_contradicts,
     a_sound_brake_is_not_accused,
     a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused,
@@ -425,6 +376,7 @@ SAFETY = (
 )
 INVARIANTS = (
     *SAFETY,
+    what_no_end_has_freed_stands,
     the_brake_responds_once_it_was_commanded_for_long_enough,
     no_fix_was_false,
     the_computer_was_located_a_cycle_ago,

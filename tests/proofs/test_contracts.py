@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from models.world import assumptions as world
-from proofs import assumptions
+from proofs import assumptions, lints_apart
 from proofs.joints import BY_NAME, SAME_FUNCTION, Joint, joints
 from proofs.reach import called_by
 from proofs.theories import THEORIES
@@ -22,6 +22,7 @@ ASSUMED = {
     for theory, entries in tomllib.loads(path.read_text("utf-8")).items()
     if path.parent.name != "world"
 }
+WORLDS = ("models.world.", "models.onboard.")
 NAME = re.compile(r"`(\w+)\.(\w+)`")
 
 
@@ -89,8 +90,10 @@ def test_what_is_tied_more_than_by_name_is(joint: Joint, name: str, tie: str) ->
     assert tie != BY_NAME
     theory, _, assumed = name.partition(".")
     if tie == SAME_FUNCTION:
-        function = getattr(world, assumed)
-        said = {each for each in (function, *called_by(function)) if each.__module__.startswith("models.world.")}
+        function = (
+            getattr(world, assumed) if theory == "interlocking" else lints_apart.assumed(THEORIES[theory])[assumed]
+        )
+        said = {each for each in (function, *called_by(function)) if each.__module__.startswith(WORLDS)}
         proved = [THEORIES[of].invariants[claim] for of, _, claim in (each.partition(".") for each in joint.guaranteed)]
         assert all(any(each in called_by(claim) for each in said) for claim in proved)
         return

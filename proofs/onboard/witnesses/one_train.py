@@ -75,6 +75,8 @@ def at_rest() -> Whole:
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
         awaited_mm=0,
+        asked=begun.brake,
+        held=True,
         computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
     )
 

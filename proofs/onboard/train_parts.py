@@ -1,0 +1,116 @@
+"""What odometry, brake control, brake watch and antennas rest on, claimed of the one train that all of them see."""
+
+from __future__ import annotations
+
+from models.onboard.train_nature import Train, Whole, approach, braked, line, running, track, watched, watched_over
+from proofs.onboard import antenna_spacing, brake_watch, braking, odometry
+
+
+def range_contains_front(site: Train, system: Whole) -> bool:
+    """The front is in the range, but for what a fix was false by (P7)."""
+    return odometry.range_contains_front(line(site), running(system))
+
+
+def anchor_contained_front(site: Train, system: Whole) -> bool:
+    """At the anchor the front was in the anchor's range, but for what a fix was false by (P1)."""
+    return odometry.anchor_contained_front(line(site), running(system))
+
+
+def a_trusted_wheel_has_not_slipped(site: Train, system: Whole) -> bool:
+    """A wheel that is trusted has rolled and been read since the anchor (P1)."""
+    return odometry.a_trusted_wheel_has_not_slipped(line(site), running(system))
+
+
+def a_trusted_wheel_is_known_as_it_was_shown(site: Train, system: Whole) -> bool:
+    """Of a wheel that is trusted the last reading is remembered, and the pulses at the anchor (P1)."""
+    return odometry.a_trusted_wheel_is_known_as_it_was_shown(line(site), running(system))
+
+
+def what_agrees_is_known_as_it_was_shown(site: Train, system: Whole) -> bool:
+    """After a cycle that agreed the last reading is remembered; after two it was neither stuck nor gross (P1)."""
+    return odometry.what_agrees_is_known_as_it_was_shown(line(site), running(system))
+
+
+def a_wheel_that_agrees_keeps_pace(site: Train, system: Whole) -> bool:
+    """While the wheel agrees it keeps pace with the train, but for the first two cycles (P1)."""
+    return odometry.a_wheel_that_agrees_keeps_pace(line(site), running(system))
+
+
+def the_gradient_estimate_is_no_steeper_than_the_line(site: Train, system: Whole) -> bool:
+    """The estimate stays within the steepest gradient, so that it hides no jolt (P1)."""
+    return odometry.the_gradient_estimate_is_no_steeper_than_the_line(line(site), running(system))
+
+
+def speed_range_contains_speed(site: Train, system: Whole) -> bool:
+    """While a range is claimed, the train's speed is in the range of speeds; the brake reckons with it (P1, T12)."""
+    return odometry.speed_range_contains_speed(line(site), running(system))
+
+
+def the_response_ends(site: Train, system: Whole) -> bool:
+    """The brake responds in no negative time, and in its full time if it is off (T12)."""
+    return braking.the_response_ends(braked(site), approach(system))
+
+
+def it_gets_no_faster_before_the_response(site: Train, system: Whole) -> bool:
+    """Until the brake has responded the speed stays below the worst that was reckoned with (T12)."""
+    return braking.it_gets_no_faster_before_the_response(braked(site), approach(system))
+
+
+def it_gets_no_farther_before_the_response(site: Train, system: Whole) -> bool:
+    """Until the brake has responded the head stays short of the place that was reckoned with (T12)."""
+    return braking.it_gets_no_farther_before_the_response(braked(site), approach(system))
+
+
+def the_way_left_lies_before_the_end(site: Train, system: Whole) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the authority does (T12)."""
+    return braking.the_way_left_lies_before_the_end(braked(site), approach(system))
+
+
+def the_way_left_is_enough(site: Train, system: Whole) -> bool:
+    """The guaranteed brake stops the train from the worst speed within the way left: u² <= 2 b s (T12)."""
+    return braking.the_way_left_is_enough(braked(site), approach(system))
+
+
+def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -> bool:
+    """While the bounds are kept, the train is no faster than the limit; what is faster is found out (T12)."""
+    return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))
+
+
+def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
+    """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
+    return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
+
+
+def what_is_not_preset_is_broken(site: Train, system: Whole) -> bool:
+    """Until staff presets the distance no read puts right what a restart has latched (T8, T13)."""
+    return antenna_spacing.what_is_not_preset_is_broken(track(site), system.trailing)
+
+
+def what_is_caught_is_broken(site: Train, system: Whole) -> bool:
+    """What was latched is still latched (T13)."""
+    return antenna_spacing.what_is_caught_is_broken(track(site), system.trailing)
+
+
+def a_whole_train_is_near_its_preset(site: Train, system: Whole) -> bool:
+    """While the train is as it was preset, its antennas are as far apart as that, and farther than a window (T3)."""
+    return antenna_spacing.a_whole_train_is_near_its_preset(track(site), system.trailing)
+
+
+def a_whole_train_has_passed_what_its_tail_read(site: Train, system: Whole) -> bool:
+    """While the train is whole, the tag that its tail has read is behind its head by the antenna distance (T13)."""
+    return antenna_spacing.a_whole_train_has_passed_what_its_tail_read(track(site), system.trailing)
+
+
+def what_is_remembered_was_read(site: Train, system: Whole) -> bool:
+    """Every read that is remembered was one, in its place (T13)."""
+    return antenna_spacing.what_is_remembered_was_read(track(site), system.trailing)
+
+
+def the_tails_newest_read_is_noted(site: Train, system: Whole) -> bool:
+    """The machine knows whether the tail has read, and which tag last (T13)."""
+    return antenna_spacing.the_tails_newest_read_is_noted(track(site), system.trailing)
+
+
+def the_heads_last_eight_are_remembered(site: Train, system: Whole) -> bool:
+    """The one tag, if it is among the head's last eight, is remembered as it was read last (T13)."""
+    return antenna_spacing.the_heads_last_eight_are_remembered(track(site), system.trailing)
