@@ -2,8 +2,8 @@
 
 A solver that says *unsat* to everything would prove everything.  So each is first asked what is not
 so: obligations with a needed hypothesis left out, with nothing left to follow but a contradiction, and
-in every theory with a guard of its own kernel dropped.  It must find the state in which they fail: only ``sat``
-is that; *unknown* notices nothing.  They go the way of every obligation, from the same source by way of the
+in every theory with a guard of its own kernel, or world, dropped.  It must find the state in which they fail: only
+``sat`` is that; *unknown* notices nothing.  They go the way of every obligation, from the same source by way of the
 same lifter.
 """
 

@@ -28,7 +28,8 @@ KINDS = ("guard", "and-operand", "or-operand", "condition", "filter", "choice", 
 """What is dropped, the best first."""
 SHARED = "kernel.onboard.arithmetic"
 """No theory's own."""
-HEAD = """# For each theory a guard of its own kernel whose drop every solver must notice (proofs/canaries.py).
+HEAD = """# For each theory a guard of its own kernel, or of its world where it has no machine, whose drop every
+# solver must notice (proofs/canaries.py).
 # Found by `python -m proofs.canary_search`.
 """
 

@@ -22,8 +22,8 @@ from proofs.records import Report, overall
 from proofs.theories import THEORIES
 from proofs.theory import Theory
 
-THEOREM = ("interlocking", "train")
-"""The theories whose claims are the theorem: of the line, in blocks, and of each train, in millimetres."""
+THEOREM = ("occupancy", "train")
+"""The theories whose claims are the theorem: of all trains on the line, and of each alone, both in millimetres."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,10 @@ def _theory(name: str) -> str:
 def print_chain(console: Console, report: Report) -> None:
     """Print the chain as a tree, with what was proved of each theory in it, and how many links are tied how."""
     found, proved = chain(), _proved(report)
-    root, shown = Tree("no train leaves what is secured for it, and no two are secured the same"), set[str]()
+    root, shown = (
+        Tree("no two trains touch, no point moves under one, and none is beyond the end of its authority"),
+        set[str](),
+    )
     for name in THEOREM:
         _grow(root, name, found, proved, shown)
     console.print(root)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from kernel.names import Block, Car, Read, Run, Tag, Train
+from kernel.maps import Map
+from kernel.names import Block, Car, Point, Read, Run, Tag, Train
 from kernel.standstill import Standstill
+from kernel.terminal import Terminal
 from kernel.unit import Unit
 from models.world.state import Site, System
 
@@ -11,6 +13,41 @@ from models.world.state import Site, System
 def is_genuine(site: Site, read: Read) -> bool:
     """The read carries what is written in the tag that it names: not foreign, copied or corrupted."""
     return site.records.record.get(read.tag) == read.record
+
+
+def no_block_holds_two_trains(site: Site, at: Map[Car, frozenset[Block]]) -> bool:
+    """Cars in one block belong to one train (T4, T9)."""
+    return all(
+        site.formation.train_of.get(car) == site.formation.train_of.get(other)
+        for car in at
+        for block in at[car]
+        for other in at
+        if block in at[other]
+    )
+
+
+def no_fouling_blocks_hold_two_trains(site: Site, at: Map[Car, frozenset[Block]]) -> bool:
+    """Cars in blocks that foul each other belong to one train (T9)."""
+    return all(
+        site.formation.train_of.get(car) == site.formation.train_of.get(other)
+        for car in at
+        for block in at[car]
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in at
+        if beside in at[other]
+    )
+
+
+def no_point_under_a_car_is_unlocked(
+    site: Site, at: Map[Car, frozenset[Block]], terminals: Map[Point, Terminal]
+) -> bool:
+    """A point in a block that a car is in is locked (T10)."""
+    return all(
+        point in terminals and not terminals[point].unlocked
+        for car in at
+        for block in at[car]
+        for point in site.layout.points_in.get(block, frozenset())
+    )
 
 
 def goes_by_the_centres_list(site: Site, unit: Unit) -> bool:

@@ -5,31 +5,23 @@ from __future__ import annotations
 from kernel.authority import may_proceed
 from kernel.names import Cause, Stage
 from models.world.state import Site, System
-from models.world.truth import goes_by_the_centres_list
+from models.world.truth import (
+    goes_by_the_centres_list,
+    no_block_holds_two_trains,
+    no_fouling_blocks_hold_two_trains,
+    no_point_under_a_car_is_unlocked,
+)
 from proofs.invariants.vocabulary import genuine, reaches, track_is_open
 
 
 def no_two_trains_in_a_block(site: Site, system: System) -> bool:
     """Cars in one block belong to one train (T4, T9)."""
-    return all(
-        site.formation.train_of.get(car) == site.formation.train_of.get(other)
-        for car in system.track.at
-        for block in system.track.at[car]
-        for other in system.track.at
-        if block in system.track.at[other]
-    )
+    return no_block_holds_two_trains(site, system.track.at)
 
 
 def no_two_trains_in_fouling_blocks(site: Site, system: System) -> bool:
     """Cars in blocks that foul each other belong to one train (T9)."""
-    return all(
-        site.formation.train_of.get(car) == site.formation.train_of.get(other)
-        for car in system.track.at
-        for block in system.track.at[car]
-        for beside in site.layout.fouls.get(block, frozenset())
-        for other in system.track.at
-        if beside in system.track.at[other]
-    )
+    return no_fouling_blocks_hold_two_trains(site, system.track.at)
 
 
 def physical_occupancy_is_recorded(site: Site, system: System) -> bool:
@@ -77,12 +69,7 @@ def points_lie_for_the_set_route(site: Site, system: System) -> bool:
 
 def no_point_moves_under_a_train(site: Site, system: System) -> bool:
     """A point in a block that a car is in is locked (T10)."""
-    return all(
-        point in system.terminals and not system.terminals[point].unlocked
-        for car in system.track.at
-        for block in system.track.at[car]
-        for point in site.layout.points_in.get(block, frozenset())
-    )
+    return no_point_under_a_car_is_unlocked(site, system.track.at, system.terminals)
 
 
 def no_open_flank(site: Site, system: System) -> bool:

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from evidence.report.logic import Predicate, Unread, called, heading, notation, term_of, words
 from evidence.report.terms import lines
 from models.onboard import train_nature
+from models.world import truth
 from proofs.mutants.edits import mutants_of
 from proofs.theories import THEORIES
 
@@ -43,9 +44,9 @@ def test_what_is_dropped_in_an_invariant_or_a_word_is_seen_in_its_notation() -> 
 
 
 def test_a_quantifier_says_what_it_ranges_over_and_what_it_excludes() -> None:
-    assert notation(INVARIANTS["interlocking.no_two_trains_in_a_block"]) == [
-        "∀ car ∈ track.at, block ∈ track.at(car), other ∈ track.at:",
-        "    block ∈ track.at(other)",
+    assert notation(truth.no_block_holds_two_trains) == [
+        "∀ car ∈ at, block ∈ at(car), other ∈ at:",
+        "    block ∈ at(other)",
         "  → formation.train_of(car) = formation.train_of(other)",
     ]
 
