@@ -33,7 +33,7 @@ from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
 from kernel.onboard.tag_window import NONE_AWAITED
-from kernel.onboard.way import Way
+from kernel.onboard.way import Way, is_known, is_within_width
 from kernel.standstill import Standstill, ThroughLine, is_braked
 
 
@@ -206,13 +206,23 @@ def read_by_tail(limits: Limits, computer: Computer, uid: int) -> Computer:
 def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLine:
     """Give what is known of the way to the tail; ``answers``: its signal comes over the line (T3, T13, P5).
 
-    The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).
+    The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).  Nor
+    does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.
     """
     return ThroughLine(
         answers=answers,
         is_intact=split.is_intact(limits.split, computer.known.wholeness),
-        fits=antenna_spacing.is_healthy(computer.spacing) and not computer.known.movement.reversed,
+        fits=antenna_spacing.is_healthy(computer.spacing)
+        and not computer.known.movement.reversed
+        and finds_a_missed_tag(limits, computer),
     )
+
+
+def finds_a_missed_tag(limits: Limits, computer: Computer) -> bool:
+    """Tell whether a tag that the head had missed would have been overdue when the newest cycle began (T2, T5)."""
+    before = computer.before
+    way = Way(known=odometry.is_located(before), least_mm=before.front_least_mm, most_mm=before.front_most_mm)
+    return is_known(way) and is_within_width(way, limits.window.tail_width_mm)
 
 
 # ---- what is told

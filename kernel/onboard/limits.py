@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.onboard.antenna_spacing import SpacingLimits
+from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.odometry import SensorBounds
@@ -85,6 +86,22 @@ def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -
     )
 
 
+def widest_mm(tolerance_mm: int, line_mm_s: int, antennas_mm: int, surveyed: Surveyed) -> int:
+    """Give how wide the range may be for the tail's reads to count: a tag that the head missed is overdue (T2, T5).
+
+    Of what lies between the antennas the window's tolerance is taken off, the errors of tags and presetting, and what a
+    train runs in a cycle at twice the speed of its line.
+    """
+    cycle_mm = 2 * CYCLE_MS * line_mm_s // 1000
+    errors_mm = surveyed.laid_within_mm + surveyed.read_within_mm + surveyed.preset_within_mm
+    return antennas_mm - tolerance_mm - errors_mm - cycle_mm - 1
+
+
+def is_window_lawful(window: WindowLimits, line_mm_s: int, antennas_mm: int, surveyed: Surveyed) -> bool:
+    """Tell whether a tag that the head has missed is overdue before the tail's read of it counts (T2, T5)."""
+    return window.tail_width_mm <= widest_mm(window.tolerance_mm, line_mm_s, antennas_mm, surveyed)
+
+
 def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
     """Tell whether what is allowed the antennas covers presetting them and both their read windows (T3, T13).
 
@@ -116,6 +133,7 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         are_sensors_lawful(limits.sensors, surveyed)
         and is_brake_lawful(limits.train.brake)
         and are_tags_lawful(limits.tags, limits.window, surveyed)
+        and is_window_lawful(limits.window, limits.train.speeds.line_mm_s, limits.antennas_mm, surveyed)
         and is_spacing_lawful(limits.spacing, surveyed)
         and is_split_lawful(limits.split, surveyed)
         and limits.reverse.roll_back_mm >= 0

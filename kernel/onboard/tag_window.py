@@ -34,10 +34,13 @@ class WindowLimits:
     ``tolerance_mm``: how far from the plan the ways between two reads may be: the error of laying tags,
     and the read window of the antenna (513 mm: half of it at either tag).
     ``width_mm``: how wide the odometry's range of the way may be for a tag to be held against it.
+    ``tail_width_mm``: how wide the range of the front may be for what the tail reads to count: the next tag, had the
+    head missed it, would be overdue by then (T2).
     """
 
     tolerance_mm: int
     width_mm: int
+    tail_width_mm: int
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ end of a block is still in that block, as in :mod:`models.onboard.joint`.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NewType
 
 from kernel.maps import Map
 from kernel.names import Block, Car, Point, Train
@@ -19,18 +20,21 @@ from models.world.truth import (
     no_point_under_a_car_is_unlocked,
 )
 
+Place = NewType("Place", str)
+"""One millimetre of rail, named over the whole line."""
+
 
 @dataclass(frozen=True)
 class Rails:
     """What does not change: the site of the interlocking, and where things lie (T1).
 
-    ``lies_in``: for each millimetre of rail, numbered over the whole line, the block that it lies in.
+    ``lies_in``: for each millimetre of rail the block that it lies in.
     ``point_at``: for each point the millimetres of its blades and crossing.
     """
 
     site: Site
-    lies_in: Map[int, Block]
-    point_at: Map[Point, frozenset[int]]
+    lies_in: Map[Place, Block]
+    point_at: Map[Point, frozenset[Place]]
 
 
 @dataclass(frozen=True)
@@ -44,7 +48,7 @@ class Occupied:
 
     at: Map[Car, frozenset[Block]]
     terminals: Map[Point, Terminal]
-    covers: Map[Train, frozenset[int]]
+    covers: Map[Train, frozenset[Place]]
 
 
 # ---- premises
@@ -63,7 +67,7 @@ def a_point_stands_in_the_blocks_that_list_it(site: Rails) -> bool:
 
 
 def a_train_is_in_the_blocks_that_it_covers(
-    site: Rails, at: Map[Car, frozenset[Block]], covers: Map[Train, frozenset[int]]
+    site: Rails, at: Map[Car, frozenset[Block]], covers: Map[Train, frozenset[Place]]
 ) -> bool:
     """Over each millimetre that a train covers there is a car of it, which is in the block that this lies in (T1)."""
     return all(
@@ -99,7 +103,7 @@ def trains_move(
     system: Occupied,
     at: Map[Car, frozenset[Block]],
     terminals: Map[Point, Terminal],
-    covers: Map[Train, frozenset[int]],
+    covers: Map[Train, frozenset[Place]],
 ) -> Occupied:
     """Trains run, stand and part, points are thrown and locked, as the interlocking's world lets them (T9, T10)."""
     if not a_train_is_in_the_blocks_that_it_covers(site, at, covers):

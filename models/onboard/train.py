@@ -31,6 +31,7 @@ from models.onboard.train_nature import (
     line,
     running,
     stretch,
+    tail_comes_over,
     the_head_is_no_faster_than_at_the_ends_of_a_cycle,
     the_inertial_sensor_keeps_its_bound,
     the_rest_of_the_cycle_follows_the_speed,
@@ -120,10 +121,12 @@ def sense_the_cycle(
     if not a_wheel_that_keeps_pace_rolls(site, system, readings, slips, sticks):
         return system
     sensed = computer.sense(site.limits, system.computer, readings, tail)
+    window = system.computer.known.window
     at = sensed.known.motion
     return replace(
         system,
         runs=False,
+        astern=window.expected and not window.passed and tail_comes_over(site, system),
         running=odometry.run_a_cycle(
             line(site), running(system), readings, system.front_nm, system.speed_um_s, gradient_mm_s2, slips, sticks
         ),

@@ -19,7 +19,7 @@ from models.onboard.braking import Approach
 from models.onboard.odometry import Line, Running
 from models.onboard.tag_fix import Antenna
 from models.onboard.tag_window import Expecting, Stretch
-from models.onboard.units import NM_A_MM
+from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,8 @@ class Whole:
     ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``: the train as odometry, brake control, brake
     watch, the window for the next tag and the antennas' spacing are proved with it.
     ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
+    ``astern``: history: in the newest cycle the tail of a whole train, which ran at no more than twice the speed of its
+    line, came over the tag that was awaited then, and which was not overdue.
     ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
     ``computer``: what its computer remembers.
     """
@@ -66,6 +68,7 @@ class Whole:
     expecting: Expecting
     trailing: Trailing
     awaited_mm: int
+    astern: bool
     asked: Brake
     held: bool
     computer: Computer
@@ -154,6 +157,22 @@ def way_nm(system: Whole, front_nm: int) -> int:
     return front_nm - NM_A_MM * system.computer.from_mm
 
 
+def fastest_cycle_nm(site: Train) -> int:
+    """Give how far a train runs within a cycle at twice the speed of its line (T12)."""
+    return 2 * MS_A_CYCLE * UM_A_MM * site.limits.train.speeds.line_mm_s
+
+
+def tail_comes_over(site: Train, system: Whole) -> bool:
+    """Tell whether the tail of a whole train may read the awaited tag in the newest cycle, at a lawful speed (T2)."""
+    off_nm = NM_A_MM * (site.laid_within_mm + site.read_within_mm)
+    tail_nm = system.front_nm - NM_A_MM * site.limits.tags.antenna_mm - system.trailing.apart_nm
+    return (
+        system.trailing.whole
+        and tail_nm >= NM_A_MM * system.awaited_mm - off_nm
+        and system.front_nm - system.from_nm <= fastest_cycle_nm(site)
+    )
+
+
 # ---- premises
 
 
@@ -187,6 +206,13 @@ def the_windows_bounds_fit(site: Train) -> bool:
 def the_spacings_bounds_fit(site: Train) -> bool:
     """What the proof of the antennas' spacing asks of the written bounds (T3)."""
     return antenna_spacing.the_tolerance_covers_preset_and_read_window(track(site))
+
+
+def the_antennas_lie_farther_apart_than_the_window_is_long(site: Train) -> bool:
+    """A missed tag is found within less than the way between the antennas, even in a cycle at twice the speed (T2)."""
+    found_mm = site.limits.window.tolerance_mm + site.limits.window.tail_width_mm
+    errors_mm = site.laid_within_mm + site.read_within_mm + site.preset_within_mm
+    return NM_A_MM * (found_mm + errors_mm) + fastest_cycle_nm(site) < NM_A_MM * site.limits.antennas_mm
 
 
 # ---- assumptions

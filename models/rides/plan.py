@@ -63,7 +63,7 @@ PLAN = Plan(
     split=SPLIT_LIMITS,
     brake=BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700),
     reader=ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=8),
-    window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=1_000_000),
+    window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=1_000_000, tail_width_mm=25_000),
     spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=18_000),
     length=LengthBounds(
         line_maximum_mm=200_000,

@@ -97,9 +97,12 @@ def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run,
     )
 
 
-def a_missed_tag_is_overdue_before_the_tail_comes(system: System, train: Train) -> bool:
-    """A tag that the head has missed is overdue by running distance before the tail comes to its boundary."""
-    return train not in system.track.unread
+def a_missed_tag_is_overdue_before_the_tail_comes(is_unread: bool, line: ThroughLine) -> bool:
+    """A tag that the head has missed is overdue by running distance before what the tail reads there counts.
+
+    ``is_unread``: it has passed one without reading it, which is not overdue yet.
+    """
+    return not is_unread or not line.fits
 
 
 def a_healthy_line_reaches_the_tail(

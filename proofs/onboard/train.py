@@ -37,6 +37,8 @@ from models.onboard.train_nature import (
     braked,
     line,
     stretch,
+    tail_comes_over,
+    the_antennas_lie_farther_apart_than_the_window_is_long,
     the_brakes_bounds_fit,
     the_odometrys_bounds_fit,
     the_spacings_bounds_fit,
@@ -46,6 +48,7 @@ from models.onboard.train_nature import (
     way_nm,
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
+from models.world.assumptions import a_missed_tag_is_overdue_before_the_tail_comes as overdue_before_the_tail
 from proofs.onboard import antenna_spacing, braking, odometry, tag_window
 from proofs.onboard.train_parts import (
     a_train_that_keeps_is_no_faster_than_the_limit,
@@ -96,6 +99,7 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.computer.known.watch == system.watched.watch
         and system.computer.before.loss == Loss.LOCATED_ANEW
         and system.computer.brake == system.approach.brake
+        and not system.astern
         and system.computer.brake == system.asked
         and system.held
     )
@@ -195,6 +199,14 @@ def a_tag_in_its_place_is_never_refused(site: Train, system: Whole) -> bool:
     return tag_window.a_tag_in_its_place_is_never_refused(stretch(site), system.expecting)
 
 
+def a_missed_tag_is_overdue_before_the_tail_comes(site: Train, system: Whole) -> bool:
+    """What the tail of a whole train reads does not count while a tag that its head missed is not overdue (T2, T5).
+
+    Unless the train runs at more than twice the speed of its line.
+    """
+    return overdue_before_the_tail(system.astern, computer.through_line(site.limits, system.computer, True))
+
+
 def no_tag_still_ahead_is_called_missing(site: Train, system: Whole) -> bool:
     """A tag is overdue only of a train that has come past it, or does not know where it is (T5)."""
     return tag_window.no_tag_still_ahead_is_called_missing(stretch(site), system.expecting)
@@ -260,6 +272,29 @@ def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole)
         window.least_mm == window.most_mm == away_mm - system.computer.from_mm
         and computer.awaits(site.limits, system.computer, system.awaited_mm)
     )
+
+
+def a_narrow_range_finds_what_the_head_missed(site: Train, system: Whole) -> bool:
+    """A cycle that begins with a narrow range calls an awaited tag overdue before the tail comes over it (T2, T5)."""
+    motion, window = system.computer.known.motion, system.computer.known.window
+    return (
+        not system.runs
+        or motion.loss != Loss.NONE
+        or motion.front_most_mm - motion.front_least_mm > site.limits.window.tail_width_mm
+        or not window.expected
+        or window.passed
+        or not tail_comes_over(site, system)
+    )
+
+
+def a_tail_over_a_missed_tag_is_known_too_widely(site: Train, system: Whole) -> bool:
+    """The tail is over a tag that was not overdue only where the range was too wide when the cycle began (T2, T5)."""
+    return not system.astern or not computer.finds_a_missed_tag(site.limits, system.computer)
+
+
+def a_whole_train_is_preset_as_written(site: Train, system: Whole) -> bool:
+    """Staff presets no other distance of the antennas than is written of the train (T3)."""
+    return not system.trailing.whole or system.trailing.spacing.preset_mm == site.limits.antennas_mm
 
 
 def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
@@ -358,6 +393,7 @@ SAFETY = (
     a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused,
     a_missing_tag_is_noticed_within_a_bounded_way,
     a_tag_in_its_place_is_never_refused,
+    a_missed_tag_is_overdue_before_the_tail_comes,
     no_tag_still_ahead_is_called_missing,
     a_false_tail_is_found,
     unhealthy_is_latched,
@@ -377,6 +413,9 @@ SAFETY = (
 INVARIANTS = (
     *SAFETY,
     what_no_end_has_freed_stands,
+    a_narrow_range_finds_what_the_head_missed,
+    a_tail_over_a_missed_tag_is_known_too_widely,
+    a_whole_train_is_preset_as_written,
     the_brake_responds_once_it_was_commanded_for_long_enough,
     no_fix_was_false,
     the_computer_was_located_a_cycle_ago,
@@ -409,6 +448,7 @@ PREMISES = (
     the_tags_bounds_fit,
     the_windows_bounds_fit,
     the_spacings_bounds_fit,
+    the_antennas_lie_farther_apart_than_the_window_is_long,
 )
 STEPS = (
     run_a_cycle,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kernel.onboard.tag_window import NONE_AWAITED, Verdict, WindowLimits, await_tag, in_window, judge, note_cycle
 from kernel.onboard.way import Way
 
-LIMITS = WindowLimits(tolerance_mm=1_513, width_mm=10_000)
+LIMITS = WindowLimits(tolerance_mm=1_513, width_mm=10_000, tail_width_mm=0)
 
 
 def a_tag_in_its_place_is_taken(planned_mm: int, off_mm: int, behind_mm: int, ahead_mm: int) -> None:

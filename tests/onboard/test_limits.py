@@ -22,6 +22,7 @@ from kernel.onboard.limits import (
     is_brake_lawful,
     is_spacing_lawful,
     is_split_lawful,
+    is_window_lawful,
 )
 from kernel.onboard.odometry import SensorBounds
 from kernel.onboard.reverse_movement import ReverseLimits
@@ -31,7 +32,13 @@ from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_window import WindowLimits
 from models.concrete.rails import ANTENNA_MM
 from models.onboard import antenna_spacing, reverse_movement, split, tag_window
-from models.onboard.train_nature import Train, the_brakes_bounds_fit, the_odometrys_bounds_fit, the_tags_bounds_fit
+from models.onboard.train_nature import (
+    Train,
+    the_antennas_lie_farther_apart_than_the_window_is_long,
+    the_brakes_bounds_fit,
+    the_odometrys_bounds_fit,
+    the_tags_bounds_fit,
+)
 from models.onboard.units import NM_A_MM
 from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 
@@ -53,7 +60,7 @@ LIMITS = st.builds(
     train=st.builds(TrainLimits, st.builds(BrakeBounds, SMALL, SMALL, SMALL, SMALL), SPEEDS, SMALL),
     reverse=st.builds(ReverseLimits, SMALL),
     split=st.builds(SplitLimits, *[SMALL] * len(fields(SplitLimits))),
-    window=st.builds(WindowLimits, SMALL, SMALL),
+    window=st.builds(WindowLimits, SMALL, SMALL, SMALL),
     tags=st.builds(TagLimits, SMALL, SMALL),
     spacing=st.builds(SpacingLimits, SMALL, SMALL),
     antennas_mm=SMALL,
@@ -86,6 +93,7 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "tags": the_tags_bounds_fit(site),
         "window": tag_window.nothing_is_negative(stretch)
         and tag_window.the_tolerance_covers_laying_and_read_window(stretch),
+        "missed": the_antennas_lie_farther_apart_than_the_window_is_long(site),
         "split": split.limits_are_not_negative(split.Coupled(limits.split, 0, 0, 0))
         and leaves_whole_trains_alone(limits.split, surveyed.whole_mm_s2),
         "spacing": antenna_spacing.the_tolerance_covers_preset_and_read_window(track)
@@ -100,6 +108,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "odometry": are_sensors_lawful(limits.sensors, surveyed),
         "brake": is_brake_lawful(limits.train.brake),
         "tags and window": are_tags_lawful(limits.tags, limits.window, surveyed),
+        "missed": is_window_lawful(limits.window, limits.train.speeds.line_mm_s, limits.antennas_mm, surveyed),
         "split": is_split_lawful(limits.split, surveyed),
         "spacing": is_spacing_lawful(limits.spacing, surveyed),
         "reverse": limits.reverse.roll_back_mm >= 0,

@@ -54,7 +54,7 @@ def test_tags_close_to_each_other_leave_nothing_early() -> None:
 
 
 def test_no_tolerance_is_exact() -> None:
-    exact = WindowLimits(tolerance_mm=0, width_mm=0)
+    exact = WindowLimits(tolerance_mm=0, width_mm=0, tail_width_mm=0)
     found = [machine.judge(exact, machine.await_tag(5, 5), Way(True, mm, mm)) for mm in (4, 5, 6)]
     assert found == [Verdict.EARLY, Verdict.IN_WINDOW, Verdict.LATE]
 

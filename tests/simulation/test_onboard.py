@@ -26,7 +26,8 @@ ROLLS_MM_S = 3_500
 
 def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
     board = on_board(120_000, 500_000)
-    board.computer = replace(board.computer, spacing=replace(board.computer.spacing, checked=True))
+    spacing, motion = replace(board.computer.spacing, checked=True), board.computer.known.motion
+    board.computer = replace(board.computer, spacing=spacing, before=motion)
     assert board.line(True).fits
     known = board.computer.known
     rolled = replace(known, movement=replace(known.movement, reversed=True))

@@ -8,7 +8,7 @@ from dataclasses import replace
 from kernel.maps import Map
 from kernel.names import Block, Car, Point, TerminalLife, Train
 from kernel.terminal import Terminal
-from models.onboard.occupancy import Occupied, Rails
+from models.onboard.occupancy import Occupied, Place, Rails
 from proofs.onboard.occupancy import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.witnesses.stations import A1, A2, B1, EAST, ONE, PASSING_PLACE, T1, T2, THROAT, WEST, site_of
@@ -17,9 +17,16 @@ STATION = site_of(PASSING_PLACE)
 EACH_MM = 10
 """How long each block is; 10 mm are as good as 100 m."""
 IN_ORDER = (WEST, THROAT, ONE, EAST)
-LIES_IN = {EACH_MM * number + mm: block for number, block in enumerate(IN_ORDER) for mm in range(EACH_MM)}
+
+
+def place(mm: int) -> Place:
+    """Give the millimetre of rail with this number, from the west."""
+    return Place(str(mm))
+
+
+LIES_IN = {place(EACH_MM * number + mm): block for number, block in enumerate(IN_ORDER) for mm in range(EACH_MM)}
 POINT = min(STATION.layout.points_in[THROAT])
-SITE = Rails(STATION, LIES_IN, {POINT: frozenset({14, 15})})
+SITE = Rails(STATION, LIES_IN, {POINT: frozenset({place(14), place(15)})})
 LOCKED, FREE = Terminal(TerminalLife(0), None, None, False), Terminal(TerminalLife(0), None, None, True)
 AT: Mapping[Car, frozenset[Block]] = {
     A1: frozenset({WEST, THROAT}),
@@ -29,9 +36,9 @@ AT: Mapping[Car, frozenset[Block]] = {
 """The first train stands over the end of the west, its head in the throat; another stands on track one."""
 
 
-def stretch(first_mm: int, last_mm: int) -> frozenset[int]:
+def stretch(first_mm: int, last_mm: int) -> frozenset[Place]:
     """Give the millimetres from one to another, both among them."""
-    return frozenset(range(first_mm, last_mm + 1))
+    return frozenset(place(mm) for mm in range(first_mm, last_mm + 1))
 
 
 class Line(Play[Rails, Occupied]):
@@ -43,7 +50,7 @@ class Line(Play[Rails, Occupied]):
 
     def moves(
         self,
-        covers: Mapping[Train, frozenset[int]],
+        covers: Mapping[Train, frozenset[Place]],
         at: Mapping[Car, frozenset[Block]] = AT,
         terminals: Map[Point, Terminal] | None = None,
     ) -> bool:

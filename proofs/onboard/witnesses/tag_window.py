@@ -12,7 +12,9 @@ from models.onboard.units import NM_A_MM
 from proofs.onboard.tag_window import THEORY
 from proofs.onboard.witnesses.play import Play
 
-SITE = Stretch(limits=WindowLimits(tolerance_mm=1_513, width_mm=10_000), laying_mm=1_000, read_mm=513)
+SITE = Stretch(
+    limits=WindowLimits(tolerance_mm=1_513, width_mm=10_000, tail_width_mm=10_000), laying_mm=1_000, read_mm=513
+)
 AT_REST = Expecting(
     window=NONE_AWAITED,
     way_nm=0,
@@ -127,7 +129,7 @@ def the_odometer_is_lost() -> None:
         between.expects(PLANNED_MM)
     assert machine.judge(SITE.limits, machine.await_tag(5, 5), Way(True, 6, 5)) == Verdict.UNKNOWN, "crossed limits"
     edge = Way(True, -GREATEST_MM, GREATEST_MM)
-    widest = WindowLimits(tolerance_mm=0, width_mm=2 * GREATEST_MM)
+    widest = WindowLimits(tolerance_mm=0, width_mm=2 * GREATEST_MM, tail_width_mm=0)
     assert machine.judge(widest, machine.await_tag(5, 5), edge) == Verdict.IN_WINDOW
 
 

@@ -113,7 +113,7 @@ class Type:
             train=TrainLimits(BRAKE, SpeedTable(50_000, 50_000, 50_000), self.length_mm),
             reverse=ReverseLimits(roll_back_mm=2_000),
             split=self.split,
-            window=WindowLimits(tolerance_mm=2 * (LAID_MM + READ_MM), width_mm=1_000_000),
+            window=WindowLimits(tolerance_mm=2 * (LAID_MM + READ_MM), width_mm=1_000_000, tail_width_mm=25_000),
             tags=TagLimits(antenna_mm=ANTENNA_MM, error_mm=LAID_MM + READ_MM),
             spacing=SpacingLimits(tolerance_mm=PRESET_MM + 2 * READ_MM, width_mm=18_500),
             antennas_mm=self.length_mm - 2 * ANTENNA_MM,
