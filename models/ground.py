@@ -20,7 +20,8 @@ class Ground:
     ``leads``: for a route and a block it claims, every block that track leads to from there
     in the running direction of the route, for some position of the points (the block on the
     route's way among them), and how the points that this movement meets facing must lie for it
-    (the demands common to all ways from where the route comes in).
+    (the demands common to all ways from where the route comes in; in its start block from every track that a train may
+    stand on with the points there as the route needs them, see ``models.layouts.standing``).
     ``neighbours``: for a block, every block that it shares a boundary with.
     ``opens``: track from the first block to the second is open only if these points lie so
     (points that the movement meets facing; the demands common to all ways from one to the other).

@@ -10,6 +10,7 @@ from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Point, Position, Route, Tag, Train
 from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
+from models.layouts.beside import Spare
 from models.layouts.blocks import Blocks, demanded, exits, inward
 from models.layouts.distances import next_tag_mm
 from models.layouts.findings import Findings
@@ -29,8 +30,9 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
     """Everything that is known of a layout, from its track and the paths of its routes."""
     neighbours, opens = open_track(blocks)
     granted: list[Granted] = []
+    spare = Spare(blocks)
     for path in paths:
-        route = grant(blocks, path, findings)
+        route = grant(blocks, path, spare, findings)
         if route is not None:
             hold_flank(route, path.wanted.flank, blocks, opens, findings)
             granted.append(route)

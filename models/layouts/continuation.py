@@ -31,17 +31,20 @@ def with_continuations(layout: Layout, ground: Ground) -> tuple[Layout, Ground]:
     it begins in it needs those that its route needs, in the same positions: so a train that
     stands there on another leg is refused and not led over points that lie against it.  There is
     none where it would break an axiom: where track leads into the rest of the route from a block
-    that the whole route claims, or where trains that came another way would be led elsewhere.
+    that the whole route claims, or where trains that came another way would be led elsewhere; nor
+    where the block it begins in holds another track that no needed point closes.
     """
     rests = [rest for route in sorted(layout.routes) for rest in _rests(layout, route)]
     wider, ground_wider = _layout(layout, rests), _ground(layout, ground, rests)
-    sound = [rest for rest in rests if _holds(wider, ground_wider, rest.name)]
+    sound = [
+        rest for rest in rests if _holds(wider, ground_wider, rest.name) and _stands_on_its_track(layout, ground, rest)
+    ]
     return with_tag_lists(_layout(layout, sound)), _ground(layout, ground, sound)
 
 
 @dataclass(frozen=True)
 class Rest:
-    """What is left of a route for a train whose front stands in ``start``.
+    """What is left of a route for a train whose front stands in ``start``, having come from the block ``behind``.
 
     ``claims``: the blocks behind the start, overlap and all.  ``way``: from the start on.
     ``tags``: those still to be read, in order.
@@ -50,6 +53,7 @@ class Rest:
     name: Route
     route: Route
     start: Block
+    behind: Block
     claims: frozenset[Block]
     way: Mapping[Block, Block]
     tags: tuple[Tag, ...]
@@ -58,14 +62,14 @@ class Rest:
 def _rests(layout: Layout, route: Route) -> Iterable[Rest]:
     """What is left of a route from each block it covers but the destination, in running order."""
     way = layout.way[route]
-    block: Block | None = way.get(layout.start[route])
+    behind, block = layout.start[route], way.get(layout.start[route])
     while block is not None and block != layout.destination[route]:
         onward = _onward(way, block)
         tags = _tags_from(layout, route, block)
         name = Route(f"{route} from {block}")
         if tags and name not in layout.routes:
-            yield Rest(name, route, block, frozenset(onward) - {block}, _only(way, frozenset(onward)), tags)
-        block = way.get(block)
+            yield Rest(name, route, block, behind, frozenset(onward) - {block}, _only(way, frozenset(onward)), tags)
+        behind, block = block, way.get(block)
 
 
 def _onward(way: Mapping[Block, Block], block: Block) -> list[Block]:
@@ -191,6 +195,19 @@ def _holds(layout: Layout, ground: Ground, route: Route) -> bool:
         axioms.track_leads_along_the_way_or_is_turned(alone, ground)
         and axioms.a_flank_is_closed_or_held(alone, ground)
         and all(needs.get(point) == how for point, how in lies.items())
+    )
+
+
+def _stands_on_its_track(layout: Layout, ground: Ground, rest: Rest) -> bool:
+    """Whether what is left of a route closes every way out of its start, but its own and the one it came by.
+
+    Another track of that block would lead elsewhere a train that stands upon it (``models.layouts.standing``).
+    """
+    needs = _needs(layout, rest)
+    return all(
+        any(needs.get(point, at) != at for point, at in lies.items())
+        for target, lies in ground.opens.get(rest.start, {}).items()
+        if target not in (rest.behind, rest.way[rest.start])
     )
 
 

@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from kernel.names import Block, Point, Position
-from models.layouts.blocks import Blocks, inward, opposite, towards, walk
+from models.layouts.beside import Spare
+from models.layouts.blocks import Blocks
 from models.layouts.findings import Findings
 from models.layouts.following import Path
-from models.layouts.track import Cut, Heading
+from models.layouts.standing import standing
+from models.layouts.track import Heading
 
 Boundary = tuple[str, Block, Block]
 """A detector between two blocks, in running order."""
@@ -21,6 +23,7 @@ class Granted:
 
     ``entries``: for each claimed block, the headings a movement may begin it with.
     ``boundaries``: the detectors between claimed blocks in running order, with those blocks.
+    ``traps``, ``spare``: points beside its path in claimed blocks; another position of a trap would open a way onto it.
     """
 
     name: str
@@ -33,6 +36,8 @@ class Granted:
     released_with: dict[Point, Block] = field(default_factory=dict)
     released_after: dict[Block, Block] = field(default_factory=dict)
     flank: dict[Block, dict[Block, Point]] = field(default_factory=dict)
+    traps: set[Point] = field(default_factory=set)
+    spare: set[Point] = field(default_factory=set)
 
     @property
     def claims(self) -> list[Block]:
@@ -45,11 +50,11 @@ class Granted:
         return dict(zip(self.claims, self.claims[1:], strict=False))
 
 
-def grant(blocks: Blocks, path: Path, findings: Findings) -> Granted | None:
+def grant(blocks: Blocks, path: Path, spare: Spare, findings: Findings) -> Granted | None:
     """The route as granted; none, with a remark or a violation, where there is nothing to grant."""
     name, chain = path.wanted.name, [*path.blocks, *path.overlap]
     _say_what_does_not_release(path, findings)
-    _say_what_is_off_the_path(path, findings)
+    named = _named_beside(blocks, path, findings)
     if len(path.blocks) < 2:
         findings.remark((name,), f"route '{name}' ends in the block it starts in: it grants nothing and is left out")
         return None
@@ -63,64 +68,58 @@ def grant(blocks: Blocks, path: Path, findings: Findings) -> Granted | None:
     granted = Granted(name, path.blocks[0], path.blocks[1:], path.overlap)
     granted.boundaries = [(mark, chain[at], chain[at + 1]) for at, (mark, _) in enumerate(crossed)]
     granted.entries = {blocks.of[heading[0]]: [heading] for _, heading in crossed}
-    _begin_in_start(blocks, path, granted, findings)
+    there = {point: at for point, at in named.items() if blocks.stands_in[point] == granted.start}
+    stands = standing(blocks, path, there, findings)
+    granted.entries[granted.start] = stands.entries
+    for point, position in sorted(stands.needs.items()):
+        granted.needs[point], granted.released_with[point] = position, granted.start
     for block in chain[1:]:
-        for point in sorted(blocks.points_in[block]):
-            passed = path.points.get(block, {}).get(point)
-            granted.needs[point] = passed if passed is not None else spare_position(blocks, point)
-            granted.released_with[point] = block
+        granted.needs |= path.points.get(block, {})
+        _lay_beside(granted, block, spare, path, named, findings)
+        granted.released_with |= dict.fromkeys(blocks.points_in[block], block)
     _release(path, granted)
     return granted
 
 
-def spare_position(blocks: Blocks, point: Point) -> Position:
-    """How a point lies that a route claims and does not pass: the first position by name, for every route."""
-    return Position(min(blocks.segments.station.junctions[point].kind.positions))
-
-
-def _begin_in_start(blocks: Blocks, path: Path, granted: Granted, findings: Findings) -> None:
-    """Where a train in the start block may begin, and the points it meets on the way out."""
-    start = granted.start
-    if path.from_stop:
-        granted.entries[start] = [path.entered]
-        demands = dict(path.points.get(start, {}))
-    else:
-        goal = _out_of_start(blocks, path)
-        others = [heading for heading in inward(blocks, start) if opposite(heading) != goal]
-        granted.entries[start] = [h for h in others if goal in walk(blocks.segments, [h])]
-        demands = _start_demands(blocks, granted, goal, findings)
-    for point, position in demands.items():
-        granted.needs[point] = position
-        granted.released_with[point] = start
-
-
-def _out_of_start(blocks: Blocks, path: Path) -> Heading:
-    """The heading out of the start block, at the first detector crossed."""
-    behind = blocks.segments.at[opposite(path.crossed[0][1])]
-    assert isinstance(behind, Cut)
-    return opposite(behind.beyond)
-
-
-def _start_demands(blocks: Blocks, granted: Granted, goal: Heading, findings: Findings) -> dict[Point, Position]:
-    """The points that a train in the start block meets facing before the entry, as they must lie.
-
-    Each lies so that it leads there from every leg that it is met at: the first such position by name.
-    """
-    leading: dict[Point, dict[str, set[str]]] = {}
-    for (junction, port, _), positions in towards(blocks.segments, granted.entries[granted.start], goal).items():
-        leading.setdefault(Point(junction), {}).setdefault(port, set()).update(positions)
-    found: dict[Point, Position] = {}
-    for point, by_port in sorted(leading.items()):
-        agreed = set.intersection(*by_port.values())
-        found[point] = Position(min(agreed or set.union(*by_port.values())))
-        if not agreed:
-            wanted = ", ".join(f"from {port} '{min(positions)}'" for port, positions in sorted(by_port.items()))
+def _lay_beside(
+    granted: Granted, block: Block, spare: Spare, path: Path, named: Mapping[Point, Position], findings: Findings
+) -> None:
+    """The points of a claimed block that the path does not pass, as the route names them, else as they close it."""
+    for point, beside in sorted(spare.of(block, granted.entries[block][0], path.points.get(block, {})).items()):
+        given = named.get(point)
+        granted.needs[point] = given or beside.position
+        (granted.traps if beside.is_trap else granted.spare).add(point)
+        if beside.is_trap and granted.needs[point] not in beside.closing:
+            closed = ", ".join(f"'{at}'" for at in sorted(beside.closing))
             text = (
-                f"route '{granted.name}': no position of {findings.point_word} '{point}' leads out of its start block "
-                f"'{granted.start}' from every side: {wanted}"
+                f"route '{granted.name}' names {findings.point_word} '{point}' in '{given}', which opens a way onto it"
             )
-            findings.violation("a start block leads out one way", (granted.name, point), text)
-    return found
+            findings.remark((granted.name, point), f"{text}: {closed} closes it")
+
+
+def _named_beside(blocks: Blocks, path: Path, findings: Findings) -> dict[Point, Position]:
+    """The positions that a route names for points beside its path, in blocks that it claims.
+
+    A position for any other junction that it does not pass is a violation, and so is one that its flank contradicts.
+    """
+    name, claims = path.wanted.name, {*path.blocks, *path.overlap}
+    found: dict[Point, Position] = {}
+    for junction in sorted(set(path.wanted.positions) - path.junctions):
+        position = path.wanted.positions[junction]
+        what = f"route '{name}' gives a position for {findings.point_word} '{junction}', which"
+        if blocks.stands_in.get(Point(junction)) not in claims:
+            text = f"{what} is not on its path nor in its blocks"
+        elif position not in blocks.segments.station.junctions[junction].kind.positions:
+            text = f"{what} cannot lie in '{position}'"
+        else:
+            found[Point(junction)] = Position(position)
+            continue
+        findings.violation("a route's positions are of its points", (name, junction), text)
+    passed = {point: at for points in path.points.values() for point, at in points.items()}
+    for junction, position in sorted(path.wanted.flank.items()):
+        if blocks.stands_in[Point(junction)] in claims and passed.get(Point(junction), position) == position:
+            found.setdefault(Point(junction), Position(position))
+    return {point: at for point, at in found.items() if point not in passed}
 
 
 def _release(path: Path, granted: Granted) -> None:
@@ -148,14 +147,6 @@ def _say_what_does_not_release(path: Path, findings: Findings) -> None:
             findings.violation("a release detector lies within its route", (name, mark), text)
 
 
-def _say_what_is_off_the_path(path: Path, findings: Findings) -> None:
-    """A position given for a junction that the route does not pass."""
-    name = path.wanted.name
-    for junction in sorted(set(path.wanted.positions) - path.junctions):
-        text = f"route '{name}' gives a position for {findings.point_word} '{junction}', which is not on its path"
-        findings.violation("a route's positions are of its points", (name, junction), text)
-
-
 def hold_flank(
     granted: Granted,
     flank: Mapping[str, str],
@@ -163,14 +154,17 @@ def hold_flank(
     opens: Mapping[Block, Mapping[Block, Mapping[Point, Position]]],
     findings: Findings,
 ) -> None:
-    """Hold points off the path so that no vehicle comes from the side; each is released with what it shields."""
+    """Hold points off the path so that no vehicle comes from the side; each is released with what it shields.
+
+    Of several covered blocks that one shields it is released with the last, so that it is held as long as any of them.
+    """
     for junction, wanted in sorted(flank.items()):
         point, position = Point(junction), Position(wanted)
         beside = blocks.stands_in[point]
         if beside in granted.claims:
             if granted.needs.get(point) != position:
                 point_text = f"{findings.point_word} '{point}' in '{position}'"
-                text = f"route '{granted.name}' wants flank {point_text} but claims its block"
+                text = f"route '{granted.name}' wants flank {point_text} but needs it in another position"
                 findings.violation("a flank point lies off its route", (granted.name, junction), text)
             continue
         shielded = [
@@ -183,5 +177,6 @@ def hold_flank(
             text = f"route '{granted.name}': {point_text} keeps nothing out of its blocks"
             findings.violation("a flank point shields its route", (granted.name, junction), text)
             continue
-        granted.needs[point], granted.released_with[point] = position, shielded[0]
-        granted.flank.setdefault(beside, {})[shielded[0]] = point
+        last = [block for block in shielded if block in granted.covers][-1:] or shielded[-1:]
+        granted.needs[point], granted.released_with[point] = position, last[0]
+        granted.flank.setdefault(beside, {})[last[0]] = point

@@ -244,21 +244,15 @@ QB = {}
 [routes."in"]
 from = "K1"
 direction = "forward"
-to = "L1"
+to = "M2"
 points = { PA = "normal", QA = "normal" }
-release_at = ["E1"]
-[routes."round"]
-from = "L1"
-direction = "forward"
-to = "E2"
-points = { PB = "normal" }
-release_at = ["M2"]
+release_at = ["E1", "L1"]
 [routes."out"]
-from = "E2"
+from = "M2"
 direction = "forward"
 to = "east out"
-points = { QB = "normal" }
-release_at = ["N1"]
+points = { PB = "normal", QB = "normal" }
+release_at = ["E2", "N1"]
 [routes."cross"]
 from = "K0"
 direction = "forward"
@@ -404,7 +398,7 @@ ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depa
 ROUND = Route("round")
 NORTH_TO_MIDDLE, MIDDLE_TO_SOUTH = Route("north to middle"), Route("middle to south")
 MIDDLE_TO_NORTH = Route("middle to north")
-INTO_THE_LOOP, ROUND_THE_LOOP, OUT_OF_THE_LOOP, CROSS = Route("in"), Route("round"), Route("out"), Route("cross")
+INTO_THE_LOOP, OUT_OF_THE_LOOP, CROSS = Route("in"), Route("out"), Route("cross")
 LEADS: Mapping[str, Route] = {
     PASSING_PLACE: WEST_TO_ONE,
     TERMINUS: ARRIVE_1,

@@ -390,6 +390,8 @@ class Route:
     """From where it is entered to the end of its overlap; from the end of the first block if entered at an end."""
     comes_in: dict[str, Place] = field(default_factory=dict)
     """Block -> where the path comes into it."""
+    stands: set[Place] = field(default_factory=set)
+    """Where trains that may stand in its start block have come into that."""
     passed: dict[str, str] = field(default_factory=dict)
     """Points on the path, overlap included, as they must lie."""
     faced: set[str] = field(default_factory=set)
@@ -435,16 +437,9 @@ def leads(network: Network, route: Route, block: str) -> dict[str, dict[str, str
 
     With each, what all ways there want of the points that they meet facing, from where the route comes in.
     """
-    ways = network.ways(block)
-    if block == route.start and not route.from_end:
-        at = network.name_at(route.entry)
-        mouths = {way.mouth for way in ways if way.out == at}
-    elif block == route.start:
-        mouths = {route.entry}
-    else:
-        mouths = {route.comes_in[block]}
+    mouths = route.stands if block == route.start else {route.comes_in[block]}
     found: dict[str, dict[str, str]] = {}
-    for way in ways:
+    for way in network.ways(block):
         if way.mouth in mouths and way.into is not None:
             known = found.setdefault(way.into, way.demands)
             found[way.into] = common(known, way.demands)
@@ -454,27 +449,6 @@ def leads(network: Network, route: Route, block: str) -> dict[str, dict[str, str
 def common(one: dict[str, str], other: dict[str, str]) -> dict[str, str]:
     """What both want alike."""
     return {point: position for point, position in one.items() if other.get(point) == position}
-
-
-def start_demands(network: Network, route: Route) -> tuple[dict[str, str], list[Finding]]:
-    """The points of the start block that a movement towards the entry boundary meets facing, as it needs them.
-
-    Where more than one position leads there from every leg that it is met at, it is the first by name.
-    """
-    at = network.name_at(route.entry)
-    leading: dict[str, dict[str, set[str]]] = {}
-    for way in network.ways(route.start):
-        for passing in way.passed if way.out == at else ():
-            if passing.facing:
-                leading.setdefault(passing.junction, {}).setdefault(passing.leg, set()).add(passing.position)
-    found: dict[str, str] = {}
-    clashes: list[Finding] = []
-    for point, by_leg in leading.items():
-        agreed = set.intersection(*by_leg.values())
-        found[point] = min(agreed) if agreed else min(set.union(*by_leg.values()))
-        if not agreed:
-            clashes.append(Finding("a start block leads out one way", (route.name, point)))
-    return found, clashes
 
 
 def bent_back(network: Network) -> list[Finding]:

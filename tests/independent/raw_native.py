@@ -22,8 +22,8 @@ from tests.independent.raw_graph import (
     bent_back,
     led_astray,
     released,
-    start_demands,
 )
+from tests.independent.raw_points import lay_points, named_beside
 
 KINDS: dict[str, Joins] = {
     "turnout": {"normal": (("tip", "normal"),), "reverse": (("tip", "reverse"),)},
@@ -129,22 +129,17 @@ class _Walk:
         else:
             route.start = network.block_of[network.piece_behind(route.entry)]
         way = names if route.from_end else [route.start, *names]
+        named = named_beside(network, route, self.points, passed)
+        for point in self.points:
+            if point not in passed and point not in named:
+                self.violates("a route's positions are of its points", point)
         twice = sorted({block for block in way if way.count(block) > 1})
         for block in twice:
             self.violates("a route passes a block once", *network.ends(block))
         if twice:
             return
-        for point in self.points:
-            if point not in passed:
-                self.violates("a route's positions are of its points", point)
-        claimed = route.covers + route.overlap
-        for point in (point for block in claimed for point in network.points_in.get(block, ())):
-            route.needs[point] = min(network.junctions[point].joins)
-        route.needs |= passed
-        if not route.from_end:
-            wanted, clashes = start_demands(network, route)
-            self.found.violations += clashes
-            route.needs = wanted | route.needs
+        flank = named_beside(network, route, row.get("flank", {}), passed)
+        self.found.violations += lay_points(network, route, flank | named)
         for boundary in row.get("release_at", []):
             if boundary == row["to"]:
                 self.found.remarks.append(Finding("releases at its exit", (route.name, boundary)))

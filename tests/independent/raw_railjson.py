@@ -24,8 +24,8 @@ from tests.independent.raw_graph import (
     bent_back,
     led_astray,
     released,
-    start_demands,
 )
+from tests.independent.raw_points import lay_points, named_beside
 
 BUILT_IN: dict[str, Joins] = {
     "link": {"STATIC": (("A", "B"),)},
@@ -108,8 +108,6 @@ class _Walk:
         else:
             track, at = self.network.cut(entry["id"])
         self.route = Route(row["id"], Place(track, at, heading), from_end=entry["type"] == "BufferStop")
-        self.passed: list[tuple[str, str, str]] = []
-        """Point, position, block it stands in."""
         self.run_mm = 0
         self.here = self.came_in = self.route.entry
         self.blocks: list[tuple[str, int, int]] = []
@@ -126,15 +124,16 @@ class _Walk:
         if not self._to_exit():
             return
         route, row = self.route, self.row
-        for switch in self.directions:
-            if switch not in self.crossed:
-                self.violates("a route's positions are of its points", switch)
         names = [name for name, _, _ in self.blocks]
         if route.from_end:
             route.start, route.covers = names[0], names[1:]
         else:
             before = self.network.piece_behind(route.entry)
             route.start, route.covers = self.network.block_of[before], names
+        named = named_beside(self.network, route, self.directions, self.crossed)
+        for switch in self.directions:
+            if switch not in self.crossed and switch not in named:
+                self.violates("a route's positions are of its points", switch)
         route.length_mm = self.run_mm - (self.blocks[0][2] if route.from_end else 0)
         route.spans = {name: (low, high) for name, low, high in self.blocks}
         self._release(row["release_detectors"])
@@ -144,7 +143,7 @@ class _Walk:
             self.found.remarks.append(Finding("grants nothing", (route.name,)))
             return
         route.released_after = released(route, row["release_detectors"])
-        self._points()
+        self.found.violations += lay_points(self.network, route, named)
         self.found.routes[route.name] = route
         self.found.violations += led_astray(self.network, route)
 
@@ -160,7 +159,6 @@ class _Walk:
                 self.run_mm += abs((self.network.lengths[end[0]] if end[1] else 0) - self.here.mm)
                 self.crossed.add(name)
                 if self.network.junctions[name].moves:
-                    self.passed.append((name, position, self.block_ahead(event.place)))
                     self.route.passed[name] = position
                     self.route.faced |= {name} if event.passing.facing else set()
             elif self._comes_to(event, exit_id):
@@ -199,18 +197,6 @@ class _Walk:
                 self.found.remarks.append(Finding("releases at its exit", (self.route.name, name)))
             elif name not in self.route.inside:
                 self.violates("a release detector lies within its route", name)
-
-    def _points(self) -> None:
-        route = self.route
-        for block in route.covers:
-            for point in self.network.points_in.get(block, ()):
-                route.needs[point] = min(self.network.junctions[point].joins)
-        claimed = {*route.covers, *([route.start] if route.from_end else [])}
-        route.needs |= {point: position for point, position, block in self.passed if block in claimed}
-        if not route.from_end:
-            wanted, clashes = start_demands(self.network, route)
-            self.found.violations += clashes
-            route.needs = wanted | route.needs
 
     def _twice(self, names: list[str]) -> bool:
         """Whether it comes into a block again; what such a route needs says nothing then."""

@@ -130,7 +130,8 @@ def test_made_up_network_is_seen_alike() -> None:
     for rule in (
         "a release detector lies within its route",
         "a route passes a block once",
-        "a start block leads out one way",
+        "a route says where its train stands",
+        "the tracks of a start block are told apart",
         "tags_of_a_boundary_are_partners",
         "track_leads_along_the_way_or_is_turned",
     ):

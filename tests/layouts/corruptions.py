@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from tests.independent import raw_native
+
 Data = dict[str, Any]
 
 
@@ -71,12 +73,14 @@ def unknown_position(data: Data, chance: random.Random) -> Corruption | None:
 
 def stray_position(data: Data, chance: random.Random) -> Corruption | None:
     name, route = chance.choice(sorted(data["routes"].items()))
-    stray = sorted(set(data.get("points", ())) - set(route.get("points", {})) - set(route.get("flank", {})))
+    walked = raw_native.enumerate_data(data)
+    there = {point for block in walked.routes[name].claims for point in walked.network.points_in.get(block, ())}
+    stray = sorted(set(data.get("points", ())) - there - set(route.get("flank", {})))
     if not stray:
         return None
     point = chance.choice(stray)
     route["points"] = route.get("points", {}) | {point: "normal"}
-    why = "a good layout gives a position for every point on the path, so this one is not on it"
+    why = "a route has no business with a point outside of its blocks that is not its flank"
     return Corruption(f"{name}: stray {point}", why, data, (point,))
 
 

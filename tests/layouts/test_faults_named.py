@@ -129,8 +129,8 @@ def test_two_boundaries_that_part_nothing_are_told_apart() -> None:
     assert named == [("x",), ("y",)]
 
 
-def test_a_slip_in_the_start_block_lies_open_to_every_leg() -> None:
-    """Both ways of each leg lead to the entry, by positions that differ from leg to leg."""
+def test_a_route_says_over_which_legs_its_train_comes_to_its_entry() -> None:
+    """Over a point that it trails, and a slip whose both legs lead there by either position."""
     ends = {"A1": ("one", "END"), "A2": ("two", "END"), "B1": ("up", "BEGIN"), "B2": ("down", "BEGIN")}
     joined = {"A": ("out", "BEGIN"), "B1": ("up", "END"), "B2": ("down", "END")}
 
@@ -143,19 +143,23 @@ def test_a_slip_in_the_start_block_lies_open_to_every_leg() -> None:
     data["switches"] += [switch("slip", "double_slip_switch", ends), switch("join", "point_switch", joined)]
     marks = (("m1", "one"), ("m2", "two"), ("entry", "out"), ("beyond", "out"))
     data["detectors"] += [{"id": m, "track": t, "position": 80.0 if m == "beyond" else 50.0} for m, t in marks]
-    data["routes"].append(
-        data["routes"][0]
-        | {
-            "id": "off",
-            "entry_point": {"type": "Detector", "id": "entry"},
-            "exit_point": {"type": "Detector", "id": "beyond"},
-            "release_detectors": [],
-            "switches_directions": {},
-        }
-    )
-    found = of_rule(import_railjson("slip", data, ("T1",)), "a start block leads out one way")
-    assert [violation.elements for violation in found] == [("off", "slip")]
-    assert "from A1 'A1_B1', from A2 'A2_B1'" in found[0].text
+    route = data["routes"][0] | {
+        "id": "off",
+        "entry_point": {"type": "Detector", "id": "entry"},
+        "exit_point": {"type": "Detector", "id": "beyond"},
+        "release_detectors": [],
+    }
+    data["routes"].append(route)
+    for said, unsaid in (({}, ["join"]), ({"join": "A_B1"}, ["slip"]), ({"join": "A_B1", "slip": "A2_B1"}, [])):
+        route["switches_directions"] = said
+        imported = import_railjson("slip", data, ("T1",))
+        found = of_rule(imported, "a route says where its train stands")
+        assert [violation.elements for violation in found] == [("off", point) for point in unsaid]
+        if not unsaid:
+            assert imported.layout.needs[Route("off")] == said
+    route["switches_directions"] = {"join": "A_B2", "slip": "A1_B1"}
+    found = of_rule(import_railjson("slip", data, ("T1",)), "a route says where its train stands")
+    assert [violation.elements for violation in found] == [("off", "join", "slip")]
 
 
 def rows_up(*paths: tuple[str, list[str], list[str]]) -> list[dict[str, object]]:

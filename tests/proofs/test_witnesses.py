@@ -74,15 +74,19 @@ def test_continuations_keep_the_axioms(path: Path) -> None:
     assert [name for name, axiom in AXIOMS.items() if not axiom(layout, ground)] == []
 
 
+TWO_TRACKS = frozenset({"crossing", "diamond"})
+"""Blocks of samples with two tracks that cross: it is not known on which of them a train stands there."""
+
+
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda path: path.name)
-def test_a_sample_has_a_way_on_from_every_block_inside_a_route(path: Path) -> None:
+def test_a_sample_has_a_way_on_from_every_block_of_one_track_inside_a_route(path: Path) -> None:
     imported = load(path)
     layout, _ = with_continuations(imported.layout, imported.ground)
     inside = {
         (route, block)
         for route in imported.layout.routes
         for block in imported.layout.covers[route]
-        if block != imported.layout.destination[route]
+        if block != imported.layout.destination[route] and block not in TWO_TRACKS
     }
     assert len(layout.routes) == len(imported.layout.routes) + len(inside)
     for route, block in inside:

@@ -43,7 +43,7 @@ def with_overlaps(
             names = [source.attribute(overlap, "id") for overlap in overlaps]
             text = f"route '{name}' has {len(names)} overlaps to choose from: it always claims the first, '{names[0]}'"
             findings.remark([name, *names], text)
-        found.append(_with(source, segments, marks, each, overlaps[0], findings) if overlaps else each)
+        found.append(_with(source, segments, marks, each, overlaps[0]) if overlaps else each)
     timed = sum(1 for _ in source.all("overlapRelease"))
     if timed:
         text = f"{timed} of overlapRelease are not read: an overlap is free once its train has told that it stands"
@@ -64,19 +64,13 @@ def _routes_of(source: Document, overlap: Element, routes: Mapping[str, Ends]) -
     return [name for name, (_, _, last) in routes.items() if source.attribute(last, "id") == exit_of]
 
 
-def _with(
-    source: Document, segments: Segments, marks: Marks, route: Followed, overlap: Element, findings: Findings
-) -> Followed:
+def _with(source: Document, segments: Segments, marks: Marks, route: Followed, overlap: Element) -> Followed:
     """One route with its overlap."""
     given = dict(given_positions(source, overlap, segments))
     way = _way(source, segments, marks, route, overlap, given)
-    idle = sorted(set(given) - set(way.positions))
-    if idle:
-        name = source.attribute(overlap, "id")
-        text = f"overlap '{name}' names points that are not on its way: {', '.join(idle)}"
-        findings.remark([name, *idle], text)
     positions = {**way.positions, **route.wanted.positions}
-    return replace(route, wanted=replace(route.wanted, overlap=way.to, positions=positions))
+    flank = {**{point: at for point, at in given.items() if point not in positions}, **route.wanted.flank}
+    return replace(route, wanted=replace(route.wanted, overlap=way.to, positions=positions, flank=flank))
 
 
 def _way(

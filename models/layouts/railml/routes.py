@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
@@ -17,6 +17,7 @@ MOST_WAYS = 64
 MOST_STEPS = 20_000
 NOT_READ = ("routeRelation", "combinedRoute")
 POSITIONS = ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition", "requiresSwitchInPosition")
+DEPARTURE = ("switchPositionInDepartureTrack",)
 
 Ends = tuple[Element, Element, Element]
 """A route, and the elements on the track that it begins and ends at."""
@@ -103,13 +104,16 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
         what = f"{len(ways)} ways lead from '{first}' to '{last}'"
         raise source.bad(route, what, "name the position of each facing point")
     (way,) = ways
-    idle = [point for point in given if point not in way.positions]
-    if idle:
-        findings.remark([name, *idle], f"route '{name}' names points that are not on its way: {', '.join(idle)}")
     if marks.side.get(last, way.arrives[1]) != way.arrives[1]:
         findings.remark([name, last], f"route '{name}' ends at '{last}', which speaks to trains the other way")
     parts = tuple(mark for mark in way.passed if mark in marks.parts)
-    wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, dict(way.positions), parts)
+    departing = dict(given_positions(source, route, segments, DEPARTURE))
+    positions, flank = {**departing, **way.positions}, {p: at for p, at in given.items() if p not in way.positions}
+    against = {p: at for p, at in departing.items() if positions[p] != at or given.get(p, at) != at}
+    for point, at in against.items():
+        text = f"route '{name}' wants switch '{point}' in '{at}' in its departure track, and otherwise as well"
+        findings.violation("a route's positions are of its points", [name, point], text)
+    wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, positions, parts, flank=flank)
     return Followed(wanted, way)
 
 
@@ -126,13 +130,15 @@ def _side(source: Document, segments: Segments, marks: Marks, entry: Element) ->
     return sides[0]
 
 
-def given_positions(source: Document, told: Element, segments: Segments) -> Iterator[tuple[str, str]]:
-    """The positions that a route or an overlap names for points.
+def given_positions(
+    source: Document, told: Element, segments: Segments, kinds: Sequence[str] = POSITIONS
+) -> Iterator[tuple[str, str]]:
+    """The positions that a route or an overlap names for points; those of its departure track are of another kind.
 
     Raises:
         BadInput: it is no point, or has no such position.
     """
-    for kind in POSITIONS:
+    for kind in kinds:
         for item in source.all(kind, told):
             refers = source.first("refersToSwitch", item)
             if refers is None:
@@ -148,7 +154,10 @@ def given_positions(source: Document, told: Element, segments: Segments) -> Iter
 
 
 def _derived(segments: Segments, marks: Marks) -> Iterator[Followed]:
-    """From each signal every way to the next one that speaks to the same trains, or to the end of track."""
+    """From each signal every way to the next one that speaks to the same trains, or to the end of track.
+
+    Where trains come to a signal over points that they trail, there is a route for each way that they come.
+    """
     speaking = {(marks.of[signal], side) for signal, side in marks.side.items() if signal in marks.signals}
 
     def ends(mark: str, heading: Heading) -> bool:
@@ -158,12 +167,19 @@ def _derived(segments: Segments, marks: Marks) -> Iterator[Followed]:
         if side not in segments.beside[entry]:
             continue
         ways = ways_from(segments, entry, side, ends)
+        behind = [dict(way.positions) for way in ways_from(segments, entry, 1 - side, lambda *_: True)]
         for way in ways:
             twin = sum(other.to == way.to for other in ways) > 1
-            over = ", ".join(f"{point} {position}" for point, position in sorted(way.positions.items()))
-            name = f"{entry} - {way.to}" + (f" over {over}" if twin and over else "")
-            parts = tuple(mark for mark in way.passed if mark in marks.parts)
-            yield Followed(Wanted(name, f"derived route '{name}'", entry, side, way.to, way.positions, parts), way)
+            for standing in behind if len(behind) > 1 else [{}]:
+                over = f" over {_listed(way.positions)}" if twin and way.positions else ""
+                name = f"{entry} - {way.to}{over}" + (f" from {_listed(standing)}" if standing else "")
+                parts = tuple(mark for mark in way.passed if mark in marks.parts)
+                positions = {**standing, **way.positions}
+                yield Followed(Wanted(name, f"derived route '{name}'", entry, side, way.to, positions, parts), way)
+
+
+def _listed(positions: Mapping[str, str]) -> str:
+    return ", ".join(f"{point} {position}" for point, position in sorted(positions.items()))
 
 
 def ways_from(segments: Segments, mark: str, side: int, ends: Callable[[str, Heading], bool]) -> list[Way]:

@@ -8,7 +8,7 @@ one train and lets another one stand or run, the rails of the two are put beside
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -16,10 +16,11 @@ from kernel import recovery, release, route_setting
 from kernel.centre import Centre
 from kernel.claims import held_refusal
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Cause, Epoch, Read, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.names import Block, Cause, Epoch, Point, Position, Read, Route, Run, Serial, Tag, Train, UnitLife
 from models.layouts import Imported
 from tests.independent.layouts.rails import Back, Line, Stretch, Survey, Swept, run, ways_back
 from tests.independent.raw_graph import Place
+from tests.independent.raw_points import far_end, turned
 
 LENGTHS_MM = (20_000, 150_000, 600_000)
 ONE, OTHER = Train("T1"), Train("T2")
@@ -119,9 +120,16 @@ class Driver:
         return self.found
 
     def go_on(self, one: Route, arrived: Step, other: Route) -> None:
-        """A train that has come by one route is granted another, then or after a restart: it leaves as that begins."""
+        """A train that has come by one route is granted another, then or at start-up: it leaves as that begins.
+
+        At start-up no point of its block lies against the track that it stands on (`trains_start_apart`).
+        """
         network, line, onward = self.survey.network, self.survey.lines[one], self.survey.lines[other]
-        again = self.standing(EMPTY, ONE, frozenset({self.layout.start[other]}), other)
+        start = self.layout.start[other]
+        lie = {
+            Point(p): Position(at) for p, at in line.positions.items() if self.layout.stands_in.get(Point(p)) == start
+        }
+        again = self.standing(EMPTY, ONE, frozenset({start}), other, lie)
         came, told = (
             self.granted(centre, other, base) is not None for centre, base in ((arrived.centre, arrived.route), again)
         )
@@ -181,16 +189,26 @@ class Driver:
         return found
 
     def leave_start(self, name: Route, line: Line, needs: dict[str, str], *, from_end: bool) -> None:
-        """Points between where the train may stand and its first boundary are needed, and lie for it."""
-        if from_end:
-            return
-        for back in ways_back(self.survey.network, line.entry):
-            gone = run(self.survey.network, back.at, needs, line.until)
-            if gone.wrong and "is not held" in gone.wrong:
-                self.hazard("a point before the entry is not held", gone.wrong, name)
-            elif gone.wrong or self.survey.network.name_at(line.entry) not in gone.names:
-                where = gone.wrong or "it leaves its start elsewhere"
+        """On whatever track of its start block a train stands: if it is granted the route, it leaves as that begins.
+
+        No point of the block lies against the track that it stands on; all between it and the boundary are held.
+        """
+        network = self.survey.network
+        mouth = line.entry if from_end else turned(line.entry)
+        for way in network.ways(network.block_of[network.piece_ahead(mouth)]):
+            passed = {p.junction: p.position for p in way.passed if network.junctions[p.junction].moves}
+            lie = {Point(point): Position(at) for point, at in passed.items()}
+            centre, base = self.standing(EMPTY, ONE, frozenset({self.layout.start[name]}), name, lie)
+            if self.granted(centre, name, base) is None:
+                continue
+            self.found.counts["tracks of start blocks"] += 1
+            where = f"from {way.mouth.track} to {way.out or 'where track ends'}"
+            if mouth not in (way.mouth, turned(far_end(network, way))):
                 self.hazard("led elsewhere from its start", where, name)
+            elif not passed.keys() <= needs.keys():
+                self.hazard(
+                    "a point before the entry is not held", f"{min(passed.keys() - needs.keys())}, {where}", name
+                )
 
     def steps(
         self,
@@ -240,12 +258,22 @@ class Driver:
 
     # ---- the kernel
 
-    def standing(self, centre: Centre, train: Train, blocks: frozenset[Block], route: Route) -> tuple[Centre, Run]:
-        """A train that has told after a restart that it stands in these blocks; points there lie as a route needs."""
+    def standing(
+        self,
+        centre: Centre,
+        train: Train,
+        blocks: frozenset[Block],
+        route: Route,
+        lie: Mapping[Point, Position] = {},
+    ) -> tuple[Centre, Run]:
+        """A train that has told after a restart that it stands in these blocks.
+
+        Points there are told to lie as a route needs, but for those that are known to lie otherwise.
+        """
         layout, base = self.layout, Run(Serial(centre.newest + 1), train, LIFE, Route(""))
         centre = recovery.account_for(layout, centre, blocks, base, Cause.RECOVERED)
         for point, position in layout.needs[route].items():
-            centre = recovery.adopt_point(layout, centre, base, point, position)
+            centre = recovery.adopt_point(layout, centre, base, point, lie.get(point, position))
         return centre, base
 
     def granted(self, centre: Centre, name: Route, base: Run) -> tuple[Centre, Run] | None:

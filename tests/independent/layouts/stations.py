@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Collection
 from typing import Any
 
-from tests.independent.raw_graph import Place
+from tests.independent.layouts.rails import ways_back
+from tests.independent.raw_graph import Network, Place
 from tests.independent.raw_railjson import network_of
 from tests.independent.world.drawn import walks
 
@@ -72,7 +74,10 @@ def _places(length: int, chance: random.Random) -> list[float]:
 
 
 def _routes(data: dict[str, Any], chance: random.Random) -> list[dict[str, Any]]:
-    """Some of all routes from detectors, either way, over one to three blocks."""
+    """Some of all routes from detectors, either way, over one to three blocks.
+
+    Each says how the points lie that its train comes over to its entry, and mostly those beside as well.
+    """
     network, found = network_of(data), []
     kinds = {stop["id"]: "BufferStop" for stop in data["buffer_stops"]}
     for detector in data["detectors"]:
@@ -86,8 +91,21 @@ def _routes(data: dict[str, Any], chance: random.Random) -> list[dict[str, Any]]
                         "entry_point_direction": "START_TO_STOP" if heading > 0 else "STOP_TO_START",
                         "exit_point": {"type": kinds.get(met[-1], "Detector"), "id": met[-1]},
                         "release_detectors": chance.sample(met[:-1], chance.randint(0, len(met) - 1)),
-                        "switches_directions": points,
+                        "switches_directions": {**_standing(network, here, chance), **points},
                     }
                 )
     chosen = chance.sample(found, min(len(found), MOST_ROUTES))
     return [{**route, "id": f"r{number}"} for number, route in enumerate(chosen)]
+
+
+def _standing(network: Network, entry: Place, chance: random.Random) -> dict[str, str]:
+    """How the points of the block before an entry lie for a train that stands on a track of it."""
+    there = network.points_in.get(network.block_of[network.piece_behind(entry)], ())
+    beside = {point: chance.choice(sorted(network.junctions[point].joins)) for point in there if chance.random() < 0.8}
+    backs = ways_back(network, entry)
+    return beside | dict(chance.choice(backs).positions) if backs else beside
+
+
+def without(data: dict[str, Any], names: Collection[str]) -> dict[str, Any]:
+    """A station without some of its routes."""
+    return {**data, "routes": [route for route in data["routes"] if route["id"] not in names]}

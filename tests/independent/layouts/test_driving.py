@@ -9,6 +9,7 @@ import json
 import random
 from collections import Counter
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -17,8 +18,8 @@ from models.layouts import check, load, load_text
 from tests.independent.files import OTHERS, ROOT, SAMPLES, path_of
 from tests.independent.layouts.driving import Driver, Found
 from tests.independent.layouts.mutants import RAILML
-from tests.independent.layouts.stations import station
-from tests.independent.layouts.survey import of_railjson, survey_file
+from tests.independent.layouts.stations import station, without
+from tests.independent.layouts.survey import of_railjson, survey_file, survey_text
 from tests.independent.test_verdicts import needs_folder
 
 RAILS = [name for name in (*OTHERS, *RAILML) if not name.endswith(".yml")]
@@ -26,6 +27,10 @@ REAL = [*SAMPLES, *(pytest.param(name, marks=needs_folder) for name in RAILS)]
 NEVER = {
     "on the same rails",
     "led elsewhere",
+    "led elsewhere from its start",
+    "led elsewhere on arrival",
+    "led elsewhere at start-up",
+    "a point before the entry is not held",
     "the tags of a route are not those that it passes",
     "a route is never granted",
     "a point is free before the train has passed it",
@@ -50,10 +55,10 @@ def test_trains_stay_clear_of_each_other(name: str) -> None:
 
 
 def stations(numbers: range) -> tuple[Counter[str], Counter[str]]:
-    """What trains on stations made up at random show, and how much was driven."""
+    """What trains on stations made up at random show, and how much was driven; routes that are refused are left out."""
     hazards, counts = Counter[str](), Counter[str]()
     for number in numbers:
-        data = station(random.Random(number))
+        data = sound(station(random.Random(number)))
         if not data["routes"]:
             continue
         imported = load_text("station.json", json.dumps(data))
@@ -64,11 +69,19 @@ def stations(numbers: range) -> tuple[Counter[str], Counter[str]]:
     return hazards, counts
 
 
+def sound(data: dict[str, Any]) -> dict[str, Any]:
+    """A station without the routes that something is wrong with."""
+    if not data["routes"]:
+        return data
+    return without(data, {v.elements[0] for v in check(load_text("station.json", json.dumps(data))).violations})
+
+
 def test_trains_on_stations_made_up_at_random() -> None:
     hazards, counts = stations(range(24))
     assert not hazards.keys() & NEVER, hazards
     assert counts["layouts"] >= 8, counts
     assert counts["pairs"] >= 2_000, counts
+    assert counts["tracks of start blocks"] >= 200, counts
 
 
 @pytest.mark.slow
@@ -97,6 +110,63 @@ def points_turned(layout: Layout) -> Layout:
     other = {"normal": "reverse", "reverse": "normal"}
     needs = {name: {p: other[at] for p, at in layout.needs[name].items()} for name in layout.routes}
     return replace(layout, needs=needs)  # type: ignore[arg-type]
+
+
+def no_point_of_its_start(layout: Layout) -> Layout:
+    """Routes that need no point of the block that their trains stand in."""
+    needs = {
+        name: {p: at for p, at in layout.needs[name].items() if layout.stands_in[p] != layout.start[name]}
+        for name in layout.routes
+    }
+    return replace(layout, needs=needs)
+
+
+TWO_LEGS = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks.line]
+from = "west"
+to = "P.tip"
+length_mm = 1_000_000
+boundaries = { W0 = 400_000, W = 900_000 }
+[tracks.a]
+from = "P.normal"
+to = "stop a"
+length_mm = 300_000
+boundaries = { A = 100_000 }
+[tracks.b]
+from = "P.reverse"
+to = "stop b"
+length_mm = 300_000
+boundaries = { B = 100_000 }
+[points]
+P = {}
+[routes."to a"]
+from = "W"
+direction = "forward"
+to = "A"
+points = { P = "normal" }
+[routes."on b"]
+from = "B"
+direction = "forward"
+to = "stop b"
+[routes."out from b"]
+from = "W"
+direction = "backward"
+to = "W0"
+points = { P = "reverse" }
+"""
+"""A block of three boundaries: from one leg a train is not to be let go as if it stood on the other."""
+
+
+def test_a_train_on_the_other_leg_of_its_block_is_refused() -> None:
+    imported, survey = load_text("legs.toml", TWO_LEGS), survey_text("legs.toml", TWO_LEGS)
+    assert check(imported).verdict == "holds"
+    found = Driver.of(survey, imported).drive()
+    assert not found.kinds().keys() & NEVER
+    wrong = Driver.of(survey, replace(imported, layout=no_point_of_its_start(imported.layout))).drive()
+    assert {"led elsewhere from its start", "a point before the entry is not held"} <= wrong.kinds().keys()
+    assert wrong.kinds().keys() & {"led elsewhere on arrival", "led elsewhere at start-up"}
 
 
 def starts_in_its_destination(layout: Layout) -> Layout:
