@@ -55,6 +55,7 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
         tuple(findings.violations),
         blocks.segments.station,
         told,
+        {Route(route.name): route.beside for route in granted},
     )
 
 

@@ -40,7 +40,8 @@ class Spare:
     def _beside(self, path: _Path, block: Block, point: Point) -> Beside:
         """The position that leads away from the path whatever comes to the point from outside.
 
-        Where several do, or none, one is as good as another: it is the one that joins more track.
+        Where several do, or none, one is as good as another: it is the one that joins more track up to the next mark,
+        or longer tracks; the first by name if they are alike in that too.
         """
         junction = self.blocks.segments.station.junctions[point]
         outside = [opposite(h) for h in self.blocks.ends[block] if isinstance(self.blocks.segments.at[h], Cut)]
@@ -53,15 +54,16 @@ class Spare:
             )[1]
         ]
         every = [Position(at) for at in junction.kind.positions]
-        best = min(closing or every, key=lambda at: (-self._track_mm(point, at), at))
+        best = min(closing or every, key=lambda at: (*self._less_track(point, at), at))
         return Beside(best, frozenset(closing), 0 < len(closing) < len(every))
 
-    def _track_mm(self, point: Point, position: Position) -> int:
-        """How much track up to the next mark or point a position joins."""
+    def _less_track(self, point: Point, position: Position) -> tuple[int, int]:
+        """The track up to the next mark or point that a position joins, and whole tracks; less comes later."""
         segments, junction = self.blocks.segments, self.blocks.segments.station.junctions[point]
         ports = {port for pair in junction.kind.positions[position] for port in pair}
         joined = [segments.segments[segments.leaving[junction.ports[p]][0]] for p in ports if p in junction.ports]
-        return sum(each.to_mm - each.from_mm for each in joined)
+        tracks_mm = sum(segments.station.tracks[each.track] for each in joined)
+        return -sum(each.to_mm - each.from_mm for each in joined), -tracks_mm
 
 
 @dataclass(frozen=True)

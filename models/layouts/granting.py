@@ -10,6 +10,7 @@ from models.layouts.beside import Spare
 from models.layouts.blocks import Blocks
 from models.layouts.findings import Findings
 from models.layouts.following import Path
+from models.layouts.results import BesidePath
 from models.layouts.standing import standing
 from models.layouts.track import Heading
 
@@ -23,7 +24,7 @@ class Granted:
 
     ``entries``: for each claimed block, the headings a movement may begin it with.
     ``boundaries``: the detectors between claimed blocks in running order, with those blocks.
-    ``traps``, ``spare``: points beside its path in claimed blocks; another position of a trap would open a way onto it.
+    ``beside``: points beside its path in claimed blocks, and what they are to it.
     """
 
     name: str
@@ -36,8 +37,7 @@ class Granted:
     released_with: dict[Point, Block] = field(default_factory=dict)
     released_after: dict[Block, Block] = field(default_factory=dict)
     flank: dict[Block, dict[Block, Point]] = field(default_factory=dict)
-    traps: set[Point] = field(default_factory=set)
-    spare: set[Point] = field(default_factory=set)
+    beside: dict[Point, BesidePath] = field(default_factory=dict)
 
     @property
     def claims(self) -> list[Block]:
@@ -88,7 +88,7 @@ def _lay_beside(
     for point, beside in sorted(spare.of(block, granted.entries[block][0], path.points.get(block, {})).items()):
         given = named.get(point)
         granted.needs[point] = given or beside.position
-        (granted.traps if beside.is_trap else granted.spare).add(point)
+        granted.beside[point] = "trap" if beside.is_trap else "spare"
         if beside.is_trap and granted.needs[point] not in beside.closing:
             closed = ", ".join(f"'{at}'" for at in sorted(beside.closing))
             text = (

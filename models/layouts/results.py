@@ -72,12 +72,16 @@ class Places:
     spans: Mapping[Block, tuple[Span, ...]] = field(default_factory=dict)
 
 
+BesidePath = Literal["trap", "spare"]
+"""What a point beside the path is to a route: a trap opens a way onto the path in another position, a spare one not."""
+
+
 @dataclass(frozen=True)
 class Imported:
     """A layout file, read: what the kernel is told, how the track is, and what was noticed.
 
     ``kind`` names the format; ``station`` is the track graph for formats that have one;
-    ``told``: what the file tells beside it.
+    ``told``: what the file tells beside it.  ``beside``: for a route, the points beside its path in its blocks.
     """
 
     name: str
@@ -90,6 +94,7 @@ class Imported:
     violations: tuple[Violation, ...]
     station: Station | None = None
     told: Told | None = None
+    beside: Mapping[Route, Mapping[Point, BesidePath]] = field(default_factory=dict)
 
     @property
     def longest_route(self) -> Route | None:

@@ -131,5 +131,16 @@ def _route(network: Network, name: str, data: dict[str, Any], chance: random.Ran
         "entry_point_direction": "START_TO_STOP" if place.heading > 0 else "STOP_TO_START",
         "exit_point": {"type": "BufferStop" if exit_id.startswith("bs") else "Detector", "id": exit_id},
         "release_detectors": release,
-        "switches_directions": directions,
+        "switches_directions": _standing(network, place, random.Random(f"{name} {entry}")) | directions,
     }
+
+
+def _standing(network: Network, place: Place, chance: random.Random) -> dict[str, str]:
+    """Mostly, how switches lie on a track that a train stands on before a detector; behind an end there is none."""
+    on_track = dict(network.cuts.get(place.track, []))
+    if place.mm not in on_track or chance.random() < 0.2:
+        return {}
+    ways = network.ways(network.block_of[network.piece_behind(place)])
+    leading = [way for way in ways if way.out == on_track[place.mm]]
+    passed = chance.choice(leading).passed if leading else ()
+    return {each.junction: each.position for each in passed if network.junctions[each.junction].moves}

@@ -96,7 +96,7 @@ def beside(network: Network, route: Route, block: str, point: str) -> str:
         away = [Place(track, network.lengths[track] if end else 0, -1 if end else 1) for track, end in led]
         if ("", "") not in set(_rolls(network, away, pieces, junctions)):
             closing.append(position)
-    return min(closing or sorted(joins), key=lambda position: (-_track_mm(network, point, position), position))
+    return min(closing or sorted(joins), key=lambda position: (_less_track(network, point, position), position))
 
 
 def _cuts(network: Network, place: Place) -> Iterator[tuple[str, int]]:
@@ -145,9 +145,9 @@ def _rolls(
             todo.append(over.place)
 
 
-def _track_mm(network: Network, point: str, position: str) -> int:
-    """How much track, up to the next boundary or junction, a position joins."""
+def _less_track(network: Network, point: str, position: str) -> tuple[int, int]:
+    """The track up to the next boundary or junction that a position joins, and whole tracks; less comes later."""
     junction = network.junctions[point]
     legs = {leg for pair in junction.joins[position] for leg in pair}
     sides = [network.sides(network.last_piece(junction.legs[leg])) for leg in legs]
-    return sum(high - low for low, high in sides)
+    return -sum(high - low for low, high in sides), -sum(network.lengths[junction.legs[leg][0]] for leg in legs)

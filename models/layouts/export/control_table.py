@@ -18,8 +18,10 @@ class Row:
     """One route.
 
     ``entry``, ``exit``: the boundary or signal it is entered and left at; where the file tells none, those of its
-    first tag and of its destination's.  ``covers``, ``overlap``: blocks in running order.  ``points``: those in its
-    start, path and overlap; ``flank``: those beside it, each with the block that it shields.
+    first tag and of its destination's.  ``covers``, ``overlap``: blocks in running order.  ``points``: those of its
+    path, start and overlap with it; ``traps``: those in its blocks that lie so that nothing comes onto the path, and
+    would let it in another position; ``spare``: those there that lie somehow; ``flank``: those outside, each with the
+    block that it shields.
     ``released``: blocks that come free together, once the tail has left the last of them.
     ``tags``: in the order in which they are read; the list of the first loop (T4).
     """
@@ -30,6 +32,8 @@ class Row:
     start: Block
     covers: tuple[Block, ...]
     points: tuple[Lies, ...]
+    traps: tuple[Lies, ...]
+    spare: tuple[Lies, ...]
     flank: tuple[tuple[Lies, Block], ...]
     overlap: tuple[Block, ...]
     conflicts: tuple[Route, ...]
@@ -45,7 +49,8 @@ def control_table(imported: Imported, conflicts: Conflicts) -> Iterator[Row]:
     for route in order:
         claimed = in_order(layout, route)
         covers = tuple(block for block in claimed if block in layout.covers[route])
-        needs = layout.needs[route]
+        needs, role = layout.needs[route], imported.beside.get(route, {})
+        inside = [(point, needs[point]) for point in _along(layout, claimed) if point in needs]
         beside = {point for point in needs if layout.stands_in[point] not in layout.claims[route]}
         tags = tuple(read_in_order(layout, route))
         last = imported.places.tags[tags[-1]][0]
@@ -55,7 +60,9 @@ def control_table(imported: Imported, conflicts: Conflicts) -> Iterator[Row]:
             exit=told[route].exit if route in told else last,
             start=layout.start[route],
             covers=covers,
-            points=tuple((point, needs[point]) for point in _along(layout, claimed) if point in needs),
+            points=tuple(lies for lies in inside if lies[0] not in role),
+            traps=tuple(lies for lies in inside if role.get(lies[0]) == "trap"),
+            spare=tuple(lies for lies in inside if role.get(lies[0]) == "spare"),
             flank=tuple(((p, needs[p]), layout.released_with[route][p]) for p in sorted(beside)),
             overlap=tuple(block for block in claimed if block in layout.overlap[route]),
             conflicts=tuple(conflicts.of(route)),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from io import StringIO
 
 from models.layouts.conflict_pairs import Conflicts
-from models.layouts.export.control_table import Row, control_table
+from models.layouts.export.control_table import Lies, Row, control_table
 from models.layouts.export.page import page_of
 from models.layouts.export.tag_plan import PlannedTag, as_bytes, tag_plan
 from models.layouts.export.to_native import native_data
@@ -120,7 +120,8 @@ TAG_COLUMNS = (
 )
 ROUTE_COLUMNS = ("route", "entry", "exit", "start", "blocks", "overlap", "points", "tags_in_order")
 CONTROL_COLUMNS = (
-    *("route", "entry", "exit", "start", "blocks", "points", "flank", "overlap", "conflicting_routes", "released"),
+    *("route", "entry", "exit", "start", "blocks", "points", "traps", "spare", "flank", "overlap"),
+    *("conflicting_routes", "released"),
 )
 
 
@@ -143,14 +144,17 @@ def _tag_cells(tag: PlannedTag) -> list[object]:
 
 
 def _route_cells(row: Row) -> list[object]:
-    points = [f"{point} {position}" for point, position in row.points]
-    lists = [row.covers, row.overlap, points, row.tags]
+    lists = [row.covers, row.overlap, _lying(row.points + row.traps + row.spare), row.tags]
     return [row.route, row.entry, row.exit, row.start, *("; ".join(each) for each in lists)]
 
 
+def _lying(points: Iterable[Lies]) -> list[str]:
+    return [f"{point} {position}" for point, position in points]
+
+
 def _control_cells(row: Row) -> list[object]:
-    points = [f"{point} {position}" for point, position in row.points]
     flank = [f"{point} {position} (shields {block})" for (point, position), block in row.flank]
     released = [" + ".join(blocks) for blocks in row.released]
-    lists = [row.covers, points, flank, row.overlap, row.conflicts, released]
+    inside = [_lying(row.points), _lying(row.traps), _lying(row.spare)]
+    lists = [row.covers, *inside, flank, row.overlap, row.conflicts, released]
     return [row.route, row.entry, row.exit, row.start, *("; ".join(each) for each in lists)]

@@ -1,0 +1,111 @@
+"""A mirrored and renamed layout gets the mirrored answer: verdict, control table and conflicts."""
+
+from __future__ import annotations
+
+import json
+import random
+import tomllib
+
+import pytest
+
+from kernel.names import Point, Route
+from models.layouts import load_text
+from models.layouts.conflict_pairs import Conflicts
+from models.layouts.export.control_table import control_table
+from models.layouts.generate import as_toml
+from tests.independent.files import OTHERS, SAMPLES, path_of
+from tests.independent.layouts.mutants import RAILML
+from tests.independent.layouts.stations import station
+from tests.independent.made_up import made_up
+from tests.independent.test_verdicts import needs_folder
+from tests.layouts.mirrored import differences, mirrored
+
+FILES = [*SAMPLES, *(pytest.param(name, marks=needs_folder) for name in (*OTHERS, *RAILML))]
+TRAP = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks.main_w]
+from = "west"
+to = "P.tip"
+length_mm = 900_000
+boundaries = { W = 800_000 }
+[tracks.main_e]
+from = "P.normal"
+to = "east"
+length_mm = 900_000
+boundaries = { E = 100_000 }
+[tracks.link]
+from = "P.reverse"
+to = "T.normal"
+length_mm = 60_000
+[tracks.siding]
+from = "T.tip"
+to = "buffer"
+length_mm = 300_000
+boundaries = { S = 20_000 }
+[tracks.drag]
+from = "T.reverse"
+to = "S.tip"
+length_mm = 30_000
+[tracks.sand]
+from = "S.normal"
+to = "sand drag"
+length_mm = 40_000
+[tracks.wall]
+from = "S.reverse"
+to = "wall"
+length_mm = 20_000
+[points]
+P = {}
+T = {}
+S = {}
+[routes."main"]
+from = "W"
+direction = "forward"
+to = "E"
+points = { P = "normal" }
+[routes."shunt in"]
+from = "W"
+direction = "forward"
+to = "buffer"
+points = { P = "reverse", T = "normal" }
+"""
+"""A trap between a siding and the main line, and behind it a point that shields nothing."""
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_layout_in_a_mirror_gets_the_mirrored_answer(name: str) -> None:
+    text = path_of(name).read_text(encoding="utf-8")
+    for seed in range(3):
+        assert differences(name, text, random.Random(seed)) == []
+
+
+def test_networks_made_up_at_random_get_the_mirrored_answer() -> None:
+    seen = 0
+    for number in range(60):
+        for data in (made_up(random.Random(number)), station(random.Random(number))):
+            if data is not None and data["routes"]:
+                seen += 1
+                assert differences("made_up.json", json.dumps(data), random.Random(number)) == [], number
+    assert seen >= 60
+
+
+def test_a_trap_lies_away_from_the_path_whatever_its_positions_are_called() -> None:
+    for text in (TRAP, mirrored("trap.toml", TRAP, random.Random(1)).text):
+        imported = load_text("trap.toml", text)
+        main = next(row for row in control_table(imported, Conflicts(imported.layout)) if row.traps)
+        assert (len(main.points), len(main.traps), len(main.spare), main.flank) == (1, 1, 1, ())
+        assert main.traps[0][1] == {"normal": "reverse", "reverse": "normal"}[main.points[0][1]]
+    assert differences("trap.toml", TRAP, random.Random(2)) == []
+
+
+@pytest.mark.parametrize("field", ["points", "flank"])
+def test_a_route_may_name_how_a_point_beside_it_lies(field: str) -> None:
+    for position, remarks in (("reverse", 0), ("normal", 1)):
+        data = tomllib.loads(TRAP)
+        data["routes"]["main"].setdefault(field, {})["T"] = position
+        imported = load_text("trap.toml", as_toml(data))
+        assert imported.violations == ()
+        assert imported.layout.needs[Route("main")][Point("T")] == position
+        named = [remark for remark in imported.remarks if remark.elements == ("main", "T")]
+        assert len(named) == remarks
