@@ -41,9 +41,9 @@ from tests.layouts.railml_made import railml_of
 
 PACKAGE = ROOT / "models" / "layouts"
 MODULES = (
-    *("assemble", "blocks", "conflicts", "distances", "following", "granting", "native", "numbers", "railjson"),
-    *("table", "table_layout", "track", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes"),
-    *("railml.sections", "railml.topology"),
+    *("assemble", "beside", "blocks", "conflicts", "distances", "following", "granting", "native", "numbers"),
+    *("railjson", "standing", "table", "table_layout", "track", "railml.importing", "railml.marks"),
+    *("railml.overlaps", "railml.routes", "railml.sections", "railml.topology"),
 )
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
 STATIONS, MADE_UP, EDITED = 24, 60, 24
