@@ -38,6 +38,7 @@ from models.commands import (
 )
 from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.layouts.export.command import export
+from models.layouts.measures import CLEARANCE_MM
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
 from proofs.records import commit, versions, write_json, write_whole
@@ -136,18 +137,29 @@ def prove(
 
 
 @app.command()
-def check(layouts: Layouts, json: Json = None) -> None:
+def check(
+    layouts: Layouts,
+    json: Json = None,
+    clearance: Annotated[
+        str, typer.Option(metavar="M", help="A boundary nearer to a point is foul, where the file does not say.")
+    ] = f"{CLEARANCE_MM // 1_000} m",
+    strict: Annotated[bool, typer.Option("--strict", help="Nothing may rest on what the file does not say.")] = False,
+) -> None:
     """Check layouts against what the proof assumes of them; report every violation, not only the first.
+
+    Each verdict is told with what it rests on beside the axioms; --strict makes a violation of what nobody declared.
 
     Examples:
 
     * `heisoku check layouts/passing_station.toml`
+    * `heisoku check layouts/passing_station.toml --strict --clearance "30 m"`
     * `heisoku check layouts/*.toml --json out/check.json`
     """
     from models.layouts import BadInput, as_json, load
     from models.layouts import check as check_layout
 
     writable(json)
+    clearance_mm = metres("--clearance", clearance)
     found: list[tuple[Imported, CheckResult] | BadInput] = []
     with progress("checking") as step:
         for done, path in enumerate(layouts):
@@ -157,7 +169,7 @@ def check(layouts: Layouts, json: Json = None) -> None:
             except BadInput as bad:
                 found.append(bad)
             else:
-                found.append((imported, check_layout(imported)))
+                found.append((imported, check_layout(imported, clearance_mm=clearance_mm, strict=strict)))
 
     out, worst, checked = console(), HOLDS, 0
     entries: list[dict[str, object]] = []
@@ -173,7 +185,11 @@ def check(layouts: Layouts, json: Json = None) -> None:
         print_check(out, path, one[1])
     unread = sum(isinstance(one, BadInput) for one in found)
     aside = f", {unread} not read" if unread else ""
-    print_line(out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {WORDS[worst]}")
+    rests = sum(one[1].defaults for one in found if not isinstance(one, BadInput))
+    resting = f", resting on {rests:,} defaults" if rests and worst == HOLDS else ""
+    print_line(
+        out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {WORDS[worst]}{resting}"
+    )
     if json:
         record = {"verdict": WORDS[worst], "layouts": entries, "versions": versions(), "commit": commit()}
         write_json(json, record)
@@ -398,13 +414,28 @@ def replay(
     raise typer.Exit(found.report(console(), html, json))
 
 
+def metres(option: str, text: str) -> int:
+    """A distance given in metres, with or without the unit, in mm."""
+    try:
+        distance_mm = round(1_000 * float(text.strip().removesuffix("m")))
+    except (ValueError, OverflowError):
+        distance_mm = -1
+    if distance_mm < 0:
+        refuse(f"{option} {text}: is no distance; give metres, as in '20 m'")
+    return distance_mm
+
+
 def print_check(out: Console, path: Path, result: CheckResult) -> None:
-    """One layout: its verdict, every violation with the elements that cause it, every remark."""
+    """One layout: its verdict, every violation with the elements that cause it, what it rests on, every remark."""
+    from models.layouts.checker import rest_line
+
     print_line(
         out, f"{path}: {result.verdict} ({sum(result.checked.values())} instances of {len(result.checked)} axioms)"
     )
     for violation in result.violations:
         print_line(out, f"  {violation.axiom}: {violation.text} [{', '.join(violation.elements)}]")
+    for rest in result.rests:
+        print_line(out, f"  rests on {rest_line(rest)}")
     for remark in result.remarks:
         print_line(out, f"  remark: {remark.text} [{', '.join(remark.elements)}]")
 

@@ -72,7 +72,8 @@ def check(told: Mapping[str, Any]) -> Result:
         imported = load(path if path.is_absolute() else ROOT / path)
     except BadInput as bad:
         return Result(told["verdict"] == "bad input", str(bad))
-    now = as_json(imported, check_layout(imported))
+    given = {key: told[key] for key in ("clearance_mm", "strict") if key in told}
+    now = as_json(imported, check_layout(imported, **given))
     differ = [key for key in now if key != "layout" and now[key] != told.get(key)]
     if differ:
         return Result(False, f"another {', '.join(differ)} than recorded")

@@ -95,7 +95,9 @@ def _checked(record: Kept, which: str) -> tuple[Came, str]:
     instances = sum(entry["checked"].values())
     if not instances:
         return "not shown", "no axiom was evaluated"
-    return "holds", f"{instances:,} instances of {len(entry['checked'])} axioms, no violation"
+    rests = "; ".join(each["text"] for each in entry.get("rests", ()) if not each["declared"])
+    resting = f"; rests on {rests}" if rests else ""
+    return "holds", f"{instances:,} instances of {len(entry['checked'])} axioms, no violation{resting}"
 
 
 def _ridden(record: Kept, which: str) -> tuple[Came, str]:

@@ -7,17 +7,9 @@ from dataclasses import dataclass
 
 from kernel.maps import Map
 from kernel.names import Block, Point, Position, Tag
+from models.layouts.measures import TAG_MM
 from models.layouts.results import Imported
 from models.layouts.track import HIGH, Cut, Heading, Joint, Segments, cut_into_segments
-
-ANTENNA_MM = 2_000
-"""From the outer end of a car to the antenna below its cab: the overhang."""
-WINDOW_MM = 513
-"""Along the track, how far an antenna reads (paper 000, 5)."""
-ERROR_MM = 200
-"""How far a tag may lie from where it was planned."""
-TAG_MM = ANTENNA_MM + WINDOW_MM + ERROR_MM
-"""From a boundary to the tag on either side: at least overhang, read window and error (T2)."""
 
 
 @dataclass(frozen=True)

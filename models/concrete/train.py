@@ -9,8 +9,9 @@ from typing import Literal
 
 from kernel.maps import Map
 from kernel.names import Block, Car, Point, Position, Tag, Train
-from models.concrete.rails import ANTENNA_MM, WINDOW_MM, Piece, Rails
+from models.concrete.rails import Piece, Rails
 from models.layouts.blocks import opposite
+from models.layouts.measures import ANTENNA_MM, WINDOW_MM
 from models.layouts.track import Stop
 
 CAR_MM = 20_000

@@ -12,9 +12,16 @@ from kernel.tag_list_text import with_tag_lists
 from models.ground import Ground
 from models.layouts.beside import Spare
 from models.layouts.blocks import Blocks, demanded, exits, inward
-from models.layouts.distances import next_tag_mm
+from models.layouts.clearance import legs_of
+from models.layouts.distances import Onward, next_tag_mm, ways_in
 from models.layouts.findings import Findings
 from models.layouts.following import Path
+from models.layouts.geometry import (
+    say_what_hangs_on_nothing,
+    say_what_is_no_railway,
+    say_what_is_too_short,
+    say_what_looks_alike,
+)
 from models.layouts.granting import Granted, grant, hold_flank
 from models.layouts.numbers import LARGEST_BLOCK_NUMBER, number_blocks, records_for
 from models.layouts.reading import escaped
@@ -31,12 +38,18 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
     neighbours, opens = open_track(blocks)
     granted: list[Granted] = []
     spare = Spare(blocks)
+    paths = list(paths)
     for path in paths:
         route = grant(blocks, path, spare, findings)
         if route is not None:
             hold_flank(route, path.wanted.flank, blocks, opens, findings)
             granted.append(route)
     tags = Tags.laid_at(blocks)
+    ways = ways_in(blocks, tag_name)
+    say_what_is_no_railway(blocks, ways, tags.block, findings)
+    say_what_is_too_short(paths, findings)
+    say_what_hangs_on_nothing(blocks, paths, findings)
+    say_what_looks_alike(blocks, told, findings)
     layout = _layout(blocks, granted, told, tags)
     ground = _ground(blocks, granted, told, tags, neighbours, opens)
     if told.held is not None:
@@ -49,13 +62,14 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
         told.kind,
         layout,
         ground,
-        _records(blocks, layout, neighbours, tags, findings),
+        _records(blocks, layout, neighbours, tags, ways, findings),
         _places(blocks, granted, tags),
         tuple(findings.remarks),
         tuple(findings.violations),
         blocks.segments.station,
         told,
         {Route(route.name): route.beside for route in granted},
+        legs_of(blocks, told),
     )
 
 
@@ -216,7 +230,14 @@ def unshielded(route: Granted, neighbours: Neighbours, opens: Opens) -> Iterable
                 yield block, target
 
 
-def _records(blocks: Blocks, layout: Layout, neighbours: Neighbours, tags: Tags, findings: Findings) -> TagRecords:
+def _records(
+    blocks: Blocks,
+    layout: Layout,
+    neighbours: Neighbours,
+    tags: Tags,
+    ways: Mapping[Tag, Onward],
+    findings: Findings,
+) -> TagRecords:
     """What is written in the tags; more blocks on a route than 8 bits tell apart is a violation."""
     nearby = [{block, *others} for block, others in neighbours.items()]
     numbers = number_blocks(layout.blocks, [*layout.claims.values(), *nearby])
@@ -225,7 +246,7 @@ def _records(blocks: Blocks, layout: Layout, neighbours: Neighbours, tags: Tags,
             text = f"block '{block}' gets number {numbers[block]} among its routes and neighbours: a tag holds 8 bits"
             findings.violation("block numbers fit their tags", blocks.bounds[block], text)
     turnouts = frozenset(block for block in layout.blocks if layout.points_in[block])
-    return records_for(tags.block, numbers, next_tag_mm(blocks, tag_name), turnouts)
+    return records_for(tags.block, numbers, next_tag_mm(ways), turnouts)
 
 
 def _places(blocks: Blocks, granted: Sequence[Granted], tags: Tags) -> Places:

@@ -14,7 +14,10 @@ from typing import Any
 import models.axioms
 from kernel.names import Block, Point, Position, Tag
 from models.layouts.axiom_code import Bindings, CompiledAxiom, Failure, axioms_of, compile_axiom
-from models.layouts.results import CheckResult, Imported, Verdict, Violation
+from models.layouts.clearance import foul_legs
+from models.layouts.measures import CLEARANCE_MM
+from models.layouts.rests import rests_of
+from models.layouts.results import CheckResult, Imported, Rest, Verdict, Violation
 from models.layouts.sorts import Sorts
 
 
@@ -24,16 +27,50 @@ def compiled_axioms(module: ModuleType = models.axioms) -> tuple[CompiledAxiom, 
     return tuple(compile_axiom(axiom) for axiom in axioms_of(module))
 
 
-def check(imported: Imported, axioms: Sequence[CompiledAxiom] | None = None) -> CheckResult:
-    """The verdict on a layout, with every violation of every axiom and those found at import."""
-    violations = list(imported.violations)
+def check(
+    imported: Imported,
+    axioms: Sequence[CompiledAxiom] | None = None,
+    clearance_mm: int = CLEARANCE_MM,
+    strict: bool = False,
+) -> CheckResult:
+    """The verdict on a layout, with every violation of every axiom and those found at import, and what it rests on.
+
+    ``clearance_mm``: what a leg of a point must have of which no clearance is told.  ``strict``: whatever is taken
+    because the file does not say it is a violation.
+    """
+    rests = rests_of(imported)
+    violations = [*imported.violations, *foul_legs(imported.legs, clearance_mm)]
     checked: dict[str, int] = {}
     for axiom in compiled_axioms() if axioms is None else axioms:
         failures, checked[axiom.name] = axiom.failures(imported.layout, imported.ground)
         violations += sorted((explain(imported, axiom, failure) for failure in failures), key=lambda v: v.text)
+    if strict:
+        violations += [_not_declared(rest) for rest in rests if not rest.declared]
     unique = tuple(dict.fromkeys(violations))
     verdict: Verdict = "does not hold" if unique else "holds"
-    return CheckResult(imported.name, verdict, unique, imported.remarks, checked)
+    return CheckResult(imported.name, verdict, unique, imported.remarks, checked, rests, clearance_mm, strict)
+
+
+def _not_declared(rest: Rest) -> Violation:
+    """What a strict verdict must not rest on."""
+    elements = dict.fromkeys(element for instance in rest.instances for element in instance)
+    text = f"the verdict rests on {rest.text}: {_shown(rest.instances)}"
+    return Violation("nothing rests on a default", tuple(elements), text)
+
+
+def rest_line(rest: Rest) -> str:
+    """What a verdict rests on, on one line."""
+    return f"{rest.text}: {_shown(rest.instances)}"
+
+
+def _shown(instances: Sequence[Sequence[str]]) -> str:
+    """The first of them."""
+    more = " …" if len(instances) > SHOWN else ""
+    return "; ".join(", ".join(instance) for instance in instances[:SHOWN]) + more
+
+
+SHOWN = 5
+"""So many of what a verdict rests on are named on a line; the record has all.  Elements of a violation are all told."""
 
 
 def explain(imported: Imported, axiom: CompiledAxiom, failure: Failure) -> Violation:
@@ -88,6 +125,8 @@ def as_json(imported: Imported, result: CheckResult) -> dict[str, object]:
         "layout": result.name,
         "format": imported.kind,
         "verdict": result.verdict,
+        "clearance_mm": result.clearance_mm,
+        "strict": result.strict,
         "exit_code": result.exit_code,
         "counts": {
             "blocks": len(layout.blocks),
@@ -97,6 +136,16 @@ def as_json(imported: Imported, result: CheckResult) -> dict[str, object]:
         },
         "checked": dict(result.checked),
         "violations": [_plain(v.elements, v.text) | {"axiom": v.axiom} for v in result.violations],
+        "rests": [
+            {
+                "on": rest.kind,
+                "declared": rest.declared,
+                "count": len(rest.instances),
+                "instances": [list(instance) for instance in rest.instances],
+                "text": rest.text,
+            }
+            for rest in result.rests
+        ],
         "remarks": [_plain(remark.elements, remark.text) for remark in result.remarks],
     }
 

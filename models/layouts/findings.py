@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from models.layouts.results import Remark, Violation
+from models.layouts.results import Remark, RestKind, Violation
 
 
 @dataclass
@@ -16,9 +16,9 @@ class Findings:
     remarks: list[Remark] = field(default_factory=list)
     violations: list[Violation] = field(default_factory=list)
 
-    def remark(self, elements: Sequence[str], text: str) -> None:
-        """Note something that makes no layout wrong."""
-        self.remarks.append(Remark(tuple(elements), text))
+    def remark(self, elements: Sequence[str], text: str, rests: RestKind | None = None) -> None:
+        """Note something that makes no layout wrong; ``rests``: a verdict rests on it."""
+        self.remarks.append(Remark(tuple(elements), text, rests))
 
     def violation(self, rule: str, elements: Sequence[str], text: str) -> None:
         """Note something that does."""

@@ -21,7 +21,7 @@ class Path:
 
     ``crossed``: the detectors passed, each with the block before and behind it and the heading
     behind it, from the entry to the last before the exit; ``beyond`` the same for the overlap, from
-    the exit on.  ``points``: for each block, the points passed in it and their positions.
+    the exit on, ``overlap_mm`` long.  ``points``: for each block, the points passed in it and their positions.
     """
 
     wanted: Wanted
@@ -29,6 +29,7 @@ class Path:
     crossed: list[tuple[str, Heading]] = field(default_factory=list)
     beyond: list[tuple[str, Heading]] = field(default_factory=list)
     overlap: list[Block] = field(default_factory=list)
+    overlap_mm: int = 0
     points: dict[Block, dict[Point, Position]] = field(default_factory=dict)
     junctions: set[str] = field(default_factory=set)
     entered: Heading = (0, 0)
@@ -59,7 +60,7 @@ class Follower:
         if isinstance(behind, Cut):
             path.crossed.append((wanted.entry, heading))
             path.blocks.insert(0, self.blocks.of[behind.beyond[0]])
-        last = self._run(path, heading, wanted.exit, path.blocks, path.crossed)
+        last = self._run(path, heading, wanted.exit, path.blocks, path.crossed, set())
         if last is None:
             return None
         if wanted.overlap is not None and not self._run_overlap(path, last):
@@ -74,13 +75,22 @@ class Follower:
             raise BadInput(self.file, path.wanted.place, what, "take the overlap away")
         path.beyond.append((path.wanted.exit, end.beyond))
         path.overlap.append(self.blocks.of[end.beyond[0]])
-        return self._run(path, end.beyond, str(path.wanted.overlap), path.overlap, path.beyond) is not None
+        over: set[int] = set()
+        last_in = self._run(path, end.beyond, str(path.wanted.overlap), path.overlap, path.beyond, over)
+        segments = self.blocks.segments.segments
+        path.overlap_mm = sum(segments[index].to_mm - segments[index].from_mm for index in over)
+        return last_in is not None
 
     def _run(
-        self, path: Path, heading: Heading, goal: str, into: list[Block], crossed: list[tuple[str, Heading]]
+        self,
+        path: Path,
+        heading: Heading,
+        goal: str,
+        into: list[Block],
+        crossed: list[tuple[str, Heading]],
+        seen: set[int],
     ) -> Heading | None:
-        """Run on to ``goal``, noting blocks and detectors; the heading at it, or none after a violation."""
-        seen: set[int] = set()
+        """Run on to ``goal``, noting blocks, detectors and segments; the heading at it, or none after a violation."""
         start = heading
         while True:
             if heading[0] in seen:

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from kernel.names import Block
+from models.layouts.alike import read
 from models.layouts.assemble import assemble
 from models.layouts.blocks import Blocks, find_blocks
 from models.layouts.findings import Findings
@@ -27,6 +28,7 @@ KINDS: Mapping[str, Kind] = {
     ),
 }
 LEGS = frozenset(leg for kind in KINDS.values() for leg in kind.ports)
+JOINTS = "two ends of track meet at each joint"
 DIRECTIONS = {"backward": LOW, "forward": HIGH}
 
 
@@ -36,6 +38,8 @@ def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     :raises BadInput: the data is no layout, refers to what is not there, or has no routes.
     """
     validate(file, data, VALIDATOR)
+    for train in data.get("trains", ()):
+        identifier(file, "trains", train)
     reader = NativeReader(file, data)
     station = reader.station()
     segments = cut_into_segments(station)
@@ -50,7 +54,11 @@ def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     routes = tuple(reader.routes(station))
     paths = [path for wanted in routes if (path := follower.follow(wanted)) is not None]
     fleet, fouls = tuple(data.get("trains", trains)), reader.fouling(blocks)
-    told = Told(file, "native", fleet, routes, fouls, reader.held(blocks), data.get("name"))
+    reader.compare_joints(station, findings)
+    joints = frozenset(data.get("joints", ()))
+    told = Told(
+        file, "native", fleet, routes, fouls, reader.held(blocks), data.get("name"), reader.clear_mm(station), joints
+    )
     return assemble(blocks, paths, told, findings)
 
 
@@ -67,7 +75,7 @@ class NativeReader:
 
     def station(self) -> Station:
         """Track, points, boundaries and ends of track."""
-        tracks = {self._name("tracks", name): track["length_mm"] for name, track in self.data["tracks"].items()}
+        tracks = {self._name("tracks", name): int(track["length_mm"]) for name, track in self.data["tracks"].items()}
         points = self.data.get("points", {})
         kinds = {self._name("points", name): KINDS[p.get("kind", "turnout")] for name, p in points.items()}
         nodes: dict[str, list[tuple[str, int]]] = {}
@@ -130,6 +138,38 @@ class NativeReader:
             raise self.bad(place, f"end of track '{node}' has the name of a boundary", "rename one of the two")
         marks[name] = Mark(name, track, tracks[track] if side == HIGH else 0, cuts=False)
 
+    def compare_joints(self, station: Station, findings: Findings) -> None:
+        """Hold the joints that are listed, if any are, against the names at which two ends of track meet.
+
+        An end of track whose name is read like that of another end, or of a joint, was to be joined there.
+        """
+        points = self.data.get("points", {})
+        made = {name.removeprefix("joint ") for name in station.junctions if name not in points}
+        ends = {name for name, mark in station.marks.items() if not mark.cuts}
+        by_read: dict[str, list[str]] = {}
+        for name in sorted(made | ends):
+            by_read.setdefault(read(name), []).append(name)
+        for alike in by_read.values():
+            if len(alike) > 1 and not ends.isdisjoint(alike):
+                names = " and ".join(f"'{name}'" for name in alike)
+                findings.violation(JOINTS, alike, f"track ends at {names}, which read alike: is it one joint?")
+        if "joints" not in self.data:
+            return
+        listed = set(self.data["joints"])
+        for name in sorted(made - listed):
+            findings.violation(JOINTS, (name,), f"two ends of track are called '{name}', which is no listed joint")
+        for name in sorted(listed - made):
+            findings.violation(JOINTS, (name,), f"no two ends of track meet at the listed joint '{name}'")
+
+    def clear_mm(self, station: Station) -> dict[tuple[str, str], int]:
+        """For each leg whose clearance is given, that."""
+        found: dict[tuple[str, str], int] = {}
+        for point, entry in self.data.get("points", {}).items():
+            for leg, clear_mm in entry.get("clear_mm", {}).items():
+                self._known(f"points.{point}.clear_mm", "leg", leg, station.junctions[point].kind.ports)
+                found[point, leg] = int(clear_mm)
+        return found
+
     def _boundaries(self) -> dict[str, Mark]:
         """The boundaries on all tracks."""
         marks: dict[str, Mark] = {}
@@ -146,7 +186,7 @@ class NativeReader:
                 if at_mm in taken:
                     raise self.bad(place, f"lies at the same place as '{taken[at_mm]}'", "move one of the two")
                 taken[at_mm] = name
-                marks[name] = Mark(name, track, at_mm, cuts=True)
+                marks[name] = Mark(name, track, int(at_mm), cuts=True)
         return marks
 
     def block_names(self, segments: Segments) -> dict[int, str]:

@@ -47,7 +47,10 @@ POINT = _entries(
         "kind": {
             "enum": ["turnout", "crossing", "single slip", "double slip"],
             "description": "Turnout if not given; a crossing does not move.",
-        }
+        },
+        "clear_mm": _table(
+            "For each leg, how far from the point it is clear of the other leg, in mm.", _position_mm("mm", 1)
+        ),
     },
 )
 BLOCK = _entries(
@@ -92,6 +95,12 @@ SCHEMA: dict[str, Any] = {
             "points": _table("Points and crossings; their legs are nodes.", POINT),
             "blocks": _table("Names for blocks; a block without one is named after its ends.", BLOCK),
             "routes": _table("Routes.", ROUTE),
+            "joints": {
+                "type": "array",
+                "description": "Every name at which two ends of track are joined, so that no others are.",
+                "items": {"type": "string", "minLength": 1},
+                "uniqueItems": True,
+            },
             "fouling": _pairs("Pairs of blocks, a train in either of which obstructs the other."),
             "held_by_authority": {
                 "description": "Pairs (from, into) kept apart by train protection alone; 'rest': all such pairs.",

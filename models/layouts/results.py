@@ -14,6 +14,7 @@ from typing import Literal
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Point, Route, Tag
 from models.ground import Ground
+from models.layouts.measures import CLEARANCE_MM
 from models.layouts.told import Told
 from models.layouts.track import Station
 
@@ -48,10 +49,43 @@ class Violation:
 
 @dataclass(frozen=True)
 class Remark:
-    """Something worth telling that makes no layout wrong."""
+    """Something worth telling that makes no layout wrong; ``rests``: a verdict rests on it, and as what."""
 
     elements: tuple[str, ...]
     text: str
+    rests: RestKind | None = None
+
+
+RestKind = Literal["authority", "clearance", "joint", "position", "derived", "unread", "left out"]
+"""What a verdict can rest on that no axiom says: :mod:`models.layouts.rests` has each in words."""
+
+
+@dataclass(frozen=True)
+class Rest:
+    """One kind of thing that a verdict rests on, instance by instance with the file's elements.
+
+    ``declared``: the file says so itself; otherwise it is what was taken where the file says nothing.
+    """
+
+    kind: RestKind
+    declared: bool
+    instances: tuple[tuple[str, ...], ...]
+    text: str
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A leg of a point or crossing on which a train may stand beside another one that runs over it.
+
+    ``boundary``: the nearest behind which a train stands that keeps nobody off the point, and ``at_mm`` from it;
+    none where there is no such.  ``clear_mm``: from the point to where the leg is clear of the other, as far as told.
+    """
+
+    point: str
+    leg: str
+    boundary: str | None
+    at_mm: int
+    clear_mm: int | None
 
 
 Span = tuple[str, int, int]
@@ -82,6 +116,7 @@ class Imported:
 
     ``kind`` names the format; ``station`` is the track graph for formats that have one;
     ``told``: what the file tells beside it.  ``beside``: for a route, the points beside its path in its blocks.
+    ``legs``: those of points and crossings, with their clearance.
     """
 
     name: str
@@ -95,6 +130,7 @@ class Imported:
     station: Station | None = None
     told: Told | None = None
     beside: Mapping[Route, Mapping[Point, BesidePath]] = field(default_factory=dict)
+    legs: tuple[Leg, ...] = ()
 
     @property
     def longest_route(self) -> Route | None:
@@ -105,13 +141,25 @@ class Imported:
 
 @dataclass(frozen=True)
 class CheckResult:
-    """The verdict on one layout; ``checked`` counts the instances of each axiom that were evaluated."""
+    """The verdict on one layout; ``checked`` counts the instances of each axiom that were evaluated.
+
+    ``rests``: what it rests on beside the axioms.  ``clearance_mm``: what a leg must have where no clearance is told.
+    ``strict``: nothing may rest on what the file does not say.
+    """
 
     name: str
     verdict: Verdict
     violations: tuple[Violation, ...]
     remarks: tuple[Remark, ...]
     checked: Mapping[str, int]
+    rests: tuple[Rest, ...] = ()
+    clearance_mm: int = CLEARANCE_MM
+    strict: bool = False
+
+    @property
+    def defaults(self) -> int:
+        """On how many things the verdict rests that the file does not say."""
+        return sum(len(rest.instances) for rest in self.rests if not rest.declared)
 
     @property
     def exit_code(self) -> int:

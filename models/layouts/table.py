@@ -20,6 +20,7 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
+from models.layouts.alike import say_what_is_alike
 from models.layouts.conflicts import compare_conflicts
 from models.layouts.findings import Findings
 from models.layouts.reading import by_name, identifier, validate
@@ -78,6 +79,14 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     routes = read_routes(file, data["interlocking-table"])
     findings = Findings("point")
     compare_conflicts(list(routes.values()), findings)
+    for what, each in (
+        ("routes", lambda route: [route.name]),
+        ("signals", lambda route: [route.source, route.destination]),
+        ("pieces and sections", lambda route: [*route.path, *route.sections]),
+        ("points", lambda route: route.points),
+    ):
+        names = (name for route in routes.values() for name in each(route))
+        say_what_is_alike(what, dict.fromkeys(names), findings)
     return assemble_table(file, list(routes.values()), trains, findings)
 
 

@@ -38,7 +38,9 @@ class Told:
     ``name``: the file; ``kind``: its format; ``title``: what the layout is called, if anything.
     ``trains``: the fleet in the file's order.  ``routes``: every route as stated, also one that is left out.
     ``held``: block pairs (from, into) that train protection alone keeps apart; none: every pair
-    that no point keeps apart.
+    that no point keeps apart.  ``clear_mm``: for a leg (point, port), from the point to where the leg is clear of
+    the other.  ``joints``: where a file joins ends of track by one name alone, the names that it lists as joints;
+    none: it says of all its joints what they join.
     """
 
     name: str
@@ -48,3 +50,5 @@ class Told:
     fouls: Mapping[Block, frozenset[Block]] = field(default_factory=dict)
     held: Pairs | None = None
     title: str | None = None
+    clear_mm: Mapping[tuple[str, str], int] = field(default_factory=dict)
+    joints: frozenset[str] | None = None

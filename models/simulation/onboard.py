@@ -22,7 +22,7 @@ from kernel.standstill import Standstill, ThroughLine, is_braked
 from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
-from models.concrete.rails import ANTENNA_MM
+from models.layouts.measures import ANTENNA_MM
 from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 from models.simulation.ahead import Ahead
 

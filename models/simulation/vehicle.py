@@ -13,8 +13,9 @@ from kernel.names import Block, Run, Tag, Train
 from kernel.standstill import Standstill, ThroughLine
 from kernel.unit import Unit
 from models.concrete.drive import Drive
-from models.concrete.rails import TAG_MM, WINDOW_MM, Rails
+from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
+from models.layouts.measures import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
 from models.simulation.cycles import INTERPRETED, Given, Moving, Ran
 from models.simulation.driver import is_barred, shown_mm_s

@@ -35,6 +35,7 @@ from models.layouts.export.to_railjson import left_out, railjson_data
 from models.layouts.export.unsayable import Unsayable
 from models.layouts.generate import as_toml, generate, network
 from models.layouts.native import KINDS as NATIVE
+from models.layouts.numbers import LONGEST_DISTANCE_MM
 from models.layouts.railjson import KINDS as RAILJSON
 from models.layouts.track import Kind
 from tests.fuzz.failures.browser import CHROMIUM, browser
@@ -122,6 +123,7 @@ def test_what_railjson_has_no_words_for_is_named_and_the_rest_holds() -> None:
     assert list(left_out(imported)) == [
         "4 overlaps",
         "6 routes' flank points",
+        "6 legs' clearances",
         "8 pairs held by authority",
         "4 trains",
         "10 names of blocks",
@@ -319,8 +321,43 @@ def test_files_of_an_earlier_export_do_not_stay(tmp_path: Path) -> None:
     table = tmp_path / "table.yml"
     table.write_text(TABLE, "utf-8")
     assert heisoku.run(["export", str(STATION), "-o", str(tmp_path / "out")]) == HOLDS
-    assert heisoku.run(["export", str(table), "-o", str(tmp_path / "out")]) == HOLDS
+    assert heisoku.run(["export", str(table), "-o", str(tmp_path / "out")]) == DOES_NOT_HOLD
     assert {path.name for path in (tmp_path / "out").iterdir()} == set(NAMES) - {"layout.toml", "layout.json"}
+
+
+def test_an_export_that_wrote_all_that_was_asked_holds_and_no_other(tmp_path: Path) -> None:
+    table, out = tmp_path / "table.yml", tmp_path / "out"
+    table.write_text(TABLE, "utf-8")
+    asked = ["export", str(table), "-o", str(out), "--file", "conflicts.csv"]
+    assert heisoku.run(asked) == HOLDS
+    assert {path.name for path in out.iterdir()} == {"conflicts.csv"}
+    assert heisoku.run([*asked, "--file", "layout.toml"]) == DOES_NOT_HOLD
+    assert heisoku.run([*asked, "--file", "layout.svg"]) == BAD_INPUT
+
+
+def test_a_tag_plan_that_cannot_be_written_is_no_success(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    data: dict[str, Any] = network(1)
+    data["tracks"] = {
+        "l1": {"from": "west", "to": "mid", "length_mm": LONGEST_DISTANCE_MM, "boundaries": {"A": 100_000}},
+        "l2": {"from": "mid", "to": "east", "length_mm": 900_000, "boundaries": {"B": 500_000}},
+    }
+    data |= {"points": {}, "blocks": {}, "routes": {"r": {"from": "A", "direction": "forward", "to": "B"}}}
+    file = tmp_path / "long.toml"
+    file.write_text(as_toml(data), "utf-8")
+    assert heisoku.run(["export", str(file), "-o", str(tmp_path / "out"), "--file", "tag_plan.csv"]) == DOES_NOT_HOLD
+    assert "tag_plan.csv: not written" in capsys.readouterr().out
+    assert heisoku.run(["export", str(file), "-o", str(tmp_path / "out"), "--file", "conflicts.csv"]) == DOES_NOT_HOLD
+
+
+def test_the_control_table_and_its_page_tell_what_is_kept_apart_by_authority_alone(tmp_path: Path) -> None:
+    assert heisoku.run(["export", str(STATION), "-o", str(tmp_path)]) == HOLDS
+    told = {row["route"]: row["by_authority"] for row in rows_of(tmp_path / "control_table.csv")}
+    assert told["W to 1"] == "east line out of east throat"
+    imported = load(STATION)
+    pairs = {pair for row in control_table(imported, Conflicts(imported.layout)) for pair in row.authority}
+    assert pairs == {(block, to) for block, into in imported.ground.held_by_authority.items() for to in into}
+    page = (tmp_path / "control_table.html").read_text("utf-8")
+    assert "8 pairs of blocks (from, into) kept apart by train protection alone" in page
 
 
 def test_a_layout_that_does_not_hold_is_exported_and_says_so(tmp_path: Path) -> None:

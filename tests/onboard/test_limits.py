@@ -30,7 +30,7 @@ from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_window import WindowLimits
-from models.concrete.rails import ANTENNA_MM
+from models.layouts.measures import ANTENNA_MM
 from models.onboard import antenna_spacing, reverse_movement, split, tag_window
 from models.onboard.train_nature import (
     Train,

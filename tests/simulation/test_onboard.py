@@ -10,7 +10,7 @@ import pytest
 from kernel.onboard import computer
 from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.way import Way
-from models.concrete.rails import TAG_MM, WINDOW_MM
+from models.layouts.measures import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
 from models.simulation.cycles import Ran
 from models.simulation.onboard import OnBoard, on_board

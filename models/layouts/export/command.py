@@ -9,31 +9,40 @@ import typer
 from rich.console import Console
 
 from models.commands import bad_input_refused, refuse, tell
+from models.exit_codes import DOES_NOT_HOLD
 
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="DIR", help="The folder.", show_default=False)]
+Files = Annotated[
+    list[str] | None,
+    typer.Option("--file", metavar="NAME", help="Of all files this one; may be repeated.", show_default="all"),
+]
 
 
-def export(layout: Layout, output: Folder) -> None:
+def export(layout: Layout, output: Folder, file: Files = None) -> None:
     """Write what is planned for a layout: tags, routes, conflicts, the control table, and the layout itself.
 
     The tag plan holds every tag's record, as CSV and as the bytes to be written.  The layout is written back in the
-    native format and in RailJSON, and read again before that.  What cannot be written is named.  A layout that does
-    not hold is exported and is 1.
+    native format and in RailJSON, and read again before that.  What cannot be written is named, and is 1: ask for the
+    other files by name.  A layout that does not hold is exported and is 1.
 
     Examples:
     * `heisoku export layouts/passing_station.toml -o out/export`
+    * `heisoku export layouts/passing_station.toml -o out/export --file tag_plan.csv --file tag_records.bin`
     """
     from models.layouts import check, load
     from models.layouts.export.files import NAMES, written
 
+    for name in file or ():
+        if name not in NAMES:
+            refuse(f"--file {name}: no export has that; name one of {', '.join(NAMES)}")
     if output.exists() and not output.is_dir():
         refuse(f"{output}: is no folder; name another")
     try:
         with bad_input_refused(), Console(stderr=True).status("exporting"):
             imported = load(layout)
             result = check(imported)
-            files = list(written(imported, result))
+            files = [each for each in written(imported, result) if not file or each.name in file]
             output.mkdir(parents=True, exist_ok=True)
             for name in NAMES:
                 (output / name).unlink(missing_ok=True)
@@ -46,4 +55,4 @@ def export(layout: Layout, output: Folder) -> None:
         tell(f"{output / each.name}: {'' if each.content is not None else 'not written: '}{each.says}")
     count = sum(each.content is not None for each in files)
     tell(f"{layout}: {count} files written, {len(files) - count} not; the layout {result.verdict}")
-    raise typer.Exit(result.exit_code)
+    raise typer.Exit(result.exit_code if count == len(files) and files else DOES_NOT_HOLD)

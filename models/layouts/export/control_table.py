@@ -22,6 +22,7 @@ class Row:
     path, start and overlap with it; ``traps``: those in its blocks that lie so that nothing comes onto the path, and
     would let it in another position; ``spare``: those there that lie somehow; ``flank``: those outside, each with the
     block that it shields.
+    ``authority``: the pairs (from outside, into the route) that train protection alone keeps apart.
     ``released``: blocks that come free together, once the tail has left the last of them.
     ``tags``: in the order in which they are read; the list of the first loop (T4).
     """
@@ -36,6 +37,7 @@ class Row:
     spare: tuple[Lies, ...]
     flank: tuple[tuple[Lies, Block], ...]
     overlap: tuple[Block, ...]
+    authority: tuple[tuple[Block, Block], ...]
     conflicts: tuple[Route, ...]
     released: tuple[tuple[Block, ...], ...]
     tags: tuple[Tag, ...]
@@ -65,6 +67,7 @@ def control_table(imported: Imported, conflicts: Conflicts) -> Iterator[Row]:
             spare=tuple(lies for lies in inside if role.get(lies[0]) == "spare"),
             flank=tuple(((p, needs[p]), layout.released_with[route][p]) for p in sorted(beside)),
             overlap=tuple(block for block in claimed if block in layout.overlap[route]),
+            authority=tuple(_by_authority(imported, route, claimed)),
             conflicts=tuple(conflicts.of(route)),
             released=tuple(_released(layout, route, claimed)),
             tags=tags,
@@ -85,6 +88,16 @@ def read_in_order(layout: Layout, route: Route) -> Iterator[Tag]:
     while tag is not None:
         yield tag
         tag = layout.tag_after[route].get(tag)
+
+
+def _by_authority(imported: Imported, route: Route, claimed: Sequence[Block]) -> Iterator[tuple[Block, Block]]:
+    """The pairs that no point of the route keeps apart, in its running order."""
+    ground = imported.ground
+    flank = ground.flank_point.get(route, {})
+    for target in claimed[1:]:
+        for block in sorted(ground.neighbours.get(target, frozenset()).difference(claimed)):
+            if target in ground.held_by_authority.get(block, frozenset()) and target not in flank.get(block, {}):
+                yield block, target
 
 
 def _along(layout: Layout, blocks: Sequence[Block]) -> Iterator[Point]:

@@ -57,6 +57,7 @@ def written(imported: Imported, result: CheckResult) -> Iterator[Written]:
     except Unsayable as unsayable:
         plan = []
         yield Written("tag_plan.csv", None, str(unsayable))
+        yield Written("tag_records.bin", None, str(unsayable))
     else:
         yield Written("tag_plan.csv", _csv(TAG_COLUMNS, map(_tag_cells, plan)), f"{len(plan):,} tags")
         yield Written("tag_records.bin", as_bytes(plan), f"{len(plan):,} records of 16 bytes")
@@ -120,7 +121,7 @@ TAG_COLUMNS = (
 )
 ROUTE_COLUMNS = ("route", "entry", "exit", "start", "blocks", "overlap", "points", "tags_in_order")
 CONTROL_COLUMNS = (
-    *("route", "entry", "exit", "start", "blocks", "points", "traps", "spare", "flank", "overlap"),
+    *("route", "entry", "exit", "start", "blocks", "points", "traps", "spare", "flank", "overlap", "by_authority"),
     *("conflicting_routes", "released"),
 )
 
@@ -156,5 +157,6 @@ def _control_cells(row: Row) -> list[object]:
     flank = [f"{point} {position} (shields {block})" for (point, position), block in row.flank]
     released = [" + ".join(blocks) for blocks in row.released]
     inside = [_lying(row.points), _lying(row.traps), _lying(row.spare)]
-    lists = [row.covers, *inside, flank, row.overlap, row.conflicts, released]
+    authority = [f"{block} out of {target}" for block, target in row.authority]
+    lists = [row.covers, *inside, flank, row.overlap, authority, row.conflicts, released]
     return [row.route, row.entry, row.exit, row.start, *("; ".join(each) for each in lists)]

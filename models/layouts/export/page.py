@@ -7,6 +7,7 @@ from itertools import groupby
 from pathlib import Path
 
 from kernel.names import Route
+from models.layouts.checker import rest_line
 from models.layouts.export.control_table import Row
 from models.layouts.export.tag_plan import PlannedTag
 from models.layouts.results import CheckResult, Imported
@@ -38,6 +39,7 @@ def page_of(
         kind=imported.kind,
         holds=result.exit_code == 0,
         violations=result.violations,
+        rests=[(rest.declared, rest_line(rest)) for rest in result.rests],
         counts={
             "routes": len(rows),
             "blocks": len(layout.blocks),

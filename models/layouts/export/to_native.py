@@ -39,8 +39,9 @@ def native_data(imported: Imported) -> Data:
         "trains": list(told.trains),
         "held_by_authority": "rest" if told.held is None else sorted(map(list, told.held)),
         "fouling": sorted(map(list, fouling)),
+        "joints": writer.joints() if told.joints is None else sorted(told.joints),
         "tracks": writer.tracks(),
-        "points": writer.points_told(),
+        "points": writer.points_told(told.clear_mm),
     }
     data["blocks"] = _named_blocks(imported, data)
     data["routes"] = {route.name: writer.route(route) for route in told.routes}
@@ -92,9 +93,17 @@ class Writer:
         self.taken.add(found)
         return found
 
-    def points_told(self) -> Data:
-        """The points and crossings, each with its kind."""
-        return {name: {} if fit.name == "turnout" else {"kind": fit.name} for name, fit in self.points.items()}
+    def points_told(self, clear_mm: Mapping[tuple[str, str], int]) -> Data:
+        """The points and crossings, each with its kind and the clearance of its legs as far as told."""
+        found: Data = {name: {} if fit.name == "turnout" else {"kind": fit.name} for name, fit in self.points.items()}
+        for (name, port), mm in clear_mm.items():
+            found[name].setdefault("clear_mm", {})[self.points[name].port[port]] = mm
+        return found
+
+    def joints(self) -> list[str]:
+        """The nodes at which two ends of track are joined."""
+        junctions = {name: junction for name, junction in self.station.junctions.items() if name not in self.points}
+        return sorted(self.nodes[next(iter(junction.ports.values()))] for junction in junctions.values())
 
     def tracks(self) -> Data:
         """Every track with the names of its ends and its boundaries."""

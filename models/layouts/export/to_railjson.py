@@ -69,6 +69,7 @@ def left_out(imported: Imported) -> Iterator[str]:
         ("overlaps", sum(route.overlap is not None for route in told.routes)),
         ("routes' flank points", sum(bool(route.flank) for route in told.routes)),
         ("fouling blocks", len(told.fouls)),
+        ("legs' clearances", len(told.clear_mm)),
         ("pairs held by authority", len(told.held or ())),
         ("trains", len(told.trains) if imported.kind == "native" else 0),
         ("names of blocks", sum(not block.startswith("B:") for block in imported.layout.blocks)),

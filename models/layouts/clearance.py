@@ -1,0 +1,67 @@
+"""Clearance: how near to a point a train may stand on one leg without being foul of the other (T2, T9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from heapq import heappop, heappush
+
+from models.layouts.blocks import Blocks
+from models.layouts.results import Leg, Violation
+from models.layouts.told import Told
+from models.layouts.track import Cut, Heading, Joint, Junction
+
+
+def legs_of(blocks: Blocks, told: Told) -> tuple[Leg, ...]:
+    """Every leg of the points and crossings that some way over them does not use, with its nearest boundary."""
+    return tuple(_legs(blocks, told))
+
+
+def _legs(blocks: Blocks, told: Told) -> Iterator[Leg]:
+    for junction in blocks.segments.station.junctions.values():
+        if len(junction.ports) < 3:
+            continue
+        for port, end in junction.ports.items():
+            if any(port not in way for ways in junction.kind.positions.values() for way in ways):
+                at_mm, boundary = _nearest(blocks, told, junction, blocks.segments.leaving[end])
+                yield Leg(junction.name, port, boundary, at_mm, told.clear_mm.get((junction.name, port)))
+
+
+def _nearest(blocks: Blocks, told: Told, junction: Junction, start: Heading) -> tuple[int, str | None]:
+    """How far it is to the nearest boundary behind which a train keeps nobody off the point, and its name.
+
+    A train in the point's own block keeps others off, and so does one in a block that the point's block is told to
+    foul: the way goes on through these.
+    """
+    own = blocks.of[start[0]]
+    closed = told.fouls.get(own, frozenset()) | {own}
+    met: set[Heading] = set()
+    todo = [(0, start)]
+    while todo:
+        so_far_mm, heading = heappop(todo)
+        if heading in met:
+            continue
+        met.add(heading)
+        segment, end = blocks.segments.segments[heading[0]], blocks.segments.at[heading]
+        end_mm = so_far_mm + segment.to_mm - segment.from_mm
+        if isinstance(end, Cut):
+            if blocks.of[end.beyond[0]] not in closed:
+                return end_mm, end.mark
+            heappush(todo, (end_mm, end.beyond))
+        elif isinstance(end, Joint) and end.junction != junction.name:
+            for _, _, onward in blocks.segments.onward(end):
+                heappush(todo, (end_mm, onward))
+    return 0, None
+
+
+def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:
+    """The legs on which a train may stand foul of the other: by what is told, else by what a leg must have."""
+    for leg in legs:
+        least_mm = clearance_mm if leg.clear_mm is None else leg.clear_mm
+        if leg.boundary is not None and leg.at_mm < least_mm:
+            where = f"boundary '{leg.boundary}' lies {leg.at_mm:,} mm behind '{leg.point}' on its leg '{leg.leg}'"
+            known = "where nothing is told it must be" if leg.clear_mm is None else "it is clear from"
+            text = f"{where}: a train behind it is foul of the other leg ({known} {least_mm:,} mm)"
+            yield Violation(RULE, (leg.point, leg.boundary), text)
+
+
+RULE = "a train behind a boundary is clear of the point"

@@ -1,0 +1,99 @@
+"""What no railway is like: blocks too short for their tags, distances no tag holds, track that hangs on nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import networkx
+
+from kernel.names import Block, Tag
+from models.layouts.alike import say_what_is_alike
+from models.layouts.blocks import Blocks
+from models.layouts.distances import Onward
+from models.layouts.findings import Findings
+from models.layouts.following import Path
+from models.layouts.measures import (
+    LONGEST_BLOCK_MM,
+    SHORTEST_BLOCK_MM,
+    SHORTEST_OVERLAP_MM,
+    SHORTEST_VEHICLE_MM,
+    TAG_MM,
+)
+from models.layouts.numbers import LONGEST_DISTANCE_MM
+from models.layouts.told import Told
+
+ROOM = "a block has room for its tags"
+HOLDS = "a distance fits its tag"
+OVERLAP = "an overlap is longer than a train slips"
+
+
+def say_what_is_no_railway(
+    blocks: Blocks, ways: Mapping[Tag, Onward], tag_in: Mapping[Tag, Block], findings: Findings
+) -> None:
+    """Blocks that are too short or too long, measured from each of their boundaries to what comes next."""
+    nearest: dict[Block, tuple[int, bool]] = {}
+    for tag, way in ways.items():
+        block = tag_in[tag]
+        nearest[block] = min(nearest.get(block, (way.nearest_mm, way.to_detector)), (way.nearest_mm, way.to_detector))
+        if way.next_mm > LONGEST_DISTANCE_MM:
+            text = f"from tag '{tag}' it is {way.next_mm:,} mm to the next: a tag holds at most {LONGEST_DISTANCE_MM:,}"
+            findings.violation(HOLDS, blocks.bounds[block], text)
+    for block, (short_mm, to_detector) in nearest.items():
+        least_mm = SHORTEST_BLOCK_MM if to_detector else TAG_MM
+        if short_mm < least_mm:
+            between = "from boundary to boundary" if to_detector else "from its boundary to the end of track"
+            text = f"block '{block}' is {short_mm:,} mm {between}: its tags need {least_mm:,}"
+            findings.violation(ROOM, blocks.bounds[block], text)
+        elif short_mm > LONGEST_BLOCK_MM:
+            text = f"block '{block}' is {short_mm / 1_000_000:,.0f} km long: is the unit right, or a boundary missing?"
+            findings.remark(blocks.bounds[block], text)
+    longest_mm = max(blocks.segments.station.tracks.values(), default=0)
+    if nearest and longest_mm < SHORTEST_VEHICLE_MM:
+        text = f"no track is longer than {longest_mm:,} mm, less than one vehicle: were kilometres given for metres?"
+        findings.violation("a track is as long as a vehicle", list(blocks.segments.station.tracks), text)
+
+
+def say_what_is_too_short(paths: Iterable[Path], findings: Findings) -> None:
+    """Overlaps that a train under the brake's own bounds may run through."""
+    for path in paths:
+        if path.overlap and path.overlap_mm < SHORTEST_OVERLAP_MM:
+            wanted = path.wanted
+            text = (
+                f"the overlap of route '{wanted.name}', from '{wanted.exit}' to '{wanted.overlap}', is "
+                f"{path.overlap_mm:,} mm long: a train whose brake is late slips {SHORTEST_OVERLAP_MM:,}"
+            )
+            findings.violation(OVERLAP, (wanted.name, wanted.exit, str(wanted.overlap)), text)
+
+
+def say_what_hangs_on_nothing(blocks: Blocks, paths: Iterable[Path], findings: Findings) -> None:
+    """Track that is joined to nothing a route runs over."""
+    station = blocks.segments.station
+    joined: networkx.Graph[str] = networkx.Graph()
+    joined.add_nodes_from(station.tracks)
+    for junction in station.junctions.values():
+        first, *others = (track for track, _ in junction.ports.values())
+        joined.add_edges_from((first, other) for other in others)
+    components = list(networkx.connected_components(joined))
+    if len(components) < 2:
+        return
+    run = {blocks.segments.segments[path.entered[0]].track for path in paths}
+    for tracks in components:
+        if not tracks & run:
+            names = sorted(tracks)
+            shown = ", ".join(f"'{name}'" for name in names[:5]) + (" …" if len(names) > 5 else "")
+            findings.remark(names, f"no route runs over {shown}, joined to no other track: is a joint missing?")
+
+
+def say_what_looks_alike(blocks: Blocks, told: Told, findings: Findings) -> None:
+    """Names of one kind that are taken for one another."""
+    station = blocks.segments.station
+    given = (block for block in blocks.pieces if not block.startswith("B:"))
+    for what, names in (
+        ("tracks", station.tracks),
+        ("points", [name for name, junction in station.junctions.items() if len(junction.ports) > 2]),
+        ("boundaries", station.marks),
+        ("blocks", given),
+        ("routes", [wanted.name for wanted in told.routes]),
+        ("trains", told.trains),
+    ):
+        say_what_is_alike(what, names, findings)

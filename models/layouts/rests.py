@@ -1,0 +1,108 @@
+"""What a verdict rests on beside the axioms: what a file declares on its own word, and what was taken in its stead.
+
+An axiom that names authority, or a position that nobody stated, is true of the layout as imported.  Whether it is true
+of the railway nobody has looked at; so every verdict carries it, and ``--strict`` accepts only what is declared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from kernel.names import Point, Route
+from models.layouts.results import Imported, Rest, RestKind
+
+Instances = Sequence[tuple[str, ...]]
+
+WORDS: Mapping[RestKind, str] = {
+    "authority": "pairs of blocks (from, into) kept apart by train protection alone",
+    "clearance": "legs of points that no clearance is known of",
+    "joint": "joints of track made by one name at two ends alone",
+    "position": "points held in a position that nobody states",
+    "derived": "routes, lengths or choices that the file does not tell and the import made",
+    "unread": "elements of the file that are not read",
+    "left out": "routes left out",
+}
+
+
+def rests_of(imported: Imported) -> tuple[Rest, ...]:
+    """Everything that a verdict on a layout rests on, kind by kind; kinds of which there is nothing are left out."""
+    told = imported.told
+    listed = told is not None and told.held is not None
+    found: list[tuple[RestKind, bool, Instances]] = [
+        ("authority", listed, _held(imported)),
+        ("clearance", True, [(leg.point, leg.leg) for leg in imported.legs if _matters(leg.boundary, leg.clear_mm)]),
+        ("clearance", False, _not_known(imported)),
+        ("joint", False, _by_name(imported)),
+        ("position", False, list(_unstated(imported))),
+        ("derived", False, _remarked(imported, "derived")),
+        ("unread", False, _remarked(imported, "unread")),
+        ("left out", False, _left_out(imported)),
+    ]
+    return tuple(
+        Rest(kind, declared, tuple(instances), _text(kind, declared, instances))
+        for kind, declared, instances in found
+        if instances
+    )
+
+
+def _text(kind: RestKind, declared: bool, instances: Instances) -> str:
+    said = WORDS[kind].replace("no clearance is known of", "have their clearance told") if declared else WORDS[kind]
+    by = ", as the file declares" if declared else ""
+    return f"{len(instances):,} {said}{by}"
+
+
+def _matters(boundary: str | None, clear_mm: int | None) -> bool:
+    return boundary is not None and clear_mm is not None
+
+
+def _held(imported: Imported) -> Instances:
+    """The pairs that only a train's own protection keeps apart."""
+    held = imported.ground.held_by_authority
+    return [(block, target) for block in sorted(held) for target in sorted(held[block])]
+
+
+def _not_known(imported: Imported) -> Instances:
+    """The legs that end at a boundary and of which no clearance is told; where there is no track, the points."""
+    if imported.station is None:
+        return [(point,) for point in sorted(imported.layout.points)]
+    return [
+        (leg.point, leg.leg, leg.boundary) for leg in imported.legs if leg.boundary is not None and leg.clear_mm is None
+    ]
+
+
+def _by_name(imported: Imported) -> Instances:
+    """The joints that two ends of track make by having one name, in a file that lists no joints."""
+    station, told = imported.station, imported.told
+    if station is None or told is None or told.joints is None:
+        return []
+    names = (junction for junction in station.junctions.values() if len(junction.ports) == 2)
+    return [
+        (junction.name.removeprefix("joint "), *sorted(track for track, _ in junction.ports.values()))
+        for junction in names
+        if junction.name.removeprefix("joint ") not in told.joints
+    ]
+
+
+def _unstated(imported: Imported) -> Iterator[tuple[str, ...]]:
+    """The points in blocks behind the start that a route claims, and of which its file states no position."""
+    layout = imported.layout
+    for wanted in imported.told.routes if imported.told is not None else ():
+        route = Route(wanted.name)
+        if route not in layout.routes:
+            continue
+        for point in sorted(layout.needs[route]):
+            stated = point in wanted.positions or point in wanted.flank
+            if not stated and layout.stands_in[point] != layout.start[route]:
+                yield str(Point(point)), wanted.name
+
+
+def _remarked(imported: Imported, kind: RestKind) -> Instances:
+    """What remarks say a verdict rests on, element by element."""
+    named = [remark.elements or ("?",) for remark in imported.remarks if remark.rests == kind]
+    return [(element,) for elements in named for element in elements]
+
+
+def _left_out(imported: Imported) -> Instances:
+    """The routes that the file states and the layout has not."""
+    routes = imported.told.routes if imported.told is not None else ()
+    return [(wanted.name,) for wanted in routes if Route(wanted.name) not in imported.layout.routes]

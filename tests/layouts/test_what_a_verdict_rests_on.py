@@ -1,0 +1,112 @@
+"""What a verdict rests on beside the axioms is told with it, and a strict one rests on nothing that nobody declared."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from heisoku import run
+from models.layouts import CheckResult, Imported, as_json, check, load
+from models.layouts.native import import_native
+from models.layouts.railjson import import_railjson
+from models.layouts.table import import_table
+from tests.layouts.stations import SAMPLES, SHARED, needs_shared, plain_station, railjson_of, table_rows
+
+STATION = next(path for path in SAMPLES if path.stem == "passing_station")
+STRICT = "nothing rests on a default"
+
+
+def native(**more: object) -> Imported:
+    return import_native("plain", {**plain_station(), **more}, ("T1",))
+
+
+def rests(result: CheckResult, declared: bool = False) -> dict[str, int]:
+    return {rest.kind: len(rest.instances) for rest in result.rests if rest.declared == declared}
+
+
+def test_pairs_kept_apart_by_authority_are_counted_and_told_whoever_named_them() -> None:
+    rest, listed = native(), native(held_by_authority=[])
+    pairs = {(block, target) for block, others in rest.ground.held_by_authority.items() for target in others}
+    assert rests(check(rest))["authority"] == len(pairs) > 0
+    assert "authority" not in rests(check(listed))
+    named = native(held_by_authority=sorted(map(list, pairs)))
+    assert rests(check(named), declared=True)["authority"] == len(pairs)
+    assert check(named).verdict == "holds"
+
+
+def test_legs_of_unknown_clearance_are_counted_and_declared_ones_are_not() -> None:
+    plain = check(native())
+    points = {name: {"clear_mm": {"normal": 40_000, "reverse": 40_000}} for name in plain_station()["points"]}
+    told = check(native(points=points))
+    assert rests(plain)["clearance"] == 2 * len(points)
+    assert "clearance" not in rests(told)
+    assert rests(told, declared=True)["clearance"] == 2 * len(points)
+
+
+def test_a_table_knows_the_clearance_of_no_point() -> None:
+    result = check(import_table("table", {"interlocking-table": table_rows()}, ("T1",)))
+    assert rests(result)["clearance"] == 2
+
+
+def test_a_point_in_a_claimed_block_without_a_stated_position_is_told_with_its_route() -> None:
+    result = check(load(next(path for path in SAMPLES if path.stem == "terminus")))
+    (rest,) = (rest for rest in result.rests if rest.kind == "position")
+    assert rest.instances == (("K2", "arrive 1"), ("K2", "depart 1"))
+
+
+def test_routes_that_are_left_out_are_told() -> None:
+    data = plain_station()
+    data["routes"]["stub"] = {"from": "west", "direction": "forward", "to": "a"}
+    for imported in (import_native("x", data, ("T1",)), import_railjson("x", railjson_of(data), ("T1",))):
+        assert rests(check(imported))["left out"] == 1
+
+
+def test_joints_by_name_alone_are_told_until_the_file_lists_them() -> None:
+    assert [rest.instances for rest in check(native()).rests if rest.kind == "joint"] == [(("y", "x", "z"),)]
+    assert "joint" not in rests(check(native(joints=["y"])))
+    assert "joint" not in rests(check(import_railjson("x", railjson_of(plain_station()), ("T1",))))
+
+
+def test_strict_makes_a_violation_of_each_kind_that_nobody_declared() -> None:
+    imported = native()
+    loose, strict = check(imported), check(imported, strict=True)
+    assert (loose.verdict, strict.verdict) == ("holds", "does not hold")
+    assert [v.axiom for v in strict.violations] == [STRICT] * len(rests(loose))
+    elements = {element for v in strict.violations for element in v.elements}
+    assert {"P", "Q", "normal", "reverse"} <= elements
+
+
+def test_a_file_that_declares_everything_holds_strictly() -> None:
+    result = check(load(STATION), strict=True)
+    assert (result.verdict, result.defaults) == ("holds", 0)
+    assert rests(result, declared=True) == {"authority": 8, "clearance": 6}
+
+
+def test_the_command_tells_what_it_rests_on_and_records_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ring = str(next(path for path in SAMPLES if path.stem == "ring"))
+    record = tmp_path / "check.json"
+    assert run(["check", ring, "--json", str(record)]) == 0
+    assert "rests on 8 pairs of blocks (from, into) kept apart by train protection alone" in capsys.readouterr().out
+    (entry,) = json.loads(record.read_text("utf-8"))["layouts"]
+    (rest,) = entry["rests"]
+    assert (rest["on"], rest["declared"], rest["count"], len(rest["instances"])) == ("authority", False, 8, 8)
+    assert run(["check", ring, "--strict"]) == 1
+    assert STRICT in capsys.readouterr().out
+    assert run(["check", str(STATION), "--strict"]) == 0
+
+
+def test_the_record_counts_what_the_result_has() -> None:
+    imported = native()
+    data = as_json(imported, check(imported))
+    entries = data["rests"]
+    assert isinstance(entries, list)
+    assert {entry["on"]: entry["count"] for entry in entries} == rests(check(imported))
+
+
+@needs_shared
+def test_the_largest_real_network_shows_its_76_pairs() -> None:
+    result = check(load(SHARED / "osrd-small_infra.json"))
+    assert result.verdict == "holds"
+    assert rests(result) == {"authority": 76, "clearance": 40, "left out": 6}
