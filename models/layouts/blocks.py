@@ -130,7 +130,7 @@ def walk(segments: Segments, starts: Iterable[Heading], barred: tuple[str, Posit
         met.add(heading)
         end = segments.at[heading]
         if isinstance(end, Joint):
-            ways = list(segments.onward(end))
+            ways = segments.onward(end)
             for _, positions, onward in ways:
                 if barred is None or len(ways) < 2 or (end.junction, positions) != (barred[0], (barred[1],)):
                     todo.append(onward)

@@ -146,7 +146,7 @@ class Follower:
         """The heading behind a junction, by the position the route gives for it."""
         junction = self.blocks.segments.station.junctions[joint.junction]
         position = path.wanted.positions.get(joint.junction)
-        ways = list(self.blocks.segments.onward(joint))
+        ways = self.blocks.segments.onward(joint)
         path.junctions.add(joint.junction)
         if position is None and junction.is_point:
             self._misled(path, joint.junction, "passes it but gives no position for it")

@@ -105,10 +105,28 @@ def import_railjson(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     station = reader.station()
     routes = tuple(reader.routes(station))
     findings = Findings("switch")
+    say_what_is_not_read(data, dialect, findings)
     blocks = find_blocks(cut_into_segments(station), {})
     follower = Follower(blocks, file, findings)
     paths = [path for route in routes if (path := follower.follow(route)) is not None]
     return assemble(blocks, paths, Told(file, "RailJSON", trains, routes), findings)
+
+
+def say_what_is_not_read(data: Mapping[str, Any], dialect: Dialect, findings: Findings) -> None:
+    """A remark for each list of the file that is not read and may matter to safety, with the ids in it."""
+    read = {dialect.switches, dialect.extended, "track_sections", "detectors", "buffer_stops", "routes"}
+    for listed in sorted(set(data) - read - WITHOUT_EFFECT):
+        items = data[listed]
+        if isinstance(items, list) and items:
+            ids = [each.get("id") if isinstance(each, dict) else None for each in items]
+            names = [f"{listed}[{at}]" if name is None else str(name) for at, name in enumerate(ids)]
+            findings.remark(names, f"{len(names)} of {listed} are not read: no route knows of them", "unread")
+
+
+WITHOUT_EFFECT = frozenset(
+    ("version", "operational_points", "signals", "electrifications", "neutral_sections", "catenaries", "dead_sections")
+)
+"""What keeps no two trains apart here: names, traction, and signals, since routes begin and end at detectors."""
 
 
 class Reader:

@@ -7,8 +7,8 @@ Lengths and positions are whole millimetres from a track's beginning.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 LOW, HIGH = 0, 1
@@ -107,12 +107,17 @@ class Stop:
 End = Cut | Joint | Stop
 
 
+WayOn = tuple[str, tuple[str, ...], Heading]
+"""A way on over a junction: the port reached, the positions that lead there, the heading behind."""
+
+
 @dataclass(frozen=True)
 class Segments:
     """A station cut at its marks.
 
     ``at``: the end that each heading runs to.  ``leaving``: the heading of a movement that leaves
     a track's end inwards.  ``beside``: for a mark, the headings away from it, by side.
+    ``ways_on``: what was asked of :meth:`onward` before; a search asks it of the same joints many times.
     """
 
     station: Station
@@ -120,13 +125,18 @@ class Segments:
     at: Mapping[Heading, End]
     leaving: Mapping[tuple[str, int], Heading]
     beside: Mapping[str, Mapping[int, Heading]]
+    ways_on: dict[tuple[str, str], tuple[WayOn, ...]] = field(default_factory=dict, compare=False, repr=False)
 
-    def onward(self, joint: Joint) -> Iterator[tuple[str, tuple[str, ...], Heading]]:
-        """Every way on from a joint: the port reached, the positions that lead there, the heading."""
-        junction = self.station.junctions[joint.junction]
-        for port, positions in junction.kind.ways(joint.port).items():
-            if port in junction.ports:
-                yield port, positions, self.leaving[junction.ports[port]]
+    def onward(self, joint: Joint) -> tuple[WayOn, ...]:
+        """Every way on from a joint."""
+        known = self.ways_on.get((joint.junction, joint.port))
+        if known is None:
+            junction = self.station.junctions[joint.junction]
+            known = self.ways_on[joint.junction, joint.port] = tuple(
+                (port, positions, self.leaving[junction.ports[port]])
+                for port, positions in junction.kind.ways(joint.port).items()
+            )
+        return known
 
 
 def cut_into_segments(station: Station) -> Segments:

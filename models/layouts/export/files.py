@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from io import StringIO
 
 from models.layouts.conflict_pairs import Conflicts
@@ -93,6 +93,9 @@ def _layout(imported: Imported, name: str, text_of: Callable[[], str]) -> Writte
     said = "read back the same"
     if again.kind != imported.kind:
         said = "read back with the same routes, blocks and points, in the words of another format"
+    unread = sum(len(remark.elements) for remark in imported.remarks if remark.rests == "unread")
+    if unread:
+        said += f", but for {unread:,} elements that are not read"
     missing = list(left_out(imported)) if again.kind == "RailJSON" else []
     return Written(name, text.encode(), said + (f"; it has no words for {', '.join(missing)}" if missing else ""))
 
@@ -100,7 +103,8 @@ def _layout(imported: Imported, name: str, text_of: Callable[[], str]) -> Writte
 def _otherwise(imported: Imported, again: Imported) -> list[str]:
     """In what a layout differs from the one that was written; between formats, of what is not a format's word."""
     if imported.kind == again.kind:
-        return [field.name for field in fields(imported) if getattr(imported, field.name) != getattr(again, field.name)]
+        one, other = _as_read(imported), _as_read(again)
+        return [field.name for field in fields(one) if getattr(one, field.name) != getattr(other, field.name)]
     ours, theirs = imported.layout, again.layout
     same = {
         "routes": ours.routes == theirs.routes,
@@ -111,6 +115,11 @@ def _otherwise(imported: Imported, again: Imported) -> list[str]:
         == {route: len(way) - len(theirs.overlap[route]) for route, way in theirs.way.items()},
     }
     return [what for what, is_same in same.items() if not is_same]
+
+
+def _as_read(imported: Imported) -> Imported:
+    """A layout without remarks on what was not read: that is not written back."""
+    return replace(imported, remarks=tuple(remark for remark in imported.remarks if remark.rests != "unread"))
 
 
 # ---- tables

@@ -39,9 +39,19 @@ class Document:
         place = f"{kind_of(element)} '{name}'" if name else f"{kind_of(element)} in line {element.sourceline}"
         return BadInput(self.file, place, what, what_to_do)
 
+    @cached_property
+    def namespace(self) -> str | None:
+        """The document's namespace, which is its root's; what stands in another one is no railML."""
+        return etree.QName(self.root).namespace
+
+    def is_own(self, element: Element) -> bool:
+        """Whether an element is of the document's namespace."""
+        return etree.QName(element).namespace == self.namespace
+
     def all(self, kind: str, inside: Element | None = None) -> Iterator[Element]:
-        """Every element of a kind, in the order of the document."""
-        yield from (self.root if inside is None else inside).iterfind(f".//{{*}}{kind}")
+        """Every element of a kind and of the document's namespace, in the order of the document."""
+        name = kind if self.namespace is None else f"{{{self.namespace}}}{kind}"
+        yield from (self.root if inside is None else inside).iterfind(f".//{name}")
 
     def first(self, kind: str, inside: Element) -> Element | None:
         """The first element of a kind inside another."""
@@ -57,7 +67,7 @@ class Document:
         found: dict[str, Element] = {}
         for element in self.root.iter("{*}*"):
             name = element.get("id")
-            if name is None:
+            if name is None or not self.is_own(element):
                 continue
             identifier(self.file, f"{kind_of(element)} in line {element.sourceline}", name)
             if name in found:

@@ -12,7 +12,9 @@ from models.layouts.railml.marks import Marks, read_marks
 from models.layouts.railml.overlaps import with_overlaps
 from models.layouts.railml.routes import Ends, follow, route_ends
 from models.layouts.railml.sections import compare_sections, note_parts, with_groups
+from models.layouts.railml.switches import compare_branches, read_clearance
 from models.layouts.railml.topology import Topology, read_topology
+from models.layouts.railml.unread import say_what_is_not_read
 from models.layouts.railml.version_2 import read_tracks
 from models.layouts.results import Imported
 from models.layouts.told import Told
@@ -26,6 +28,7 @@ def import_railml(file: str, text: str, trains: tuple[str, ...]) -> Imported:
     """
     source, findings = document(file, text), Findings("switch")
     topology, marks, routes = _read(source, findings)
+    say_what_is_not_read(source, findings)
     note_parts(source, marks, findings)
     segments = cut_into_segments(Station(topology.lengths_mm, topology.junctions, marks.marks))
     followed = with_groups(source, marks, follow(source, segments, marks, routes, findings))
@@ -34,7 +37,10 @@ def import_railml(file: str, text: str, trains: tuple[str, ...]) -> Imported:
     blocks = find_blocks(segments, {})
     follower = Follower(blocks, file, findings)
     paths = [path for each in followed if (path := follower.follow(each.wanted)) is not None]
-    told = Told(file, "railML", trains, tuple(each.wanted for each in followed))
+    compare_branches(source, topology, findings)
+    clearance = read_clearance(source, topology, marks, blocks, findings)
+    wanted = tuple(each.wanted for each in followed)
+    told = Told(file, "railML", trains, wanted, clearance.fouls, clear_mm=clearance.clear_mm)
     return compare_declared(source, assemble(blocks, paths, told, findings))
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
-from models.layouts.railml.topology import Topology
+from models.layouts.railml.topology import LONGEST_M, Topology
 from models.layouts.track import HIGH, LOW, Mark
 
 DIRECTIONS = {"normal": HIGH, "reverse": LOW}
@@ -66,9 +66,10 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
             if spot is None:
                 if name in signals:
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
-                findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out")
+                findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
-            found.put(source, element, _mark(source, topology, name, spot, cuts))
+            found.put(source, element, Mark(name, *placed(source, topology, name, spot), cuts))
+            _compare_places(source, found.of[name], name, spot, topology, findings)
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
@@ -79,8 +80,31 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
     return found
 
 
-def _mark(source: Document, topology: Topology, name: str, spot: Element, cuts: bool) -> Mark:
-    """A mark in its place."""
+def _compare_places(
+    source: Document, mark: str, name: str, spot: Element, topology: Topology, findings: Findings
+) -> None:
+    """Where a place is told twice, by share of the net element and by metres, the two must be one place."""
+    if spot.get("intrinsicCoord") is None or spot.get("pos") is None:
+        return
+    length_m = topology.lengths_mm[source.attribute(spot, "netElementRef")] / 1_000
+    pos_m = source.number(spot, "pos", -LONGEST_M, LONGEST_M)
+    share_m = source.number(spot, "intrinsicCoord", 0.0, 1.0) * length_m
+    if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
+        text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
+        findings.violation("an element lies in one place", list(dict.fromkeys((name, mark))), text)
+
+
+SAME_PLACE_M = 1.0
+SAME_SHARE = 0.0001
+"""So far the two may be apart: as a share is written with four digits."""
+
+
+def placed(source: Document, topology: Topology, name: str, spot: Element) -> tuple[str, int]:
+    """The net element that something lies on, and where on it in mm.
+
+    Raises:
+        BadInput: it lies nowhere.
+    """
     track = source.attribute(spot, "netElementRef")
     if track not in topology.lengths_mm:
         missing = "not of the finest level" if track in source.by_id else "not there"
@@ -90,7 +114,7 @@ def _mark(source: Document, topology: Topology, name: str, spot: Element, cuts: 
         if spot.get(attribute) is not None:
             most = 1.0 if attribute == "intrinsicCoord" else length_mm / 1000
             value = source.number(spot, attribute, 0.0, most)
-            return Mark(name, track, round(value * (length_mm if attribute == "intrinsicCoord" else 1000)), cuts)
+            return track, round(value * (length_mm if attribute == "intrinsicCoord" else 1000))
     raise source.bad(source.by_id[name], "its spotLocation has neither intrinsicCoord nor pos", "say where it lies")
 
 

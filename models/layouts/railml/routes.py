@@ -15,7 +15,6 @@ from models.layouts.track import Cut, Heading, Joint, Segments, Stop
 MOST_WAYS = 64
 """So many ways from a signal are looked at; a station has fewer."""
 MOST_STEPS = 20_000
-NOT_READ = ("routeRelation", "combinedRoute")
 POSITIONS = ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition", "requiresSwitchInPosition")
 DEPARTURE = ("switchPositionInDepartureTrack",)
 
@@ -69,19 +68,13 @@ def follow(
     Raises:
         BadInput: a route has no way over the track, or more than one; or there is nothing to derive one from.
     """
-    for kind in NOT_READ:
-        names = [each.get("id", "?") for each in source.all(kind)]
-        if names:
-            findings.remark(
-                names, f"{len(names)} of {kind} are not read: what they say is derived from the track, or not kept"
-            )
     if routes:
         return [_followed(source, segments, marks, ends, findings) for ends in routes.values()]
     derived = list(_derived(segments, marks))
     if not derived:
         raise source.bad(None, "has no routes, and no signals that they could be derived from", "give its routes")
     names = [each.wanted.name for each in derived]
-    findings.remark(names, f"the file has no routes: {len(names)} are derived, from signal to signal")
+    findings.remark(names, f"the file has no routes: {len(names)} are derived, from signal to signal", "derived")
     return derived
 
 

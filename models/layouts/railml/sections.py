@@ -13,6 +13,7 @@ from models.layouts.railml.marks import Marks
 from models.layouts.railml.routes import Followed
 from models.layouts.track import Cut, Segments, Stop
 
+MATCH = "sections are pieces of track, and a route's are those that it runs through"
 DEMARCATING = ("hasDemarcatingTraindetector", "hasDemarcatingBufferstop", "hasDemarcatingBorder")
 
 
@@ -57,7 +58,10 @@ def with_groups(source: Document, marks: Marks, routes: Sequence[Followed]) -> l
 def compare_sections(
     source: Document, segments: Segments, marks: Marks, routes: Sequence[Followed], findings: Findings
 ) -> None:
-    """Remark on sections that no piece of track is, and on routes that name others than they run through."""
+    """Sections that no piece of track is, and routes that name others than they run through, are violations.
+
+    A route that names none contradicts nothing; one that has an overlap may name that's as well.
+    """
     told = demarcated(source, marks)
     of: dict[int, frozenset[str]] = {}
     matched: set[str] = set()
@@ -71,7 +75,7 @@ def compare_sections(
             findings.remark(sorted(names), text)
     for section in sorted(told.keys() - matched):
         text = f"no piece of track lies between what demarcates section '{section}': {_listed(told[section])}"
-        findings.remark([section], text)
+        findings.violation(MATCH, (section, *sorted(told[section])), text)
     for route in routes:
         name = route.wanted.name
         if name not in source.by_id or not told:
@@ -79,10 +83,17 @@ def compare_sections(
         listed = source.all("hasTvdSection", source.by_id[name])
         named = {source.attribute(source.referred(each), "id") for each in listed}
         run = {of[each] for each in route.way.segments if each in of}
-        if any(not named & alike for alike in run) or not named <= frozenset().union(*run):
-            through = "; ".join(sorted(" or ".join(sorted(alike)) for alike in run)) or "none"
-            text = f"route '{name}' names the sections {_listed(named)}, and runs through {through}"
-            findings.remark([name], text)
+        missed = any(not named & alike for alike in run)
+        others = named - frozenset().union(*run)
+        if not missed and not others:
+            continue
+        through = "; ".join(sorted(" or ".join(sorted(alike)) for alike in run)) or "none"
+        text = f"route '{name}' names the sections {_listed(named)}, and runs through {through}"
+        odd = sorted(others | frozenset().union(*(alike for alike in run if not named & alike)))
+        if not named or (not missed and route.wanted.overlap is not None):
+            findings.remark([name, *odd], text)
+        else:
+            findings.violation(MATCH, [name, *odd], text)
 
 
 def _listed(names: Collection[str]) -> str:

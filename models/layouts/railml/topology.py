@@ -102,7 +102,8 @@ def _length_mm(source: Document, name: str, findings: Findings) -> int:
     if told_m is None and drawn_m is None:
         raise source.bad(element, "has no length, and no track or coordinates that give one", "add the length")
     if told_m is None:
-        findings.remark([name], f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}")
+        text = f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}"
+        findings.remark([name], text, "derived")
     elif drawn_m is not None and abs(drawn_m - told_m) > TOLERANCE * told_m:
         findings.remark([name], f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long")
     length_m = told_m if told_m is not None else drawn_m

@@ -105,7 +105,9 @@ def _track(source: Document, element: Element) -> Track:
 
 def _cutting(source: Document, track: Element) -> Iterator[Element]:
     for connections in source.all("connections", track):
-        yield from (each for each in connections.iterchildren("{*}*") if kind_of(each) in ("switch", "crossing"))
+        for each in connections.iterchildren("{*}*"):
+            if source.is_own(each) and kind_of(each) in ("switch", "crossing"):
+                yield each
 
 
 def _position_mm(source: Document, element: Element) -> int:
@@ -244,7 +246,7 @@ def _marks(source: Document, tracks: Sequence[Track], findings: Findings) -> Mar
         for kind, at_mm in (("trackBegin", track.begin_mm), ("trackEnd", track.end_mm)):
             end = source.first(kind, track.element)
             for stop in end.iterchildren("{*}*") if end is not None else ():
-                if kind_of(stop) != "connection" and stop.get("id") is not None:
+                if source.is_own(stop) and kind_of(stop) != "connection" and stop.get("id") is not None:
                     found.put(source, stop, track.place(source.attribute(stop, "id"), at_mm, cuts=False))
     return found
 
@@ -264,7 +266,9 @@ def _signals(source: Document, tracks: Sequence[Track], found: Marks, findings: 
                 found.signals.add(name)
                 found.side[name] = DIRECTIONS[signal.get("dir", "")]
     if silent:
-        findings.remark(silent, f"{len(silent)} signals say of no direction that they speak to: they are left out")
+        findings.remark(
+            silent, f"{len(silent)} signals say of no direction that they speak to: they are left out", "unread"
+        )
     if other:
         findings.remark(other, f"{len(other)} signals are no main signals: no route begins or ends there")
 

@@ -70,7 +70,7 @@ def _places(length: int, chance: random.Random) -> list[float]:
     if chance.random() < 0.3:
         return []
     places = {round(chance.uniform(1, length - 1), 3) for _ in range(chance.choice((1, 1, 2)))}
-    return sorted({chance.choice((place, place, 2.5, length - 2.5)) for place in places})
+    return sorted({chance.choice((place, place, 3.5, length - 3.5)) for place in places})
 
 
 def _routes(data: dict[str, Any], chance: random.Random) -> list[dict[str, Any]]:

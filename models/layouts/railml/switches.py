@@ -1,0 +1,133 @@
+"""railML's ``switchIL``, held against the ``switchIS`` it refers to, and what it tells of the point's clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from kernel.names import Block, Point
+from models.layouts.blocks import Blocks
+from models.layouts.findings import Findings
+from models.layouts.railml.document import Document, Element, kind_of
+from models.layouts.railml.marks import Marks, placed, signal_of
+from models.layouts.railml.topology import Topology
+from models.layouts.track import HIGH, Junction
+
+BRANCHES = {"left": "branchLeft", "right": "branchRight"}
+AGREE = "a switch has one left and one right branch"
+FOULS = "a detector that fouls a point lies at its block"
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """What a file tells of its points' clearance: for a leg, its fouling point in mm; blocks that foul each other."""
+
+    clear_mm: Mapping[tuple[str, str], int]
+    fouls: Mapping[Block, frozenset[Block]]
+
+
+def _switches(source: Document, topology: Topology) -> Iterator[tuple[Element, Junction]]:
+    """Each ``switchIL`` with the point that it is on the track."""
+    for switch in source.all("switchIL"):
+        refers = source.first("refersTo", switch)
+        name = "" if refers is None else source.attribute(source.referred(refers), "id")
+        if name in topology.junctions:
+            yield switch, topology.junctions[name]
+
+
+def compare_branches(source: Document, topology: Topology, findings: Findings) -> None:
+    """Remark on branches that cannot be compared; those that contradict the point's on the track are a violation.
+
+    Raises:
+        BadInput: a branch refers to what is not there.
+    """
+    for switch, point in _switches(source, topology):
+        name = source.attribute(switch, "id")
+        elements = {
+            side: _beyond(point, side) for side in BRANCHES if len(point.ports) == 3 and side in point.kind.positions
+        }
+        for side, word in BRANCHES.items():
+            branch = source.first(word, switch)
+            if branch is None or branch.get("ref") is None:
+                continue
+            told = _net_elements(source, source.referred(branch))
+            if len(elements) < 2 or not told or set(elements.values()) <= told:
+                findings.remark([name, point.name], f"switchIL '{name}': its {word} is not compared", "unread")
+            elif elements[side] not in told:
+                text = (
+                    f"switchIL '{name}' has '{branch.get('ref')}' as its {word}, and switch '{point.name}' has "
+                    f"'{elements[side]}': a route that wants it {side} is led elsewhere"
+                )
+                findings.violation(AGREE, (point.name, name), text)
+
+
+def _beyond(point: Junction, side: str) -> str:
+    """The net element that a point leads to in a position, seen from its tip."""
+    (ways,) = point.kind.positions[side]
+    shared = set.intersection(*(set(way) for each in point.kind.positions.values() for way in each))
+    (port,) = set(ways) - shared
+    return point.ports[port][0]
+
+
+def _net_elements(source: Document, element: Element) -> set[str]:
+    """The net elements that a branch stands for: one itself, or those of a track."""
+    if kind_of(element) == "netElement":
+        return {source.attribute(element, "id")}
+    parts = source.all("associatedNetElement", element) if kind_of(element) == "track" else ()
+    return {source.attribute(part, "netElementRef") for part in parts}
+
+
+def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: Blocks, findings: Findings) -> Clearance:
+    """The fouling points that are marked, and the detectors that are said to lie before them.
+
+    Raises:
+        BadInput: one refers to what is not there, or lies nowhere.
+    """
+    clear_mm: dict[tuple[str, str], int] = {}
+    fouls: dict[Block, frozenset[Block]] = {}
+    for switch, point in _switches(source, topology):
+        for item in source.all("hasGaugeClearanceMarker", switch):
+            marker = signal_of(source, source.referred(item))
+            found = _along(source, topology, point, marker)
+            if found is None:
+                name = source.attribute(marker, "id")
+                text = f"clearance marker '{name}' does not lie on a leg of switch '{point.name}': it is not read"
+                findings.remark([point.name, name], text, "unread")
+            else:
+                clear_mm[point.name, found[0]] = max(found[1], 1)
+        for item in source.all("hasFoulingTrainDetectors", switch):
+            detector = source.attribute(signal_of(source, source.referred(item)), "id")
+            _foul(point.name, detector, marks, blocks, fouls, findings)
+    return Clearance(clear_mm, fouls)
+
+
+def _along(source: Document, topology: Topology, point: Junction, marker: Element) -> tuple[str, int] | None:
+    """The leg that a marker lies on, and how far from the point."""
+    spot = source.first("spotLocation", marker)
+    if spot is None:
+        raise source.bad(marker, "has no place on the track", "add its spotLocation")
+    track, at_mm = placed(source, topology, source.attribute(marker, "id"), spot)
+    for port, (element, side) in point.ports.items():
+        if element == track:
+            return port, topology.lengths_mm[track] - at_mm if side == HIGH else at_mm
+    return None
+
+
+def _foul(
+    point: str,
+    detector: str,
+    marks: Marks,
+    blocks: Blocks,
+    fouls: dict[Block, frozenset[Block]],
+    findings: Findings,
+) -> None:
+    """The block behind a detector that proves nothing of a point's clearance fouls the block of the point."""
+    mark, own = marks.of.get(detector), blocks.stands_in[Point(point)]
+    sides = blocks.segments.beside.get(mark or "", {}).values()
+    beside = {blocks.of[heading[0]] for heading in sides}
+    if own not in beside:
+        text = f"detector '{detector}' is said to foul switch '{point}', and does not bound its block"
+        findings.violation(FOULS, (point, detector), text)
+    for other in beside - {own} if own in beside else ():
+        fouls[own] = fouls.get(own, frozenset()) | {other}
+        fouls[other] = fouls.get(other, frozenset()) | {own}
