@@ -8,6 +8,7 @@ from heapq import heappop, heappush
 
 from kernel.names import Block, Tag
 from models.layouts.blocks import Blocks, opposite
+from models.layouts.measures import SHORTEST_BLOCK_MM
 from models.layouts.track import Cut, Heading, Joint
 
 
@@ -15,12 +16,13 @@ from models.layouts.track import Cut, Heading, Joint
 class Onward:
     """From one end of a block into it: ``next_mm`` to the next tag, 0 if there is none or there are several (T1).
 
-    ``nearest_mm``: the shortest way to any detector or end of track; ``to_detector``: whether it is a detector.
+    ``detector_mm``, ``stop_mm``: the shortest way to a detector, and to an end of track; none if there is none, or if
+    it is longer than matters to the tags of a block.
     """
 
     next_mm: int
-    nearest_mm: int
-    to_detector: bool
+    detector_mm: int | None
+    stop_mm: int | None
 
 
 def ways_in(blocks: Blocks, name: Callable[[str, Block], Tag]) -> dict[Tag, Onward]:
@@ -30,8 +32,16 @@ def ways_in(blocks: Blocks, name: Callable[[str, Block], Tag]) -> dict[Tag, Onwa
         for heading in ends:
             end = blocks.segments.at[heading]
             if isinstance(end, Cut):
-                found[name(end.mark, block)] = _onward(blocks, opposite(heading))
+                tag, way = name(end.mark, block), _onward(blocks, opposite(heading))
+                found[tag] = _shorter(found[tag], way) if tag in found else way
     return found
+
+
+def _shorter(one: Onward, other: Onward) -> Onward:
+    """Of a boundary that has one block on both sides, whose tags have one name, the shorter of both ways."""
+    to_detector = [mm for mm in (one.detector_mm, other.detector_mm) if mm is not None]
+    to_stop = [mm for mm in (one.stop_mm, other.stop_mm) if mm is not None]
+    return Onward(other.next_mm, min(to_detector, default=None), min(to_stop, default=None))
 
 
 def next_tag_mm(ways: Mapping[Tag, Onward]) -> dict[Tag, int]:
@@ -40,14 +50,14 @@ def next_tag_mm(ways: Mapping[Tag, Onward]) -> dict[Tag, int]:
 
 
 def _onward(blocks: Blocks, start: Heading) -> Onward:
-    """The way in from one end of a block; ways that come together again count as several."""
+    """The way in from one end of a block, nearest first; ways that come together again count as several."""
     segments = blocks.segments
     reached: set[Heading] = set()
-    nearest: tuple[int, bool] | None = None
+    stop_mm: int | None = None
     detectors_mm: list[int] = []
     meets = False
     todo = [(0, start)]
-    while todo and (nearest is None or not (meets or len(detectors_mm) > 1)):
+    while todo and not ((meets or len(detectors_mm) > 1) and todo[0][0] >= SHORTEST_BLOCK_MM):
         so_far_mm, heading = heappop(todo)
         if heading in reached:
             meets = True
@@ -59,9 +69,9 @@ def _onward(blocks: Blocks, start: Heading) -> Onward:
         if isinstance(end, Joint):
             for _, _, onward in segments.onward(end):
                 heappush(todo, (end_mm, onward))
-            continue
-        detects = isinstance(end, Cut)
-        nearest = min(nearest or (end_mm, detects), (end_mm, detects))
-        detectors_mm += [end_mm] if detects else []
-    nearest_mm, to_detector = nearest or (0, False)
-    return Onward(detectors_mm[0] if len(detectors_mm) == 1 and not meets else 0, nearest_mm, to_detector)
+        elif isinstance(end, Cut):
+            detectors_mm.append(end_mm)
+        else:
+            stop_mm = end_mm if stop_mm is None else min(stop_mm, end_mm)
+    next_mm = detectors_mm[0] if len(detectors_mm) == 1 and not meets else 0
+    return Onward(next_mm, min(detectors_mm, default=None), stop_mm)

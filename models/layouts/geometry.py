@@ -31,24 +31,26 @@ def say_what_is_no_railway(
     blocks: Blocks, ways: Mapping[Tag, Onward], tag_in: Mapping[Tag, Block], findings: Findings
 ) -> None:
     """Blocks that are too short or too long, measured from each of their boundaries to what comes next."""
-    nearest: dict[Block, tuple[int, bool]] = {}
+    short: dict[Block, tuple[int, int, str]] = {}
     for tag, way in ways.items():
         block = tag_in[tag]
-        nearest[block] = min(nearest.get(block, (way.nearest_mm, way.to_detector)), (way.nearest_mm, way.to_detector))
         if way.next_mm > LONGEST_DISTANCE_MM:
             text = f"from tag '{tag}' it is {way.next_mm:,} mm to the next: a tag holds at most {LONGEST_DISTANCE_MM:,}"
             findings.violation(HOLDS, blocks.bounds[block], text)
-    for block, (short_mm, to_detector) in nearest.items():
-        least_mm = SHORTEST_BLOCK_MM if to_detector else TAG_MM
-        if short_mm < least_mm:
-            between = "from boundary to boundary" if to_detector else "from its boundary to the end of track"
-            text = f"block '{block}' is {short_mm:,} mm {between}: its tags need {least_mm:,}"
-            findings.violation(ROOM, blocks.bounds[block], text)
-        elif short_mm > LONGEST_BLOCK_MM:
-            text = f"block '{block}' is {short_mm / 1_000_000:,.0f} km long: is the unit right, or a boundary missing?"
+        for long_mm, least_mm, between in (
+            (way.detector_mm, SHORTEST_BLOCK_MM, "from boundary to boundary"),
+            (way.stop_mm, TAG_MM, "from its boundary to the end of track"),
+        ):
+            if long_mm is not None and long_mm < least_mm:
+                short[block] = min(short.get(block, (long_mm, least_mm, between)), (long_mm, least_mm, between))
+        if way.next_mm > LONGEST_BLOCK_MM:
+            text = f"block '{block}' is {way.next_mm / 1_000_000:,.0f} km long: is the unit right, a boundary missing?"
             findings.remark(blocks.bounds[block], text)
+    for block, (long_mm, least_mm, between) in short.items():
+        text = f"block '{block}' is {long_mm:,} mm {between}: its tags need {least_mm:,}"
+        findings.violation(ROOM, blocks.bounds[block], text)
     longest_mm = max(blocks.segments.station.tracks.values(), default=0)
-    if nearest and longest_mm < SHORTEST_VEHICLE_MM:
+    if ways and longest_mm < SHORTEST_VEHICLE_MM:
         text = f"no track is longer than {longest_mm:,} mm, less than one vehicle: were kilometres given for metres?"
         findings.violation("a track is as long as a vehicle", list(blocks.segments.station.tracks), text)
 

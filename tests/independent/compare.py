@@ -12,6 +12,7 @@ from models.layouts import CheckResult, Imported
 from tests.independent.files import Enumerated, facts_of, network_of
 from tests.independent.raw_graph import Network, leads
 from tests.independent.raw_graph import Route as Walked
+from tests.independent.raw_measures import measured
 
 
 def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
@@ -95,9 +96,19 @@ def listed_violations(result: CheckResult) -> Counter[Listed]:
     return Counter((violation.axiom, tuple(sorted(set(violation.elements)))) for violation in result.violations)
 
 
+def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:
+    """Rule and elements of all that the enumeration finds; of clearances it believes what the file tells."""
+    ours = {(violation.rule, tuple(sorted(set(violation.elements)))) for violation in found.violations}
+    network, told = network_of(found), imported.told
+    if network is not None and told is not None:
+        fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
+        ours |= {(rule, tuple(sorted(set(elements)))) for rule, elements in measured(network, told.clear_mm, fouls)}
+    return ours
+
+
 def disagreements(imported: Imported, result: CheckResult, found: Enumerated) -> list[str]:
     """All that the importer and the enumeration see differently; how often a fault is told says nothing."""
-    ours = {(violation.rule, tuple(sorted(set(violation.elements)))) for violation in found.violations}
+    ours = enumerated_violations(imported, found)
     theirs = set(listed_violations(result))
     differing = [
         f"only enumerated: {one}" for one in sorted(ours) if not any(alike(one, other, found) for other in theirs)

@@ -135,7 +135,7 @@ def turn_point(data: Data, chance: random.Random) -> str | None:
 
 def stray_point(data: Data, chance: random.Random) -> str | None:
     name, row = chance.choice(sorted(data["routes"].items()))
-    points = sorted(point for point, of in data["points"].items() if not of and point not in row.get("points", {}))
+    points = sorted(point for point, of in data["points"].items() if "kind" not in of and point not in row.get("points", {}))
     if not points:
         return None
     row.setdefault("points", {})[point := chance.choice(points)] = "normal"
@@ -153,7 +153,7 @@ def no_flank(data: Data, chance: random.Random) -> str | None:
 
 def another_flank(data: Data, chance: random.Random) -> str | None:
     name, row = chance.choice(sorted(data["routes"].items()))
-    point = chance.choice(sorted(point for point, of in data["points"].items() if not of))
+    point = chance.choice(sorted(point for point, of in data["points"].items() if "kind" not in of))
     row.setdefault("flank", {})[point] = chance.choice(["normal", "reverse"])
     return f"{name}: flank {point} {row['flank'][point]}"
 

@@ -1,0 +1,79 @@
+"""How near boundaries lie to points and to each other, by walks over the plain graph along every way."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+
+from tests.independent.raw_graph import End, Network, Place
+
+CLEAR_MM = 20_000
+"""No turnout of more than 57 m radius is clear sooner: the square root of 2 times 3.5 m times that."""
+ROOM_MM, LAST_MM = 6_339, 2_713
+"""For two tags and for one: 2 m of overhang, a window of 513 mm and 200 mm of laying for each; between two a window
+of 513 mm and the laying of both."""
+Measured = tuple[str, tuple[str, ...]]
+
+
+def measured(
+    network: Network, told_mm: Mapping[tuple[str, str], int], fouls: Mapping[str, Collection[str]]
+) -> Iterator[Measured]:
+    """Rule and elements of each boundary that lies too near, and each block that is too short.
+
+    ``told_mm``: the clearance of a leg where the file tells it.  ``fouls``: blocks that bar each other.
+    """
+    for block in network.blocks:
+        for name, mouth in network.mouths(block):
+            if not name or not _is_cut(network, mouth):
+                continue
+            for far_mm, cut, _ in _ways_to(network, mouth, {}, ()):
+                if far_mm < (LAST_MM if cut is None else ROOM_MM):
+                    yield "a block has room for its tags", tuple(network.ends(block))
+    for point, junction in network.junctions.items():
+        for leg, end in junction.legs.items() if len(junction.legs) > 2 else ():
+            if all(leg in pair for pairs in junction.joins.values() for pair in pairs):
+                continue
+            own = network.block_of[network.last_piece(end)]
+            closed = {own, *fouls.get(own, ())}
+            found = _ways_to(network, _inward(network, end), {point: leg}, closed)
+            cuts = [(far_mm, cut) for far_mm, cut, _ in found if cut is not None]
+            if cuts and min(cuts)[0] < told_mm.get((point, leg), CLEAR_MM):
+                yield "a train behind a boundary is clear of the point", tuple(sorted((point, min(cuts)[1])))
+
+
+def _is_cut(network: Network, place: Place) -> bool:
+    return any(mm == place.mm for mm, _ in network.cuts.get(place.track, []))
+
+
+def _inward(network: Network, end: End) -> Place:
+    track, which = end
+    return Place(track, network.lengths[track] if which else 0, -1 if which else 1)
+
+
+def _ways_to(
+    network: Network, start: Place, barred: Mapping[str, str], closed: Collection[str]
+) -> list[tuple[int, str | None, str]]:
+    """Every way on to a boundary behind which a block is not closed, or to an end of track: how far, which, where."""
+    found: list[tuple[int, str | None, str]] = []
+    todo: list[tuple[int, Place, frozenset[tuple[str, int]]]] = [(0, start, frozenset())]
+    while todo:
+        so_far_mm, place, seen = todo.pop()
+        ahead = [cut for cut in network.cuts.get(place.track, []) if (cut[0] - place.mm) * place.heading > 0]
+        block = ""
+        for at, name in ahead if place.heading > 0 else reversed(ahead):
+            block = network.block_of[network.piece_ahead(Place(place.track, at, place.heading))]
+            if block not in closed:
+                found.append((so_far_mm + abs(at - place.mm), name, block))
+                break
+        else:
+            end = (place.track, 1 if place.heading > 0 else 0)
+            far_mm = so_far_mm + abs((network.lengths[place.track] if place.heading > 0 else 0) - place.mm)
+            if end not in network.leg_at:
+                found.append((far_mm, None, block))
+                continue
+            name, leg = network.leg_at[end]
+            if (name, place.heading) in seen or name in barred:
+                continue
+            for other in set(network.junctions[name].ways_from(leg).values()):
+                beyond = _inward(network, network.junctions[name].legs[other])
+                todo.append((far_mm, beyond, seen | {(name, place.heading)}))
+    return found
