@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from kernel.names import Point, Route
+from kernel.names import Route
 from models.layouts.results import Imported, Rest, RestKind
 
 Instances = Sequence[tuple[str, ...]]
@@ -84,16 +84,11 @@ def _by_name(imported: Imported) -> Instances:
 
 
 def _unstated(imported: Imported) -> Iterator[tuple[str, ...]]:
-    """The points in blocks behind the start that a route claims, and of which its file states no position."""
-    layout = imported.layout
+    """The points in a route's blocks that keep nothing off its path, and of which its file states no position."""
     for wanted in imported.told.routes if imported.told is not None else ():
-        route = Route(wanted.name)
-        if route not in layout.routes:
-            continue
-        for point in sorted(layout.needs[route]):
-            stated = point in wanted.positions or point in wanted.flank
-            if not stated and layout.stands_in[point] != layout.start[route]:
-                yield str(Point(point)), wanted.name
+        for point, role in sorted(imported.beside.get(Route(wanted.name), {}).items()):
+            if role == "spare" and point not in wanted.positions and point not in wanted.flank:
+                yield str(point), wanted.name
 
 
 def _remarked(imported: Imported, kind: RestKind) -> Instances:

@@ -135,7 +135,9 @@ def turn_point(data: Data, chance: random.Random) -> str | None:
 
 def stray_point(data: Data, chance: random.Random) -> str | None:
     name, row = chance.choice(sorted(data["routes"].items()))
-    points = sorted(point for point, of in data["points"].items() if "kind" not in of and point not in row.get("points", {}))
+    points = sorted(
+        point for point, of in data["points"].items() if "kind" not in of and point not in row.get("points", {})
+    )
     if not points:
         return None
     row.setdefault("points", {})[point := chance.choice(points)] = "normal"
