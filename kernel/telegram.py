@@ -24,7 +24,6 @@ bytes  meaning
 
 from __future__ import annotations
 
-import hashlib
 import hmac
 import zlib
 from enum import Enum
@@ -116,7 +115,7 @@ def next_telegram(link: Link, sent_at_ms: int, content: Content) -> Telegram | N
 
 def is_name(name: str) -> bool:
     """Tell whether a name is 1 to 16 visible ASCII characters (T11)."""
-    return 1 <= len(name) <= NAME_BYTES and all("!" <= letter <= "~" for letter in name)
+    return 1 <= len(name) <= NAME_BYTES and name.isascii() and name.isprintable() and " " not in name
 
 
 def fits(value: int, size: int) -> bool:
@@ -139,7 +138,7 @@ def out_of_range(telegram: Telegram) -> Rejection | None:
 
 def code_of(key: bytes, covered: bytes) -> bytes:
     """The code of authentication: the first half of HMAC-SHA-256 (T11)."""
-    return hmac.new(key, covered, hashlib.sha256).digest()[:MAC_BYTES]
+    return hmac.digest(key, covered, "sha256")[:MAC_BYTES]
 
 
 def sealed(key: bytes, body: bytes) -> bytes:
@@ -203,7 +202,7 @@ def opened(key: bytes, raw: bytes) -> Opened | Rejection:
 
 def name_in(field: bytes) -> Party | None:
     """The name in its field, or None: nothing may stand behind it (T11)."""
-    name = "".join(chr(byte) for byte in field.rstrip(b"\0"))
+    name = field.rstrip(b"\0").decode("latin-1")
     return Party(name) if is_name(name) else None
 
 

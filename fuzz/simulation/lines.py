@@ -12,11 +12,10 @@ from kernel.names import Train
 from models.layouts.results import Imported
 from models.simulation.beginning import CARS, Plan
 from models.simulation.compiled import Compiled
-from models.simulation.cycles import INTERPRETED
+from models.simulation.cycles import Cycling, Interpreted
 from models.simulation.faults import Setting
 from models.simulation.occurrences import Occurrence
 from models.simulation.simulation import Simulation
-from models.simulation.vehicle import Cycling
 from models.simulator.play import Watcher
 from proofs.mutated import running
 
@@ -82,7 +81,7 @@ def simulated(
         BadInput: so many trains have no room, the layout has no track, or there is no such planted fault.
     """
     judge = Judge(EVERY_S)
-    cycling: Cycling = Compiled if compiled and line.planted is None else lambda: INTERPRETED
+    cycling: Cycling = Compiled if compiled and line.planted is None else Interpreted
 
     def each_second(now: Simulation) -> None:
         look(now)

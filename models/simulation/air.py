@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from random import Random
+from typing import NamedTuple
 
 from kernel.link import Party
 from models.simulation.agenda import Agenda
@@ -20,8 +20,7 @@ LEAST_MS, MOST_MS = 100, 400
 """From one end to the other, processing included (ours)."""
 
 
-@dataclass(frozen=True)
-class Packet:
+class Packet(NamedTuple):
     """Bytes on their way to ``receiver`` as if from ``sender``; ``origin`` is what they truly stem from, if anything.
 
     ``trick``: what a stranger did to bring them there, if one did.  ``damaged``: bits were flipped on the way.
@@ -84,7 +83,7 @@ class Air:
         many = min(bits, round(self.random.uniform(setting.least, setting.most)))
         mask = sum(1 << bit for bit in self.random.sample(range(bits), many))
         raw = (int.from_bytes(packet.raw, "big") ^ mask).to_bytes(len(packet.raw), "big")
-        return replace(packet, raw=raw, damaged=True)
+        return packet._replace(raw=raw, damaged=True)
 
     def _under_way_ms(self, packet: Packet) -> int:
         """What is held up alone comes after others; all the rest comes in its order."""

@@ -1,7 +1,7 @@
 """Cycles of a train as machine code: the same source as CPython's, with the kernel's machines compiled.
 
-The computer is handed over as a record, and comes back as one, so that whatever else asks or tells it anything runs
-in CPython, as ever.
+The computer stays a record of compiled code from one second to the next.  Where the front is and what the brake
+does is asked each second and given with the cycles; all the rest is fetched when somebody asks for it.
 """
 
 from __future__ import annotations
@@ -9,15 +9,19 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-import numpy as np
+from numba.typed import List
 
 from kernel.onboard import computer as computing
 from kernel.onboard import odometry, split
+from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
+from kernel.onboard.odometry import Motion
 from models.compiled import compile_machines, compiled, packed, unpacking
 from models.simulation.cycles import Given, Machines, Moving, Ran, cycles_of
 from models.simulation.sensors import Errors, Kept, sensing
+
+_motion_of, _brake_of, _computer_of = unpacking(Motion), unpacking(Brake), unpacking(Computer)
 
 
 @cache
@@ -26,42 +30,65 @@ def made() -> Any:
     kernel = compile_machines((computing, odometry, split))
     read = sensing(compiled, kernel.odometry.Readings, kernel.split.Readings, kernel.split.Acceleration)
     machines = Machines(kernel.computer.decide, kernel.computer.sense, kernel.odometry.is_located, read)
-    return cycles_of(machines, compiled)
+    cycles = cycles_of(machines, compiled)
+
+    @compiled
+    def run(held: Any, moving: Any, kept: Any, errors: Any, given: Any, noises: Any, most: int) -> Any:
+        limits, before = held[0]
+        done, located, moving, kept, computer = cycles(limits, before, moving, kept, errors, given, noises, most)
+        held[0] = (limits, computer)
+        known = computer.known
+        return (done, located, moving, kept), known.motion, computer.brake, known.watch.broken, known.window.passed
+
+    return run
 
 
-@cache
-def _limits(limits: Limits) -> Any:
-    return packed(limits)
+@compiled
+def _begun(limits: Any, computer: Any) -> Any:
+    held = List()
+    held.append((limits, computer))
+    return held
 
 
-_record_of = unpacking(Computer)
+@compiled
+def _put(held: Any, computer: Any) -> None:
+    held[0] = (held[0][0], computer)
+
+
+@compiled
+def _fetched(held: Any) -> Any:
+    return held[0][1]
 
 
 class Compiled:
-    """Cycles of one train; the computer as it came back is kept beside what it was unpacked to."""
+    """Cycles of one train as machine code: :class:`models.simulation.cycles.Held`."""
 
-    def __init__(self) -> None:
-        self._cycles = made()
-        self._record: Computer | None = None
-        self._packed: Any = None
+    def __init__(self, limits: Limits, computer: Computer) -> None:
+        self._run, self._held = made(), _begun(packed(limits), packed(computer))
+        self._take(computer)
 
-    def __call__(
-        self,
-        limits: Limits,
-        computer: Computer,
-        moving: Moving,
-        kept: Kept,
-        errors: Errors,
-        given: Given,
-        noises: list[float],
-        most: int,
-    ) -> Ran:
-        """Run cycles, as :data:`models.simulation.cycles.INTERPRETED` does."""
-        if computer is not self._record:
-            self._packed = packed(computer)
-        noise = np.array(noises)
-        cycles, located, after, moving, kept = self._cycles(
-            _limits(limits), self._packed, moving, kept, errors, given, noise, most
-        )
-        self._packed, self._record = after, _record_of(after)
-        return Ran(cycles, located, self._record, moving, kept)
+    def _take(self, computer: Computer) -> None:
+        """Have at hand what a computer knows."""
+        self._computer: Computer | None = computer
+        known = computer.known
+        self.motion, self.brake = known.motion, computer.brake
+        self.broken, self.passed = known.watch.broken, known.window.passed
+
+    @property
+    def computer(self) -> Computer:
+        """All that the computer remembers."""
+        if self._computer is None:
+            self._computer = _computer_of(_fetched(self._held))
+        return self._computer
+
+    @computer.setter
+    def computer(self, computer: Computer) -> None:
+        if computer != self._computer:
+            _put(self._held, packed(computer))
+            self._take(computer)
+
+    def run(self, moving: Moving, kept: Kept, errors: Errors, given: Given, noises: Any, most: int) -> Ran:
+        """Run cycles, as :class:`models.simulation.cycles.Interpreted` does."""
+        ran, motion, brake, self.broken, self.passed = self._run(self._held, moving, kept, errors, given, noises, most)
+        self.motion, self.brake, self._computer = _motion_of(motion), _brake_of(brake), None
+        return Ran(*ran)

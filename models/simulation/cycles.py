@@ -9,10 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from kernel.onboard import computer as computing
 from kernel.onboard import odometry
+from kernel.onboard.braking import Brake
+from kernel.onboard.computer import Computer
+from kernel.onboard.limits import Limits
+from kernel.onboard.odometry import Motion
 from models.simulation import driver, oracles_on_board, sensors
 from models.simulation.sensors import CYCLE_S, NOISES_A_CYCLE
 
@@ -57,9 +61,39 @@ class Ran(NamedTuple):
 
     cycles: int
     located: int
-    computer: Any
     moving: Moving
     kept: sensors.Kept
+
+
+class Held(Protocol):
+    """The computer of one train, held where its cycles run; what is asked each second can be had without the rest."""
+
+    computer: Computer
+
+    @property
+    def motion(self) -> Motion:
+        """What the odometry knows."""
+
+    @property
+    def brake(self) -> Brake:
+        """What the brake control knows."""
+
+    @property
+    def broken(self) -> bool:
+        """Whether motors or brake were found out of their bounds."""
+
+    @property
+    def passed(self) -> bool:
+        """Whether the awaited tag is overdue."""
+
+    def run(
+        self, moving: Moving, kept: sensors.Kept, errors: sensors.Errors, given: Given, noises: Any, most: int
+    ) -> Ran:
+        """Run cycles, so many at most; of noises in a row the first is used first."""
+
+
+Cycling = Callable[[Limits, Computer], Held]
+"""What takes a computer up, to run its cycles."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +157,7 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
     """Make the function that runs cycles; ``code`` compiles a function, or leaves it as it is.
 
     It takes the limits, the computer, :class:`Moving`, the sensors' ``Kept`` and ``Errors``, :class:`Given`, the
-    noise of the sensors, and how many cycles at most; it gives the fields of :class:`Ran`.
+    noise of the sensors, and how many cycles at most; it gives the fields of :class:`Ran`, and the computer.
     """
     decide, sense, is_located = machines.decide, machines.sense, machines.is_located
     turned, head, tail = machines.sensing.turned, machines.sensing.head, machines.sensing.tail
@@ -149,7 +183,7 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
             computer = sense(limits, computer, read, telegram)
             done += 1
             if done == most or not goes_on(computer, moving, given):
-                return done, located, computer, moving, kept
+                return done, located, moving, kept, computer
             located += is_located(computer.known.motion)
 
     made: Callable[..., Any] = cycles
@@ -161,5 +195,40 @@ def as_it_is(function: Any) -> Any:
     return function
 
 
-INTERPRETED = cycles_of(Machines(computing.decide, computing.sense, odometry.is_located, sensors.INTERPRETED), as_it_is)
-"""Cycles as CPython runs them."""
+_CYCLES = cycles_of(Machines(computing.decide, computing.sense, odometry.is_located, sensors.INTERPRETED), as_it_is)
+
+
+@dataclass
+class Interpreted:
+    """Cycles of one train as CPython runs them: :class:`Held`."""
+
+    limits: Limits
+    computer: Computer
+
+    @property
+    def motion(self) -> Motion:
+        """What the odometry knows."""
+        return self.computer.known.motion
+
+    @property
+    def brake(self) -> Brake:
+        """What the brake control knows."""
+        return self.computer.brake
+
+    @property
+    def broken(self) -> bool:
+        """Whether motors or brake were found out of their bounds."""
+        return self.computer.known.watch.broken
+
+    @property
+    def passed(self) -> bool:
+        """Whether the awaited tag is overdue."""
+        return self.computer.known.window.passed
+
+    def run(
+        self, moving: Moving, kept: sensors.Kept, errors: sensors.Errors, given: Given, noises: Any, most: int
+    ) -> Ran:
+        """Run cycles, so many at most."""
+        drawn = noises[: NOISES_A_CYCLE * most].tolist()
+        *ran, self.computer = _CYCLES(self.limits, self.computer, moving, kept, errors, given, drawn, most)
+        return Ran(*ran)

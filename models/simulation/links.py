@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from random import Random
 from typing import Any
 
 from kernel.link import (
+    Content,
     Life,
     Limits,
     Link,
@@ -41,6 +43,8 @@ LIFE_SIGN_S = 5
 """So often centre and unit ask whether the other is silent, and say that they are there."""
 SYNCHRONISED_MS = 60_000
 """A clock is set that often, to within the links' bound."""
+REMEMBERED = 1_000
+"""So many contents are remembered with what they say: life signs, and what is said until it is heard."""
 CENTRE = Party("centre")
 
 Acts = Callable[[Party, Party, str, Fields], object]
@@ -112,9 +116,10 @@ class Links:
         self.outcomes: Counter[str] = Counter()
         self.mended = 0
         self.unheard_s: Counter[tuple[Party, Party]] = Counter()
+        self._read = lru_cache(REMEMBERED)(self._message)
         self._ends: dict[tuple[Party, Party], Link] = {}
         self._machines: dict[Party, Machine] = {}
-        self._keys: dict[frozenset[Party], bytes] = {}
+        self._keys: dict[tuple[Party, Party], bytes] = {}
         self._silent: set[tuple[Party, Party]] = set()
 
     # ---- machines
@@ -151,10 +156,10 @@ class Links:
 
     def _key(self, me: Party, peer: Party) -> bytes:
         """The key of a pair of machines, the same at both ends."""
-        pair = frozenset((me, peer))
-        if pair not in self._keys:
-            self._keys[pair] = Random(f"{self.seed} key of {sorted(pair)}").randbytes(KEY_BYTES)
-        return self._keys[pair]
+        if (me, peer) not in self._keys:
+            drawn = Random(f"{self.seed} key of {sorted((me, peer))}").randbytes(KEY_BYTES)
+            self._keys[me, peer] = self._keys[peer, me] = drawn
+        return self._keys[me, peer]
 
     # ---- sending
 
@@ -195,11 +200,15 @@ class Links:
                 self.say(me, peer, LIFE_SIGN)
             return
         self.outcomes[outcome.value] += 1
-        said = said_in(arrived.telegram.content)
-        message = None if isinstance(said, Rejection) else self.wording.read(said)
+        message = self._read(arrived.telegram.content)
         self.post.delivered(me, peer, self._now_ms, packet.origin, message)
         if message is not None and message[0] != LIFE_SIGN:
             self.acts(me, peer, *message)
+
+    def _message(self, content: Content) -> tuple[str, Fields] | None:
+        """What a content says; None if it is not written as any."""
+        said = said_in(content)
+        return None if isinstance(said, Rejection) else self.wording.read(said)
 
     def _refused(self, packet: Packet, why: str) -> None:
         self.outcomes[why] += 1

@@ -25,6 +25,7 @@ from kernel.unit import Unit
 from models.layouts.measures import ANTENNA_MM
 from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 from models.simulation.ahead import Ahead
+from models.simulation.cycles import Cycling, Held, Interpreted
 
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
@@ -40,24 +41,39 @@ def _said(tag_lists: frozenset[TagList]) -> TagLists:
 class OnBoard:
     """What the machines on board remember.
 
-    ``computer``: where the train is, the awaited tag, wholeness and brake, by ``limits``.
+    ``held``: the computer, where its cycles run: where the train is, the awaited tag, wholeness and brake, by
+    ``limits``.
     ``lists``: the lists of the runs that the unit was permitted.
     """
 
     length_mm: int
     limits: Limits
-    computer: Computer
+    held: Held
     lists: dict[Run, Ahead] = field(default_factory=dict)
+
+    @property
+    def computer(self) -> Computer:
+        """All that the computer remembers."""
+        return self.held.computer
+
+    @computer.setter
+    def computer(self, computer: Computer) -> None:
+        self.held.computer = computer
 
     @property
     def motion(self) -> odometry.Motion:
         """What the odometry knows."""
-        return self.computer.known.motion
+        return self.held.motion
+
+    @property
+    def is_located(self) -> bool:
+        """Whether the odometry claims where the front is."""
+        return odometry.is_located(self.motion)
 
     @property
     def brake(self) -> braking.Brake:
         """What the brake control knows."""
-        return self.computer.brake
+        return self.held.brake
 
     @property
     def place(self) -> Way:
@@ -103,13 +119,13 @@ class OnBoard:
     def follow(self, unit: Unit) -> None:
         """Let the brake do what the orders of the unit ask, and await the next tag by them (T4, T5)."""
         runs = [run for run in self.lists if run in unit.orders]
-        self.computer = replace(self.computer, brake=self._asked(unit, runs))
+        computer = replace(self.computer, brake=self._asked(unit, runs))
         tags_mm = list[int]()
         for run in runs:
             order, listed = unit.orders[run], self.lists[run].tags_mm
             if order.permitted and not order.given_back and order.expected is not None and order.expected in listed:
                 tags_mm.append(listed[order.expected])
-        self._await(min(tags_mm, default=None))
+        self.computer = self._awaiting(computer, min(tags_mm, default=None))
 
     def _asked(self, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
         """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
@@ -126,12 +142,13 @@ class OnBoard:
         )
         return brake
 
-    def _await(self, place_mm: int | None) -> None:
-        """Await the nearest of the tags that come next."""
+    def _awaiting(self, computer: Computer, place_mm: int | None) -> Computer:
+        """What becomes of the computer as it awaits the nearest of the tags that come next."""
         if place_mm is None:
-            self.computer = computing.await_none(self.computer)
-        elif not computing.awaits(self.limits, self.computer, place_mm):
-            self.computer = computing.await_tag(self.limits, self.computer, place_mm)
+            return computing.await_none(computer)
+        if computing.awaits(self.limits, computer, place_mm):
+            return computer
+        return computing.await_tag(self.limits, computer, place_mm)
 
     # ---- at rest
 
@@ -159,8 +176,8 @@ class OnBoard:
         self.computer = computing.made_up(self.limits, self.computer)
 
 
-def on_board(length_mm: int, front_mm: int) -> OnBoard:
-    """The machines of a train that stands, located and found whole."""
+def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> OnBoard:
+    """The machines of a train that stands, located and found whole, and what runs their cycles."""
     limits = Limits(
         sensors=PLAN.sensors,
         train=TrainLimits(PLAN.brake, PLAN.speeds, length_mm),
@@ -173,4 +190,4 @@ def on_board(length_mm: int, front_mm: int) -> OnBoard:
     )
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
-    return OnBoard(length_mm, limits, computing.put_into_service(limits, least_mm, most_mm))
+    return OnBoard(length_mm, limits, cycling(limits, computing.put_into_service(limits, least_mm, most_mm)))

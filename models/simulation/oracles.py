@@ -111,15 +111,13 @@ class Oracles:
     def on_board(self, train: Train, vehicle: Vehicle) -> None:
         """Judge what a train's machines claim, at the end of a cycle."""
         motion, board, front_mm = vehicle.board.motion, vehicle.board, vehicle.front_mm
-        if board.place.known:
+        if board.is_located:
             so = in_range(motion, front_mm, vehicle.speed_mm_s)
             claimed = f"{motion.front_least_mm} to {motion.front_most_mm} mm"
             self.must("range_contains_the_train", so, f"{train} is at {front_mm:.0f} mm, claimed is {claimed}")
         so = inside(board.brake.end_mm, bool(board.lists), front_mm)
         self.must("the_head_stays_inside_authority", so, f"{train} is past {board.brake.end_mm} mm")
-        self.must(
-            "brakes_keep_their_bounds", not board.computer.known.watch.broken, f"{train} gains more, or brakes less"
-        )
+        self.must("brakes_keep_their_bounds", not board.held.broken, f"{train} gains more, or brakes less")
 
     def judged_on_board(self, cycles: int, located: int) -> None:
         """Count so many cycles in which all of that was judged and true, so many of them of a located train."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from kernel.link import Limits, Party
 from models.simulation.wording import Fields
@@ -18,8 +18,7 @@ Must = Callable[[str, bool, str], object]
 """The name of an oracle, whether it holds, and what to say where it does not."""
 
 
-@dataclass(frozen=True)
-class Posted:
+class Posted(NamedTuple):
     """A telegram that a machine sent: the how manieth of all, when, and what it meant to say.
 
     ``receiver_life``: how often the receiver had restarted when it was sent.

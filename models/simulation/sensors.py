@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.odometry import Readings
 from kernel.onboard.split import Acceleration
@@ -30,6 +32,8 @@ SLIP_MOST_MM_S, SLIPS_FROM_MM_S = 6_000.0, 10_000.0
 TAIL_AGE_MS = 200
 NOISES_A_CYCLE = 3
 """The head's inertial sensor draws one, then the tail's left one, then its right one."""
+DRAWN_CYCLES = 600
+"""The noise of so many cycles is drawn at once."""
 
 
 class Errors(NamedTuple):
@@ -142,7 +146,8 @@ class Sensors:
     random: Random
     errors: Errors
     kept: Kept = field(default_factory=Kept)
-    noises: list[float] = field(default_factory=list)
+    noises: Any = field(default_factory=lambda: np.empty(0))
+    used: int = 0
 
     def slip(self, ms: int, speed_mm_s: float, slowing: bool) -> bool:
         """Let the wheel slip, or slide where the train brakes; not of a slow train, whose wheel would stand.
@@ -175,16 +180,17 @@ class Sensors:
         self.ran(1, now)
         return head, INTERPRETED.tail(self.errors, head, tail_mm_s2, left, right)
 
-    def noise(self, cycles: int) -> list[float]:
-        """Give the noise of the next so many cycles, which may not all be run."""
-        lacking = NOISES_A_CYCLE * cycles - len(self.noises)
-        self.noises += [self.random.gauss(0.0, 1.0) for _ in range(lacking)]
-        return self.noises
+    def noise(self, cycles: int) -> Any:
+        """Give the noise of the next so many cycles, and of more, which may not all be run."""
+        if len(self.noises) - self.used < NOISES_A_CYCLE * cycles:
+            drawn = [self.random.gauss(0.0, 1.0) for _ in range(NOISES_A_CYCLE * max(cycles, DRAWN_CYCLES))]
+            self.noises, self.used = np.concatenate((self.noises[self.used :], drawn)), 0
+        return self.noises[self.used :]
 
     def ran(self, cycles: int, kept: Kept) -> None:
         """So many cycles have been run; what they drew is gone."""
         self.kept = kept
-        del self.noises[: NOISES_A_CYCLE * cycles]
+        self.used += NOISES_A_CYCLE * cycles
 
 
 def _drawn(random: Random, fault: str) -> float:

@@ -18,7 +18,7 @@ from models.simulation.agenda import Agenda
 from models.simulation.air import Air
 from models.simulation.beginning import Plan, begun, rails_of
 from models.simulation.crossings import Crossings
-from models.simulation.cycles import INTERPRETED
+from models.simulation.cycles import Cycling, Interpreted
 from models.simulation.diary import Diary
 from models.simulation.facing import Orders
 from models.simulation.faults import BY_NAME
@@ -34,7 +34,7 @@ from models.simulation.sensors import sensors
 from models.simulation.service import Office, Phase, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
-from models.simulation.vehicle import Cycling, Line, Vehicle
+from models.simulation.vehicle import Line, Vehicle
 from models.simulation.waiting import Waits, deadlocked
 from models.simulation.wording import RANGING, Fields, Wording
 from models.simulator import messages
@@ -49,9 +49,7 @@ TALKS_S = 2
 class Simulation:
     """The line, its trains, and everything that is written down of them."""
 
-    def __init__(
-        self, plan: Plan, watch: Watcher | None = None, cycling: Callable[[], Cycling] = lambda: INTERPRETED
-    ) -> None:
+    def __init__(self, plan: Plan, watch: Watcher | None = None, cycling: Cycling = Interpreted) -> None:
         self.plan, self.cycling = plan, cycling
         self.random = Random(f"{plan.seed} line")
         self.rails = rails_of(plan.imported)
@@ -109,7 +107,7 @@ class Simulation:
         front_mm = (length_mm + CAR_MM * len(cars)) // 2
         on_rails = OnRails(train, list(cars), [Piece(heading, 0, length_mm)], front_mm, self.random)
         made = sensors(Random(f"{self.plan.seed} sensors of {train}"))
-        return Vehicle(on_rails, on_board(CAR_MM * len(cars), front_mm), made, self.cycling())
+        return Vehicle(on_rails, on_board(CAR_MM * len(cars), front_mm, self.cycling), made)
 
     def _board(self) -> Board:
         return {train: service.standing for train, service in self.services.items()}

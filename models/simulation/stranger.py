@@ -6,7 +6,7 @@ Keys are not his: he can read a telegram and change it, but cannot make its code
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from random import Random
 
 from kernel.link import Party
@@ -44,17 +44,17 @@ class Stranger:
             yield self._forged(packet, restored)
         if self.air.happens("radio_replay"):
             old = [each for other, each in kept.items() if other != session] or [told]
-            yield replace(self.random.choice(self.random.choice(old)), trick=REPLAYED)
+            yield self.random.choice(self.random.choice(old))._replace(trick=REPLAYED)
 
     def _forged(self, packet: Packet, restored: bytes) -> Packet:
         """The next in turn by a key of his own; or a true one, thrown back, or where it does not belong."""
         trick = self.random.choice((WRONG_KEY, THROWN_BACK, ELSEWHERE))
         if trick == THROWN_BACK:
-            return replace(packet, sender=packet.receiver, receiver=packet.sender, trick=trick)
+            return packet._replace(sender=packet.receiver, receiver=packet.sender, trick=trick)
         elsewhere = [way for way in self.kept if way != (packet.sender, packet.receiver)]
         if trick == ELSEWHERE and elsewhere:
             sender, receiver = self.random.choice(elsewhere)
-            return replace(packet, sender=sender, receiver=receiver, trick=trick)
+            return packet._replace(sender=sender, receiver=receiver, trick=trick)
         body = restored[:-TAIL_BYTES]
         number = number_in(body, SEQUENCE_AT, SEQUENCE_BYTES) + 1
         next_one = body[:SEQUENCE_AT] + number.to_bytes(SEQUENCE_BYTES, "big") + body[SEQUENCE_AT + SEQUENCE_BYTES :]

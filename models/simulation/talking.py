@@ -6,11 +6,12 @@ and what is believed, is the links' (T4, T6, T8, T9, T10, T11).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from kernel.centre import Grant
 from kernel.link import Party
+from kernel.maps import Map
 from kernel.names import Block, Epoch, Point, Run, Serial, Stage, Train
 from kernel.standstill import Standstill, ThroughLine, is_held
 from models.simulation.links import CENTRE, Links
@@ -51,6 +52,8 @@ class Talk:
         self.sensed = sensed
         self.asked_for = asked_for
         self._offered, self._echoed = Joined(), Joined()
+        self._sorted_out: Map[Run, Grant] = {}
+        self._by_train: dict[Train, list[tuple[Run, Grant]]] = {}
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
         self._acts: Mapping[str, Callable[[Train, Fields], object]] = {
             "order": lambda train, fields: self._relays("relay_order", "relayed order", train, fields),
@@ -70,9 +73,18 @@ class Talk:
     def with_train(self, train: Train) -> None:
         """Everything that is to be said now by and to one train."""
         self._standing(train)
-        for run, grant in list(self.play.system.centre.runs.items()):
-            if run.train == train and grant.stage != Stage.OVER:
+        for run, grant in self._runs_of(train):
+            if grant.stage != Stage.OVER:
                 self._about(run, grant)
+
+    def _runs_of(self, train: Train) -> Sequence[tuple[Run, Grant]]:
+        """The runs that the centre has of a train; sorted out once for all trains, until it has others."""
+        runs = self.play.system.centre.runs
+        if runs is not self._sorted_out:
+            self._sorted_out, self._by_train = runs, {}
+            for run, grant in runs.items():
+                self._by_train.setdefault(run.train, []).append((run, grant))
+        return self._by_train.get(train, ())
 
     def hears(self, me: Party, peer: Party, kind: str, fields: Fields) -> None:
         """A machine acts on what its link has delivered; what that changes is answered at once.
@@ -247,9 +259,9 @@ class Talk:
 
     def standing_run(self, train: Train) -> Run | None:
         """The run under which the centre holds a train that has told, in its present life, where it stands."""
-        centre, life = self.play.system.centre, self.play.system.units[train].life
-        for run, grant in centre.runs.items():
-            if run.train == train and run.life == life and grant.stage == Stage.STANDING:
+        life = self.play.system.units[train].life
+        for run, grant in self._runs_of(train):
+            if run.life == life and grant.stage == Stage.STANDING:
                 return run
         return None
 

@@ -5,9 +5,8 @@ A train that stands, and whose odometry is sure of it, is left alone until it go
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from random import Random
-from typing import Any
 
 from kernel.names import Block, Run, Tag, Train
 from kernel.standstill import Standstill, ThroughLine
@@ -17,15 +16,13 @@ from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
 from models.layouts.measures import TAG_MM, WINDOW_MM
 from models.rides.plan import PLAN
-from models.simulation.cycles import INTERPRETED, Given, Moving, Ran
+from models.simulation.cycles import Given, Moving, Ran
 from models.simulation.driver import is_barred, shown_mm_s
 from models.simulation.faults import Chosen, happens
 from models.simulation.onboard import OnBoard
 from models.simulation.sensors import Sensors
 from models.simulator.play import Play
 
-Cycling = Callable[..., Any]
-"""What runs cycles: ``models.simulation.cycles`` says what it takes and gives."""
 NEAR_END_MM = 12_000
 SETTLES_CYCLES = 100
 """If the odometry is not sure by then that the train stands, it is located anew."""
@@ -38,8 +35,7 @@ class Vehicle:
     ``holds``: the driver keeps it where it is, or stops it.  ``restarted``: the unit has just begun a new life.
     """
 
-    def __init__(self, on_rails: OnRails, board: OnBoard, sensors: Sensors, cycles: Cycling = INTERPRETED) -> None:
-        self._cycles = cycles
+    def __init__(self, on_rails: OnRails, board: OnBoard, sensors: Sensors) -> None:
         self.on_rails = on_rails
         self.board = board
         self.sensors = sensors
@@ -113,14 +109,11 @@ class Vehicle:
         Whatever else is to happen does, after the last of these cycles.
         """
         self.demanded(line.play)
-        board, sensors = self.board, self.sensors
-        ran = Ran(*self._cycles(
-            board.limits, board.computer, self.moving, sensors.kept, sensors.errors, self._given(),
-            sensors.noise(most), most,
-        ))  # fmt: skip
-        board.computer, self.moving = ran.computer, ran.moving
+        held, sensors = self.board.held, self.sensors
+        ran = held.run(self.moving, sensors.kept, sensors.errors, self._given(), sensors.noise(most), most)
+        self.moving = ran.moving
         sensors.ran(ran.cycles, ran.kept)
-        if board.computer.known.window.passed and not self.restarted:
+        if held.passed and not self.restarted:
             line.play.take("window_passes", train=self.on_rails.name)
         if self.pending_mm >= self.next_mm or (self.stands and self.pending_mm >= 1):
             self.advance(line)

@@ -51,6 +51,7 @@ KINDS: Mapping[str, Kind] = {
 }
 """By name; a kind's number is its place."""
 NAMES = tuple(KINDS)
+NUMBER = {name: number for number, name in enumerate(NAMES)}
 
 Fields = Mapping[str, Any]
 """What a message says, by the names that the steps of the world have for it."""
@@ -153,7 +154,7 @@ class Wording:
     def written(self, kind: str, fields: Fields) -> Said:
         """Write a message; all of them fit into a payload."""
         payload = b"".join(self._ways[name][0](fields[name]) for name in KINDS[kind].fields)
-        return Said(NAMES.index(kind), payload)
+        return Said(NUMBER[kind], payload)
 
     def read(self, said: Said) -> tuple[str, Fields] | None:
         """Read a message; None if it is not written as one."""

@@ -10,13 +10,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kernel.onboard import computer as computing
 from models.layouts import load
 from models.simulation.beginning import Plan
 from models.simulation.compiled import Compiled
-from models.simulation.cycles import INTERPRETED
+from models.simulation.cycles import Cycling, Interpreted
 from models.simulation.faults import Chosen, Setting
+from models.simulation.sensors import DRAWN_CYCLES
 from models.simulation.simulation import Simulation
-from models.simulation.vehicle import Cycling
 from models.world.state import System
 from tests.layouts.stations import SHARED, needs_shared
 from tests.simulation.lines import HARD, SAMPLES, plan
@@ -46,17 +47,22 @@ class Told:
     def _second(self, now: Simulation) -> None:
         self.seconds.append(
             [
-                (each.moving, each.board, each.sensors.kept, each.on_rails.front_mm, each.at_rest_cycles)
+                (
+                    each.moving,
+                    each.board.computer,
+                    dict(each.board.lists),
+                    each.sensors.kept,
+                    each.on_rails.front_mm,
+                    each.at_rest_cycles,
+                )
                 for each in now.vehicles.values()
             ]
         )
-        for each in now.vehicles.values():
-            each.board = replace(each.board, lists=dict(each.board.lists))
 
 
 def assert_same(given: Plan) -> Told:
     """Run it by both; everything must be the same."""
-    mine, other = Told(given, Compiled), Told(given, lambda: INTERPRETED)
+    mine, other = Told(given, Compiled), Told(given, Interpreted)
     assert mine.steps == other.steps
     for one, two in zip(mine.seconds, other.seconds, strict=True):
         assert one == two
@@ -102,7 +108,7 @@ def test_what_an_oracle_finds_is_told_alike() -> None:
         sim.run()
         return sim
 
-    mine, other = broken(Compiled), broken(lambda: INTERPRETED)
+    mine, other = broken(Compiled), broken(Interpreted)
     assert mine.oracles.found
     assert mine.oracles.found == other.oracles.found
     assert mine.oracles.checked == other.oracles.checked
@@ -127,6 +133,32 @@ def test_the_noise_that_was_not_used_is_used_next(cycles: int) -> None:
     one, other = (next(iter(Simulation(plan("terminus", chosen={})).vehicles.values())).sensors for _ in range(2))
     drawn = []
     for _ in range(4):
-        drawn += one.noise(10)[: 3 * cycles]
+        drawn += one.noise(10)[: 3 * cycles].tolist()
         one.ran(cycles, one.kept)
-    assert drawn == other.noise(4 * cycles)[: 12 * cycles]
+    assert drawn == other.noise(4 * cycles)[: 12 * cycles].tolist()
+
+
+def test_the_noise_goes_on_where_what_was_drawn_ahead_ends() -> None:
+    """Neither what is left over of it nor how much is drawn at once changes what comes."""
+    one, other = (next(iter(Simulation(plan("terminus", chosen={})).vehicles.values())).sensors for _ in range(2))
+    drawn = []
+    for _ in range(DRAWN_CYCLES):
+        drawn += one.noise(10)[:9].tolist()
+        one.ran(3, one.kept)
+    assert drawn == other.noise(3 * DRAWN_CYCLES)[: 9 * DRAWN_CYCLES].tolist()
+
+
+def test_what_is_asked_each_second_is_what_the_whole_computer_says() -> None:
+    """While it runs, and after somebody has put another computer in its place."""
+    sim = Simulation(plan("passing_station", trains=1, chosen={}, hours=0.2), None, Compiled)
+    vehicle = next(iter(sim.vehicles.values()))
+    held, seen = vehicle.board.held, set()
+    while vehicle.way_mm < 500_000:
+        sim.second()
+        if sim.now_s % 10 == 0:
+            held.computer = computing.withhold_end(held.computer)
+        told = held.motion, held.brake, held.broken, held.passed
+        known = held.computer.known
+        assert told == (known.motion, held.computer.brake, known.watch.broken, known.window.passed)
+        seen.add(told)
+    assert len(seen) > 20
