@@ -4,6 +4,8 @@
 # make record   all of it at the size of the record, for a night: every mutant, certificate, five seeds, 10,000 days
 # make days     whole days of crossing, trams and track workers; DAYS=10000 for the record
 # make fuzz     a campaign on the sample layouts; BATCHES=1000 for more, heisoku fuzz --hours for a night
+# make lines    240 hours of lines with 20 trains on three networks, every fault on; HOURS=24 for fewer, and
+#               LINES="a.json b.json" for other layouts
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
 # make beyond   the same with one fault after the other beyond its declared range
 # make malformed  ten thousand malformed layout files; FILES=1000 for fewer
@@ -36,9 +38,12 @@ CERTIFICATES ?= 150
 BEYOND ?= 128
 FILES  ?= 10000
 BATCHES ?= 8
+# So many simulated hours in all, on these layouts.
+HOURS ?= 240
+LINES ?= $(foreach seed,1 2 3,out/networks/$(seed).toml)
 
 .DELETE_ON_ERROR:
-.PHONY: help assure record prove certify certificates check ride days fuzz beyond papers mutate mutants cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help assure record prove certify certificates check ride days fuzz lines beyond papers mutate mutants cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -78,6 +83,16 @@ fuzz: setup
 	rm -rf out/fuzz
 	$(BIN)/heisoku fuzz layouts/passing_station.toml $(foreach target,interlocking jolted lines walks link,--target $(target)) \
 		--batches $(BATCHES) --out out/fuzz --json out/fuzz.json
+
+# A network of 53 blocks and 36 points: a single line of passing stations, drawn by its seed.
+out/networks/%.toml: | setup
+	@mkdir -p $(@D)
+	$(BIN)/python -c "from models.layouts.generate import as_toml, network; print(as_toml(network(100, seed=$*)), end='')" > $@
+
+# A batch is an hour of a line; the same command goes on where it was ended.
+lines: setup $(LINES)
+	$(BIN)/heisoku fuzz $(LINES) --target lines --out out/lines --json out/lines.json \
+		--batches $$(( ($(HOURS) + $(words $(LINES)) - 1) / $(words $(LINES)) ))
 
 beyond: setup
 	@mkdir -p out

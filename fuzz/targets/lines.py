@@ -26,7 +26,9 @@ from models.layouts.results import Imported
 from models.simulation.beginning import CARS, drawn_room, rails_of
 from models.simulation.diary import Diary
 from models.simulation.faults import FAULTS, Chosen, Setting
+from models.simulation.phases import HAS_PARTED
 from models.simulation.simulation import Simulation
+from models.simulation.waiting import deadlocked
 from models.simulator.play import WORLD
 from models.world.state import System
 
@@ -182,6 +184,9 @@ def counts(came: Came) -> dict[str, int]:
         "train seconds": sim.now_s * len(sim.vehicles),
         "m run": round(sum(each.way_mm for each in sim.vehicles.values()) / 1_000),
         "trips": sum(each.done for each in sim.services.values()),
+        "trips of the timetable": sum(len(each.trips) for each in sim.services.values()),
+        "lines with trains in deadlock at the end": bool(deadlocked(sim.waits, sim.gone)),
+        "trains that have parted": sum(each.phase in HAS_PARTED for each in sim.services.values()),
         "telegrams": sim.air.sent,
         "invariants asked": came.judge.asked.total(),
         **{f"fault: {name}": faults[name] for name in came.line.faults},

@@ -13,7 +13,8 @@ from kernel.names import Block, Run
 from models.simulation.beginning import Plan
 from models.simulation.faults import FAULTS, NO_FAULT, Fault, Setting
 from models.simulation.outcome import account
-from models.simulation.service import Phase, Service
+from models.simulation.phases import Phase
+from models.simulation.service import Service
 from models.simulation.simulation import Simulation
 
 HOUR_S = 3_600.0

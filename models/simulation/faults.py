@@ -114,7 +114,7 @@ FAULTS: tuple[Fault, ...] = (
     ),
     Fault(
         "train_parts", "a coupling breaks and the rear stays behind", "train hour", 0.02, "s", 0, 0,
-        "it stops; two persons state where all of it stands (supervised release); its blocks stay held",
+        "it stops; two persons state where all of it stands (supervised release), and again once it is taken off",
     ),
     Fault("stop_on_line", "a train stops anywhere", "train hour", 0.3, "s", 20, 120, "it goes on under its authority"),
     Fault(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from kernel.names import Block, Train
 from models.simulation.kilometres import Kilometres
-from models.simulation.service import Phase
+from models.simulation.phases import Phase
 from models.simulation.simulation import Simulation
 
 EVERY_S = 5

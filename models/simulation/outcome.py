@@ -14,7 +14,8 @@ from models.simulation.faults import Chosen
 from models.simulation.history import History
 from models.simulation.links import CENTRE
 from models.simulation.oracles import ORACLES, Violation
-from models.simulation.service import Phase, Service
+from models.simulation.phases import Phase
+from models.simulation.service import Service
 from models.simulation.simulation import Simulation
 from models.simulation.waiting import deadlocked, explained
 
@@ -50,7 +51,9 @@ def account(sim: Simulation, service: Service) -> Account:
 
 
 def _state(sim: Simulation, service: Service) -> tuple[Ended, str]:
-    if service.phase is Phase.GONE:
+    if service.phase is Phase.OFF:
+        return "stopped", "has parted, and was taken off the line"
+    if service.phase is Phase.STATED:
         return "stopped", "has parted; two persons have stated where it stands"
     if service.phase is Phase.PARTED:
         return "stopped", "has parted; staff is under way"

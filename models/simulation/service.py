@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum
 from random import Random
 
 from kernel.authority import may_proceed
@@ -19,6 +18,8 @@ from models.simulation.driver import margin_mm
 from models.simulation.facing import Orders, exits, leads_back, leads_forward
 from models.simulation.foresight import Board, Foresight, Standing, far
 from models.simulation.onboard import LOCATED_WITHIN_MM
+from models.simulation.parted import TAKEN_OFF_S, Parted
+from models.simulation.phases import HAS_PARTED, Phase
 from models.simulation.staff import Staff
 from models.simulation.talking import Talk
 from models.simulation.timetable import Trip, Ways
@@ -33,17 +34,6 @@ DIVERTED_S = 180
 WIDE_MM = 3 * LOCATED_WITHIN_MM
 HELD_TOO_LONG_S = 60
 """A train at rest for which the centre still holds what it has left tells anew where it stands."""
-
-
-class Phase(Enum):
-    """What a train is doing."""
-
-    LOST = "is to tell where it stands"
-    STANDS = "stands"
-    WAITS = "waits for its route to be set"
-    RUNS = "runs"
-    PARTED = "has parted, and waits for staff"
-    GONE = "has parted, and stays where two persons have stated it"
 
 
 @dataclass
@@ -85,6 +75,7 @@ class Service:
         self.ways = ways
         self.diary = office.diary
         self.staff = Staff(vehicle, line.rails, office.diary)
+        self.parted = Parted(vehicle, line, office.diary)
         self.random = Random(f"{line.random.random()} {self.train}")
         self.phase = Phase.LOST
         self.base: Run | None = None
@@ -99,6 +90,15 @@ class Service:
         self.waits: tuple[Barred, ...] = ()
         self.no_way = self.waits_for_staff = False
         self.life_before = self.play.system.units[self.train].life
+        self._acts = {
+            Phase.LOST: self._tells,
+            Phase.STANDS: self._stands,
+            Phase.WAITS: self._waits,
+            Phase.RUNS: self._runs,
+            Phase.PARTED: self._is_attended,
+            Phase.STATED: self._is_stated,
+            Phase.OFF: self._is_stated,
+        }
 
     # ---- a second
 
@@ -109,14 +109,7 @@ class Service:
         vehicle.holds = self.phase is not Phase.RUNS or now_s < self.stopped_until_s or self._is_challenged()
         if vehicle.stands and self._stopped_for_good():
             return
-        {
-            Phase.LOST: self._tells,
-            Phase.STANDS: self._stands,
-            Phase.WAITS: self._waits,
-            Phase.RUNS: self._runs,
-            Phase.PARTED: self._is_attended,
-            Phase.GONE: self._is_stated,
-        }[self.phase]()
+        self._acts[self.phase]()
 
     def become(self, phase: Phase, ready_s: int = 0) -> None:
         """Do something else from now on, not before so many seconds."""
@@ -130,7 +123,7 @@ class Service:
     def _stopped_for_good(self) -> bool:
         """A train at rest whose machines have lost something: staff sets them right first."""
         vehicle, board = self.vehicle, self.vehicle.board
-        if vehicle.on_rails.standing and self.phase not in (Phase.PARTED, Phase.GONE):
+        if vehicle.on_rails.standing and self.phase not in HAS_PARTED:
             self._rests()
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
             return True
@@ -238,7 +231,7 @@ class Service:
         """Where it is, or will be when it has run what it was granted, and where it makes for."""
         run = self.onward or self.run
         blocks = self.under if run is None else frozenset({self.play.site.layout.destination[run.route]})
-        stays = not self.begun or self.phase in (Phase.PARTED, Phase.GONE)
+        stays = not self.begun or self.phase in HAS_PARTED
         ways_on = self._ways_on() if run is None and len(blocks) > 1 else None
         return Standing(blocks, None if stays else self.trips[self.done].goal, ways_on)
 
@@ -486,14 +479,17 @@ class Service:
         """Two persons come and state where all of it stands (T8)."""
         if self.now_s >= self.ready_s and self.vehicle.stands:
             self._rests()
-            unit = self.play.system.units[self.train]
-            self.play.take("send_challenge", epoch=self.play.system.centre.epoch)
-            messages.state(self.play, self.train, UnitLife(unit.life + 1))
-            messages.retire_what_is_over(self.play, self.train)
+            self.parted.state()
             self.base = self.run = self.onward = None
-            self.become(Phase.GONE, self.random.randint(*STAFF_S))
+            if self.under:
+                self.become(Phase.STATED, self.random.randint(*TAKEN_OFF_S))
+            else:
+                self.become(Phase.OFF)
 
     def _is_stated(self) -> None:
-        """After a restart of the centre they state it again."""
+        """After a restart of the centre they state it again; else its cars are taken off."""
         if self.train not in self.play.system.centre.accounted:
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
+        elif self.phase is Phase.STATED and self.now_s >= self.ready_s:
+            self.parted.take_off()
+            self.become(Phase.OFF)

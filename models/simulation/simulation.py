@@ -28,10 +28,11 @@ from models.simulation.motors import Motors
 from models.simulation.occurrences import Occurrence, occurrences
 from models.simulation.onboard import on_board
 from models.simulation.oracles import Oracles
+from models.simulation.phases import HAS_PARTED, Phase
 from models.simulation.posted import Post
 from models.simulation.roads import Ways as WaysToRoad
 from models.simulation.sensors import sensors
-from models.simulation.service import Office, Phase, Service
+from models.simulation.service import Office, Service
 from models.simulation.talking import Talk
 from models.simulation.timetable import Ways
 from models.simulation.vehicle import Line, Vehicle
@@ -230,7 +231,7 @@ class Simulation:
     def _unit_restart(self, each: Occurrence) -> bool:
         train = Train(each.who)
         service = self.services[train]
-        if service.phase in (Phase.PARTED, Phase.GONE):
+        if service.phase in HAS_PARTED:
             return False
         self.play.take("restart_unit", train=train, life=UnitLife(self.play.system.units[train].life + 1))
         self.vehicles[train].restarted = True
@@ -280,7 +281,7 @@ class Simulation:
     def ended(self) -> bool:
         """Whether a timetable of so many trips is at its end."""
         return self.plan.trips is not None and all(
-            each.finished or each.phase is Phase.GONE for each in self.services.values()
+            each.finished or each.phase in (Phase.STATED, Phase.OFF) for each in self.services.values()
         )
 
     @property
@@ -290,9 +291,9 @@ class Simulation:
 
     @property
     def gone(self) -> frozenset[Train]:
-        """Trains that will not move any more: parted, at the end of their trips, or without any way on."""
+        """Trains that will not move for long: parted, at the end of their trips, or without any way on."""
         return frozenset(
             train
             for train, each in self.services.items()
-            if each.phase in (Phase.PARTED, Phase.GONE) or (each.phase is Phase.STANDS and each.finished) or each.no_way
+            if each.phase in HAS_PARTED or (each.phase is Phase.STANDS and each.finished) or each.no_way
         )

@@ -11,13 +11,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kernel.names import Run, Train
+from kernel.names import Epoch, Run, Train
 from models.layouts import BadInput, load
 from models.simulation.beginning import Plan
 from models.simulation.each_fault import each, left_locked
-from models.simulation.faults import BY_NAME, NO_FAULT, Setting
+from models.simulation.faults import BY_NAME, NO_FAULT, Chosen, Setting
 from models.simulation.oracles import ORACLES
-from models.simulation.service import Phase
+from models.simulation.phases import Phase
 from models.simulation.simulation import Simulation
 from models.simulator.play import WORLD
 from models.world.state import Site, System
@@ -88,14 +88,51 @@ def test_the_oracles_see_a_centre_that_releases_too_much() -> None:
     assert broken & {"trains_stay_in_what_is_secured", "nothing_is_released_around_a_train"}
 
 
+PARTS: Chosen = {"train_parts": Setting(0.0, 0, 0, tuple(range(60, 400, 5)))}
+
+
 def test_a_train_that_parts_stops_and_is_stated_by_two_persons() -> None:
-    parts = {"train_parts": Setting(0.0, 0, 0, tuple(range(60, 400, 5)))}
-    sim = Simulation(plan("passing_station", trains=1, hours=0.6, chosen=parts))
-    sim.run()
+    sim = Simulation(plan("passing_station", trains=1, hours=0.6, chosen=PARTS))
+    service = next(iter(sim.services.values()))
+    while service.phase is not Phase.STATED and sim.now_s < 2_000:
+        sim.second()
     assert not sim.oracles.found
     assert sim.diary.faults["train_parts"] == 1
-    assert sim.services[next(iter(sim.services))].phase is Phase.GONE
     assert sim.diary.steps["note_statement_confirmed"] == 1
+    assert all(sim.play.system.centre.claimed[block] for block in service.under)
+
+
+def test_a_train_that_has_parted_is_taken_off_and_holds_nothing_any_more() -> None:
+    """Nor after a restart of the centre, for which it is stated anew that it is nowhere."""
+    sim = Simulation(plan("passing_station", trains=1, hours=3.0, chosen=PARTS))
+    service = next(iter(sim.services.values()))
+    while service.phase is not Phase.OFF and sim.now_s < 9_000:
+        sim.second()
+    assert service.phase is Phase.OFF
+    assert not service.under
+    assert not any(runs for _, runs in sim.play.system.centre.claimed.items())
+    sim.play.take("restart_centre", epoch=Epoch(sim.play.system.centre.epoch + 1))
+    assert sim.play.system.centre.lost_blocks
+    for _ in range(1_200):
+        sim.second()
+    assert service.phase is Phase.OFF
+    assert not sim.play.system.centre.lost_blocks
+    assert not any(runs for _, runs in sim.play.system.centre.claimed.items())
+    assert not sim.oracles.found
+
+
+def test_others_go_on_over_the_place_of_a_train_that_was_taken_off() -> None:
+    """All of them stand in its way until then, on a line with one track between two stations."""
+    sim = Simulation(plan("passing_station", seed=3, trains=3, hours=6.0, chosen=PARTS))
+    while not any(each.phase is Phase.OFF for each in sim.services.values()) and sim.now_s < 12_000:
+        sim.second()
+    done = {train: each.done for train, each in sim.services.items()}
+    for _ in range(6_000):
+        sim.second()
+    off = [train for train, each in sim.services.items() if each.phase is Phase.OFF]
+    assert off
+    assert any(each.done > done[train] for train, each in sim.services.items())
+    assert not sim.oracles.found
 
 
 @pytest.mark.parametrize("place", ["ring", "figure_of_eight"])

@@ -8,7 +8,7 @@ from models.simulation.crossing_state import State
 from models.simulation.history import EVERY_S
 from models.simulation.kilometres import Kilometres
 from models.simulation.outcome import Outcome
-from models.simulation.service import Phase
+from models.simulation.phases import Phase
 
 COLOURS = (
     *("#1f6fb2", "#d9822b", "#23875a", "#8a5aab", "#0f9bb5", "#8c6d31", "#c2569b", "#5b6770", "#3f51b5", "#7cb342"),
