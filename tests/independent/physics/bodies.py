@@ -38,6 +38,9 @@ class Hills:
     def at(self, place_mm: float) -> float:
         """What it is at a place."""
         stretch = int(place_mm // 400_000)
+        known = self.stretches.get(stretch)
+        if known is not None:
+            return known
         if not self.stretches:
             self.stretches[stretch] = self.rng.choice((-1.0, -0.5, 0.0, 0.5, 1.0)) * self.steep * GRADIENT_MM_S2
         for towards in (1, -1):

@@ -1,25 +1,28 @@
 """Rides by the thousand, and what came of them in sum.
 
-python -m tests.independent.physics.campaign --rides 10000 --processes 2 [--beyond each] [--widths]
+python -m tests.independent.physics.campaign --rides 10000 --processes 2 [--beyond each] [--widths] [--write]
 """
 
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import nullcontext
 from dataclasses import dataclass, field
 from multiprocessing import get_context
+from pathlib import Path
 
 from tests.independent.physics.faults import BEYOND
 from tests.independent.physics.planted_faults import WRONG
 from tests.independent.physics.ride import Hazard, Outcome, Ride, Style
 
-WHOLE_S = 150.0
 WAYS_M = (10, 50, 100, 200, 500, 1_000, 2_000)
 STOPS = (0, 1, 2, 3, 5, 10, 20)
+PAGE = Path(__file__).parents[3] / "docs" / "physics.md"
+BEGINS, ENDS = "<!-- widths, as the command writes them -->\n", "<!-- end of widths -->\n"
 
 
 def _lists() -> defaultdict[tuple[int, int], list[float]]:
@@ -87,7 +90,7 @@ def rides(
     tally = Tally()
     with WRONG[wrong].planted() if wrong else nullcontext():
         for seed in seeds:
-            tally.note(seed, Ride(seed, WHOLE_S, beyond, style).run())
+            tally.note(seed, Ride(seed, beyond, style).run())
             if len(tally.found) >= enough:
                 break
     return tally
@@ -97,13 +100,20 @@ def _part(task: tuple[Iterable[int], str | None]) -> Tally:
     return rides(*task)
 
 
-def campaign(many: int, processes: int, beyond: str | None = None, first: int = 0) -> Tally:
-    """So many rides, in several processes."""
-    parts = [(range(at, min(at + 50, first + many)), beyond) for at in range(first, first + many, 50)]
+def campaign(
+    many: int,
+    processes: int,
+    beyond: str | None = None,
+    first: int = 0,
+    so_far: Callable[[Tally], object] = lambda tally: None,
+) -> Tally:
+    """So many rides, in several processes; ``so_far``: is told of the sum of the first rides, a few at a time."""
+    parts = [(range(at, min(at + 25, first + many)), beyond) for at in range(first, first + many, 25)]
     whole = Tally()
     with get_context("spawn").Pool(processes) as pool:
-        for tally in pool.imap_unordered(_part, parts):
+        for tally in pool.imap(_part, parts):
             whole.add(tally)
+            so_far(whole)
     return whole
 
 
@@ -119,6 +129,16 @@ def table(tally: Tally) -> str:
             cells.append(f"{found[len(found) // 2] / 1e3:.1f}; {found[-1] / 1e3:.0f} ({len(found)})" if found else "")
         lines.append(f"| {names.get(way, f'{way} m')} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
+
+
+def written(page: str, tally: Tally, first: int) -> str:
+    """The page with this table of widths in the place of the one it has, and the command that made it."""
+    before, _, rest = page.partition(BEGINS)
+    _, _, after = rest.partition(ENDS)
+    assert after, "the page has no place for the table"
+    command = f"python -m tests.independent.physics.campaign --rides {tally.rides} --first {first} --write"
+    said = f"{tally.rides:,} rides, {tally.ran_mm / 1e6:,.0f} km, {len(tally.found)} claims broken: `{command}`"
+    return f"{before}{BEGINS}{said}\n\n{table(tally)}\n{ENDS}{after}"
 
 
 def shown(name: str, tally: Tally) -> str:
@@ -142,12 +162,21 @@ def main() -> int:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--beyond", choices=["each", *BEYOND], help="a fault beyond its bound in every ride")
     parser.add_argument("--widths", action="store_true", help="the table of widths")
+    parser.add_argument("--write", action="store_true", help="write that table, within the bounds, to docs/physics.md")
     given = parser.parse_args()
     kinds: list[str | None] = list(BEYOND) if given.beyond == "each" else [given.beyond]
     found = 0
     for kind in kinds:
         begun = time.monotonic()
-        tally = campaign(given.rides, given.processes, kind, given.first)
+
+        def told(tally: Tally) -> None:
+            if tally.rides % 500 == 0 or tally.rides == given.rides:
+                print(f"{tally.rides} rides, {len(tally.found)} claims broken", file=sys.stderr, flush=True)
+                if given.write and not given.beyond:
+                    page = PAGE.read_text(encoding="utf-8")
+                    PAGE.write_text(written(page, tally, given.first), encoding="utf-8", newline="\n")
+
+        tally = campaign(given.rides, given.processes, kind, given.first, told)
         found += len(tally.found)
         print(shown(kind or "within the bounds", tally))
         print(f"  {time.monotonic() - begun:.0f} s")

@@ -40,6 +40,7 @@ HELD, SWINGS, LOCKED, SPINS, SLOW = "slide held", "slide swings", "wheel locked"
 SILENT, STUCK, ZERO = "tachometer silent", "tachometer stuck", "tachometer at zero"
 PULSES_LOST, PULSES_EXTRA, DIAMETER_WRONG = "pulses lost", "pulses too many", "wheel diameter entered wrong"
 INERTIAL_SILENT, REVERSED, JITTER = "inertial sensor silent", "inertial sensor mounted in reverse", "cycle jitter"
+STUCK_WHEEL = "wheel stuck by its brake"
 PAIR_LOST, TAG_LOST, PARTED = "pair of tags lost", "tag lost", "parted, another antenna poses as the tail"
 
 WITHIN: dict[str, Drawing] = {
@@ -50,16 +51,18 @@ WITHIN: dict[str, Drawing] = {
     SILENT: _within(SILENT, (0.1, 20.0)),
     STUCK: _within(STUCK, (0.1, 8.0)),
     INERTIAL_SILENT: _within(INERTIAL_SILENT, (0.1, 20.0)),
+    JITTER: _within(JITTER, (5.0, 600.0), (0.1, 0.49)),
     PAIR_LOST: _within(PAIR_LOST, (5.0, 60.0)),
     TAG_LOST: _within(TAG_LOST, (5.0, 60.0)),
     PARTED: _within(PARTED, (1e9, 1e9), (1.0, 2.99)),
 }
 """Within the bounds as declared: at least as long as no other fault takes a wheel beyond them.  Size: share of the
-train's speed, or vehicles that came off."""
+train's speed, ms that a cycle is longer or shorter, or vehicles that came off."""
 
 BEYOND: dict[str, Drawing] = {
     HELD: _within(HELD, (5.0, 40.0), (0.75, 0.9)),
     LOCKED: _within(LOCKED, (10.0, 60.0), (1.0, 1.0)),
+    STUCK_WHEEL: _within(STUCK_WHEEL, (5.0, 120.0)),
     SLOW: _within(SLOW, (5.0, 40.0), (0.75, 0.9)),
     ZERO: _within(ZERO, (5.0, 120.0)),
     PULSES_LOST: _within(PULSES_LOST, (5.0, 60.0), (0.02, 0.5)),

@@ -41,6 +41,7 @@ class Style:
 
     ``most_mm_s``: as fast; ``every_mm``: it stops so often; ``dwell_s``: for so long.
     ``careless``: of so many ends the driver does not brake; ``turns``: at so many stops it changes ends.
+    ``whole_s``: how long the ride is; ``often``: how many rides are like this, beside the others' 1.
     """
 
     name: str
@@ -49,6 +50,8 @@ class Style:
     dwell_s: tuple[float, float]
     careless: float = 0.0
     turns: float = 0.0
+    whole_s: float = 150.0
+    often: float = 1.0
 
 
 STYLES = (
@@ -57,7 +60,8 @@ STYLES = (
     Style("creeps", (100, 600), (3_000, 40_000), (3, 20)),
     Style("careless", (8_000, 33_000), (400_000, 1_500_000), (5, 20), careless=0.6),
     Style("shunts", (1_500, 8_000), (60_000, 400_000), (5, 20), turns=0.6),
-    Style("rests", (8_000, 20_000), (300_000, 900_000), (300, 900)),
+    Style("rests", (8_000, 20_000), (30_000, 300_000), (60, 240), whole_s=500.0),
+    Style("rests for hours", (8_000, 20_000), (30_000, 300_000), (3_600, 9_000), whole_s=10_000.0, often=0.03),
 )
 
 
@@ -76,13 +80,13 @@ class Outcome:
 class Ride:
     """The world of one train."""
 
-    def __init__(self, seed: int, whole_s: float, beyond: str | None = None, style: Style | None = None) -> None:
+    def __init__(self, seed: int, beyond: str | None = None, style: Style | None = None) -> None:
         """Draw it."""
         self.rng = rng = Random(seed)
-        self.whole_s = whole_s
-        self.style = style or rng.choice(STYLES)
+        self.style = style or rng.choices(STYLES, [each.often for each in STYLES])[0]
         self.type = rng.choice(TYPES)
-        self.faults = faults.drawn(rng, whole_s, beyond)
+        self.faults = faults.drawn(rng, self.style.whole_s, beyond)
+        self.has = {fault.kind for fault in self.faults}
         self.body = bodies.drawn(rng, self.type)
         self.wheel = Wheel(rng.uniform(-1, 1) * declared.DIAMETER)
         self.wheel.diameter += sum(f.size for f in self.faults if f.kind == faults.DIAMETER_WRONG)
@@ -148,6 +152,8 @@ class Ride:
 
     def fault(self, kind: str) -> Fault | None:
         """The fault of this kind that is there now."""
+        if kind not in self.has:
+            return None
         return next((fault for fault in self.faults if fault.kind == kind and fault.on(self.now_s)), None)
 
     # ---- driver and staff
@@ -187,6 +193,8 @@ class Ride:
             self.out.counts["helped by staff"] += 1
             if not self.out.broken and not self.missed and not self.off_mm:
                 self.out.counts[f"helped though every bound held: {host.why}"] += 1
+            elif self.out.broken:
+                self.out.counts[f"noticed with a bound broken: {host.why}"] += 1
             self.locate_anew(helped=True)
         elif abs(self.stop_mm - self.front_mm) < 30_000 or self.stop_mm < self.front_mm:
             if self.dwelt_s >= self.dwell_s:
@@ -222,6 +230,8 @@ class Ride:
         host.withhold()
         if host.may_be_located():
             self.out.counts["changes of ends"] += 1
+            tail_mm, front_mm = self.front_mm - self.type.length_mm, self.front_mm
+            self.out.counts["changes of ends over a tag"] += any(tail_mm < tag < front_mm for tag in self.listed())
             self.body.turn()
             self.body.was_s.append(0.0)
             self.shift_mm = self.rng.choice((0, -400_000_000, 100_000_000, self.shift_mm))
@@ -231,7 +241,8 @@ class Ride:
 
     def run(self) -> Outcome:
         """Run it to its end."""
-        while self.now_s < self.whole_s:
+        self.out.counts[f"rides: {self.style.name}"] = 1
+        while self.now_s < self.style.whole_s:
             self.cycle()
         return self.out
 
@@ -241,25 +252,26 @@ class Ride:
         host.decide(acknowledged=body.speed == 0)
         self.judge_window()
         jitter = self.fault(faults.JITTER)
-        elapsed_ms = CYCLE_MS + (round(self.rng.uniform(-1, 1) * jitter.size) if jitter else 0)
+        lasts_ms = CYCLE_MS + (self.rng.uniform(-1, 1) * jitter.size if jitter else 0.0)
+        elapsed_ms = round(lasts_ms)
         if elapsed_ms != CYCLE_MS:
             self.breaks(faults.JITTER)
         before, placed = body.speed, body.place_mm
         gravity = body.gravity()
         was_front = self.front_mm
         self.adhere()
-        dt = elapsed_ms / 1000 / STEPS
-        wheel_before = self.wheel.speed
+        dt = lasts_ms / 1000 / STEPS
+        wheel_before, wanted = self.wheel.speed, self.wanted()
         for _ in range(STEPS):
             self.now_s += dt
-            body.step(self.wanted(), host.braked, dt)
+            body.step(wanted, host.braked, dt)
             self.wheel.step(body, self.now_s, dt)
             if self.front_mm > host.end_mm + 1 and body.speed > 0:
                 self.hazard(BEYOND_END, self.front_mm - host.end_mm)
         self.out.ran_mm += abs(body.place_mm - placed)
         self.since_fix[0] += abs(body.place_mm - placed)
-        gained = (body.speed - before) / (elapsed_ms / 1000)
-        self.watch_pace(gained, (self.wheel.speed - wheel_before) / (elapsed_ms / 1000))
+        gained = (body.speed - before) / (lasts_ms / 1000)
+        self.watch_pace(gained, (self.wheel.speed - wheel_before) / (lasts_ms / 1000))
         self.tell(elapsed_ms, gained, (gravity + body.gravity()) / 2)
         self.read(was_front)
         self.judge()
@@ -284,6 +296,10 @@ class Ride:
             if kind == faults.SLOW:
                 wheel.rate = 600.0 + abs(body.gained)
                 self.breaks(faults.SLOW)
+        if self.fault(faults.STUCK_WHEEL):
+            wheel.rolls, wheel.of_train, wheel.swing = False, 0.0, 0.0
+            if body.speed != 0:
+                self.breaks(faults.STUCK_WHEEL)
 
     def watch_pace(self, gained: float, wheel_gained: float) -> None:
         """A wheel that slips keeps pace with its train no longer than is declared: was it so?"""
