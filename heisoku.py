@@ -334,6 +334,14 @@ def days(
     days: Annotated[int, typer.Option(metavar="N", min=1, help="Days to simulate.")] = 200,
     seed: Seed = 1,
     jobs: Jobs = EVERY_CORE,
+    beyond: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FAULT",
+            help="A fault beyond what is assumed, on each of these days once more; `each` for one after the other.",
+            show_default=False,
+        ),
+    ] = None,
     json: Json = None,
     keep: Annotated[
         Path | None, typer.Option(metavar="F", help="Keep days there, and go on from it.", show_default=False)
@@ -341,26 +349,37 @@ def days(
 ) -> None:
     """Simulate whole days of a system with faults, and hold what its machines decide against the truth.
 
-    No claim may be broken on any day.  What the safe side costs is told: needless warnings, alarms, holds.
+    No claim may be broken on any day.  What the safe side costs is told: needless warnings, alarms, holds.  Beyond
+    what is assumed a claim may be broken, and then an assumption must have been, and what noticed it is told.
 
     Examples:
 
     * `heisoku days crossing --days 20`
+    * `heisoku days alarm --days 50 --beyond gps_frozen`
     """
-    from models.days.campaign import live_all, outcome
+    from models.days.campaign import live_all, noticed, outcome
     from models.days.kept import KeptDays
-    from models.days.report import print_outcome, record
+    from models.days.report import print_beyond, print_outcome, record
     from models.days.systems import system_of
 
     writable(json, keep)
     out, whose = console(), system_of(system.value)
+    asked = list(whose.beyond) if beyond == ["each"] else list(beyond or ())
+    unknown = [name for name in asked if name not in whose.beyond]
+    if unknown:
+        refuse(f"--beyond {unknown[0]}: there is no such fault; one of {', '.join(whose.beyond) or 'none'}, or each")
     with bad_input_refused(), progress("days") as step:
         kept = KeptDays(keep, whose, seed) if keep else None
-        found = outcome(whose, live_all(whose.name, seed, days, jobs, step, kept))
+        rows = live_all(whose.name, seed, days, jobs, step, kept)
+        with_each = {name: live_all(whose.name, seed, days, jobs, step, beyond=(name,)) for name in asked}
+    found, came = outcome(whose, rows), {name: noticed(whose, rows, each) for name, each in with_each.items()}
     print_outcome(out, found)
+    if asked:
+        print_beyond(out, whose, came)
     if json:
-        write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
-    verdict = HOLDS if found.holds else DOES_NOT_HOLD
+        write_json(json, {**record(seed, found, came), "versions": versions(), "commit": commit()})
+    holds = found.holds and all(one.unexplained == 0 for one in came.values())
+    verdict = HOLDS if holds else DOES_NOT_HOLD
     print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {WORDS[verdict]}")
     raise typer.Exit(verdict)
 

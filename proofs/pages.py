@@ -16,7 +16,7 @@ from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
-from proofs import assumptions, joints, promise, promises
+from proofs import assumptions, fault_pages, joints, promise, promises
 from proofs.catalogue import PROMISES, STEPS
 from proofs.lints import requirements_in
 from proofs.lints_on_board import OTHERS, world
@@ -225,6 +225,7 @@ def traceability_page() -> str:
 PAGES: Mapping[Path, Callable[[], str]] = {
     assumptions.PAGE: assumptions.page,
     joints.PAGE: joints.page,
+    DOCS / "faults.md": fault_pages.page,
     DOCS / "liveness.md": promises_page,
     DOCS / "persistence.md": persistence_page,
     DOCS / "traceability.md": traceability_page,

@@ -17,7 +17,7 @@ from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S
 from kernel.onboard.odometry import GREATEST_WAY_MM
 from kernel.onboard.split import GREATEST_ACCELERATION_MM_S2
 from models.sensors import clock, dynamics, imu, tachometer, transmission
-from models.sensors.adhesion import FULL_M_S2, SLIDES_FROM_M_S
+from models.sensors.adhesion import BRAKED_M_S2, FULL_M_S2, SLIDES_FROM_M_S
 from models.sensors.draws import CYCLES_A_STEP, NOISES, WALKS, choose
 from models.sensors.faults import CYCLE_S, GRAVITY_M_S2, NOISE_MOST, WALK_MOST_M_S2
 from models.sensors.traces import GREATEST_RATE_URAD_S, RUNS_A_STEP, Setup, traces
@@ -100,6 +100,11 @@ class OneRun:
     slips_from: int = -1
     stuck: tuple[float, float, float] | None = None
     frames: list[tuple[int, int]] = field(default_factory=list)
+    back_m_s: list[float] | None = None
+    back_m: float = 0.0
+    held_gain: float | None = None
+    slides_from: int = -1
+    lost_boundary: int = -1
 
     def __post_init__(self) -> None:
         self.head_m = self.regarded_m = self.setup.length_m + dynamics.START_M
@@ -130,7 +135,7 @@ class OneRun:
     def step(self, cycle: int) -> Sample:
         """One cycle: everything moves, and everything is measured."""
         value = self.values
-        self._move()
+        self._move(cycle)
         self._read_tags(cycle)
         tail_gain = self._tail(cycle)
         wheel_mm_s, way_mm = self._tachometer(cycle)
@@ -157,9 +162,15 @@ class OneRun:
             forces[2], rates[2], self.source, age_ms,
         )  # fmt: skip
 
-    def _move(self) -> None:
+    def _move(self, cycle: int) -> None:
         value, speed = self.values, self.speed
-        ahead = max(self.head_m + dynamics.LOOK_S * speed, self.regarded_m)
+        if self.back_m_s:
+            self._roll(self.back_m_s)
+            return
+        if self.held_gain is not None:
+            self.gain, self.held_gain = self.held_gain, None
+        before = self.stays, self.regarded_m
+        ahead = max(self.head_m + self.back_m + dynamics.LOOK_S * speed, self.regarded_m)
         allowed = value["driver_share"] * self.allowed[int(min(ahead * (1 / GRID_M), len(self.allowed) - 1))]
         if self.stays > 0 or (speed < dynamics.STANDS_M_S and allowed < dynamics.STANDS_M_S):
             self.stays += 1
@@ -170,12 +181,26 @@ class OneRun:
             wanted = 0.0 if over > -dynamics.COAST_M_S else min(value["traction_m_s2"], FULL_M_S2)
         jerk = dynamics.JERK_M_S3 * CYCLE_S
         after = max(speed + (self.gain + min(max(wanted - self.gain, -jerk), jerk)) * CYCLE_S, 0.0)
-        self.gain = (after - speed) / CYCLE_S
-        self.head_m += 0.5 * CYCLE_S * (speed + after)
-        self.speed = after
+        if after > speed == 0 and self.back_m_s is None and cycle > int(value["rolls_back_at_s"] / CYCLE_S):
+            self.stays, self.regarded_m = before
+            self.held_gain, self.back_m_s = self.gain, dynamics.back_m_s(value["rolls_back_m"]).tolist()
+            self._roll(self.back_m_s)
+            return
+        self._run(after)
         if self.stays > value["dwell_s"] / CYCLE_S:
             self.stays = 0
-            self.regarded_m = self.head_m + dynamics.AWAY_M
+            self.regarded_m = self.head_m + self.back_m + dynamics.AWAY_M
+
+    def _run(self, after: float) -> None:
+        self.gain = (after - self.speed) / CYCLE_S
+        self.head_m += 0.5 * CYCLE_S * (self.speed + after)
+        self.speed = after
+
+    def _roll(self, back_m_s: list[float]) -> None:
+        """Roll back for a cycle; the driver goes on afterwards as if he had not."""
+        before_m = self.head_m
+        self._run(back_m_s.pop(0))
+        self.back_m += before_m - self.head_m
 
     def _tail(self, cycle: int) -> float:
         """The tail's acceleration: the head's a lag ago, or its own once it has come off."""
@@ -204,7 +229,10 @@ class OneRun:
                 bad += 1
                 term *= (drawn - bad + 1) / bad * errors / (1 - errors)
                 reached += term
-            self.frames.append((cycle, count - bad))
+            boundary = int(self.setup.track.boundary_of[len(self.frames)])
+            first = len(self.frames) % 2 == 0 and cycle * CYCLE_S > value["pair_lost_at_s"]
+            self.lost_boundary = boundary if first and self.lost_boundary < 0 else self.lost_boundary
+            self.frames.append((cycle, 0 if boundary == self.lost_boundary else count - bad))
 
     def _failed(self, cycle: int, force: float, yaw: float, pitch: float) -> tuple[float, float, float]:
         """The head's inertial unit with its spike, stuck, or without a number."""
@@ -243,18 +271,39 @@ class OneRun:
     def _tachometer(self, cycle: int) -> tuple[int | None, int | None]:
         value, before = self.values, self.wheel
         creep = self.gain * value["creep_ppm"] * 1e-6 / FULL_M_S2
-        self.wheel = max(0.0, self.speed * (1 + creep) + self._slip(cycle))
-        pulses_a_m = 1 / (tachometer.PULSE_M * (1 + value["diameter_ppm"] * 1e-6))
-        last, self.pulses = (
-            self.pulses,
-            tachometer.counted(self.pulses, (before + self.wheel) * 0.5 * pulses_a_m * CYCLE_S),
-        )
+        self.wheel = self.speed * (1 + creep) + self._slip(cycle) - self._slow_slide(cycle)
+        if self.speed >= 0:
+            self.wheel = max(0.0, self.wheel)
+        diameter = 1 + value["diameter_ppm"] * 1e-6 + value["diameter_entered_mm"] / tachometer.WHEEL_MM
+        pulses = (before + self.wheel) * 0.5 / (tachometer.PULSE_M * diameter) * CYCLE_S * self._counts(cycle)
+        last, self.pulses = self.pulses, tachometer.counted(self.pulses, pulses)
         speed, way_m, valid = tachometer.shown_m_s(last, self.pulses), self.pulses.came * tachometer.PULSE_M, True
         for hold in self.holds:
             way_m, speed, valid = hold.of(cycle, way_m, speed, valid)
         if not valid:
             return None, None
-        return edge(speed, 1000, 0, GREATEST_SPEED_MM_S), edge(way_m, 1000, 0, GREATEST_WAY_MM)
+        most = GREATEST_SPEED_MM_S
+        return edge(speed, 1000, -most, most), edge(way_m, 1000, -GREATEST_WAY_MM, GREATEST_WAY_MM)
+
+    def _counts(self, cycle: int) -> float:
+        """Which share of the pulses is counted."""
+        value, share = self.values, 1.0
+        for name, sign in (("lost", -1), ("extra", 1)):
+            first = int(value[f"pulses_{name}_at_s"] / CYCLE_S)
+            if first <= cycle < first + int(value[f"pulses_{name}_s"] / CYCLE_S):
+                share *= 1 + sign * value[f"pulses_{name}_share"]
+        return share
+
+    def _slow_slide(self, cycle: int) -> float:
+        """How much slower the wheel is by a slide that begins without a jolt, under the brake."""
+        value, braked = self.values, self.gain < -BRAKED_M_S2 and self.speed > SLIDES_FROM_M_S
+        if self.slides_from < 0 and cycle >= int(value["slow_slide_at_s"] / CYCLE_S) and braked:
+            self.slides_from = cycle
+        if self.slides_from < 0:
+            return 0.0
+        since_s = (cycle - self.slides_from + 1) * CYCLE_S
+        away = value["slow_slide_m_s2"] * min(since_s, max(value["slow_slide_s"] - since_s, 0.0))
+        return min(away, value["slow_slide_share"] * self.speed)
 
     def _at(self, values: list[float], place_m: float) -> float:
         scaled = min(max(place_m / GRID_M, 0), len(values) - 1.001)
@@ -276,6 +325,7 @@ class OneRun:
     def _force(self, cycle: int, place: str, true_m_s2: float) -> float:
         value = self.values
         shown = true_m_s2 * (1 + value[f"{place}_scale_ppm"] * 1e-6)
+        shown = -shown if value[f"{place}_reversed"] else shown
         shown += value[f"{place}_bias_m_s2"] + GRAVITY_M_S2 * value[f"{place}_mounting_rad"]
         shown += self._drift(cycle, place, value[f"{place}_walk_m_s2"], WALK_MOST_M_S2)
         return shown + self._white(cycle, place, value[f"{place}_noise_m_s2"])
@@ -284,6 +334,7 @@ class OneRun:
         value = self.values
         speed = self.tail_speed if channel == "tail_yaw" else self.speed
         shown = speed * curvature * (1 + value["gyro_scale_ppm"] * 1e-6)
+        shown = -shown if channel == "pitch" and value["head_reversed"] else shown
         shown += -value["gyro_bias_rad_s"] if channel == "tail_yaw" else value["gyro_bias_rad_s"]
         shown += self._drift(cycle, channel, value["gyro_walk_rad_s"], imu.WALK_MOST_RAD_S)
         sway = self.noise[channel][cycle]

@@ -8,7 +8,7 @@ import numpy as np
 
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.alarm.draws import HOURS, drawn
-from models.alarm.faults import FAULTS
+from models.alarm.faults import BEYOND, FAULTS
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
 from models.days.system import Numbers, System
 
@@ -39,5 +39,6 @@ SYSTEM = System(
     counts=COUNTS,
     hours=float(HOURS),
     one_day=one_day,
+    beyond={fault.name: fault.breaks for fault in BEYOND},
 )
 """The track worker's alarm on a local line (004)."""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from models.alarm.faults import FAULTS, OF_A_TRAIN
+from models.alarm.faults import FAULTS, OF_A_TRAIN, OF_THEIR_OWN
 from models.alarm.line import LENGTH_MM, REGULAR, SHUNTER, STABLED, TRAINS
 
 HOURS = 17
@@ -54,11 +54,11 @@ def drawn(
     seed: int, day: int, beyond: tuple[str, ...] = (), worker_m: float | None = None, sound: bool = False
 ) -> Drawn:
     """Draw a day; the faults named ``beyond`` are there for certain; a ``sound`` day has no others."""
-    random = np.random.default_rng([seed, day])
+    random, own = np.random.default_rng([seed, day]), np.random.default_rng([seed, day, 1])
     late = np.minimum(random.exponential(120.0, REGULAR), 1_200.0)
     departs = scheduled_s() + late
     heading = np.where(np.arange(TRAINS) % 2 == 0, 1, -1)
-    windows = _windows(random, departs, beyond, sound)
+    windows = _windows(random, own, departs, beyond, sound)
     length = random.uniform(40.0, 60.0, TRAINS)
     ahead = random.uniform(0.0, 3.0, TRAINS)
     shunts, stays = random.uniform(2, 12) * HOUR_S, random.uniform(3, 5) * HOUR_S
@@ -112,10 +112,11 @@ JOURNEY_S = 2_700
 
 
 def _windows(
-    random: np.random.Generator, departs_s: Any, beyond: tuple[str, ...], sound: bool
+    of_all: np.random.Generator, own: np.random.Generator, departs_s: Any, beyond: tuple[str, ...], sound: bool
 ) -> tuple[Any, Any, Any, Any]:
     begin, end, train, size = (np.full(len(FAULTS), -1, np.int64) for _ in range(4))
     for kind, fault in enumerate(FAULTS):
+        random = own if fault.name in OF_THEIR_OWN else of_all
         happens, at = random.random() < fault.chance and not sound, random.integers(SECONDS)
         long = random.integers(fault.least_s, fault.most_s + 1)
         train[kind] = random.integers(REGULAR)

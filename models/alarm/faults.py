@@ -29,11 +29,19 @@ FAULTS = (
           "a_worker_fix_is_within_its_error"),
     Fault("backwards", "a train told the wrong direction", 0.0, 600, 3_600, "-", 0, 0, "ours: a cable swapped",
           "no_train_turns_sooner"),
+    # ---- drawn from numbers of its own, so that the days on record stay what they are otherwise
+    Fault("gps_frozen", "a train's fixes stayed the same, with fresh time stamps", 0.0, 60, 1_800, "-", 0, 0,
+          "ours: a receiver or its program that repeats its last fix", "a_wrong_fix_is_contradicted"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
-OF_A_TRAIN = ("gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards")
+OF_A_TRAIN = (
+    "gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards",
+    "gps_frozen",
+)  # fmt: skip
 """Those that begin while the train is under way."""
+OF_THEIR_OWN = frozenset({"gps_frozen"})
+"""Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}
 WITHIN = tuple(fault for fault in FAULTS if not fault.breaks)
 BEYOND = tuple(fault for fault in FAULTS if fault.breaks)

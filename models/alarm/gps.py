@@ -12,7 +12,9 @@ from models.alarm.moving import noise
 from models.alarm.network import is_of
 from models.compiled import compiled
 
-OUT, JUMP, DRIFT, BACKWARDS = (KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards"))
+OUT, JUMP, DRIFT, BACKWARDS, FROZEN = (
+    KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards", "gps_frozen")
+)
 KEEPS, TRAIN_M, TRAIN_MOST_M, WORKER_M, WORKER_MOST_M = 0.95, 6.0, 19.9, 5.0, 14.9
 """An error that follows its last value; one deviation and the most for train and worker, rounding to mm aside."""
 VALID_M_S = 5 / 3.6
@@ -52,6 +54,12 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
         if is_of(day, kind, train, second):
             off_m += day.size[kind]
     return int(np.floor(1_000 * (place_m + off_m) + 0.5))
+
+
+@compiled(forceinline=True)
+def is_frozen(day: Any, train: int, second: int) -> bool:
+    """Tell whether GPS tells once more what it told a second ago, as if it were new: place, direction, running."""
+    return is_of(day, FROZEN, train, second) and is_of(day, FROZEN, train, second - 1)
 
 
 @compiled(forceinline=True)

@@ -23,6 +23,7 @@ from models.alarm.gps import (
     WORKER_M,
     WORKER_MOST_M,
     in_tunnel,
+    is_frozen,
     sees,
     stretch_mm,
     told_mm,
@@ -170,6 +171,13 @@ def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
             send(day, second, SHOWN + train, sent.shown_s[train])
         sent.runs[train, now] = speed >= VALID_M_S
         sent.direction[train, now] = (DOWN if heading > 0 else UP) if speed >= VALID_M_S else UNKNOWN
+        if is_frozen(day, train, second):
+            before = (second - 1) % RING
+            sent.told_mm[train, now], sent.has_fix[train, now] = (
+                sent.told_mm[train, before],
+                sent.has_fix[train, before],
+            )
+            sent.direction[train, now], sent.runs[train, now] = sent.direction[train, before], sent.runs[train, before]
 
 
 @compiled(forceinline=True)

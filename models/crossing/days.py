@@ -41,5 +41,6 @@ SYSTEM = System(
     counts=COUNTS,
     hours=float(len(HOURS)),
     one_day=one_day,
+    beyond={fault.name: fault.breaks for fault in FAULTS if fault.breaks},
 )
 """Constant warning time by radio ranging (003)."""

@@ -17,11 +17,12 @@ DAYS_A_BATCH = 25
 
 @dataclass(frozen=True)
 class Batch:
-    """Some days of a system, by their numbers."""
+    """Some days of a system, by their numbers; ``beyond``: faults that each of them has."""
 
     system: str
     seed: int
     days: range
+    beyond: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ class Outcome:
 
 def lived(batch: Batch) -> Numbers:
     """Simulate a batch; a row for each day, a column for each of the system's."""
-    return system_of(batch.system).simulate(batch.seed, batch.days)
+    return system_of(batch.system).simulate(batch.seed, batch.days, *batch.beyond)
 
 
 def live_all(
@@ -73,11 +74,16 @@ def live_all(
     jobs: int,
     progress: Callable[[int, int, str], object] = lambda *_: None,
     kept: KeptDays | None = None,
+    beyond: tuple[str, ...] = (),
 ) -> Numbers:
-    """Simulate a campaign; a row for each day, in order.  Batches that are kept already are not simulated again."""
+    """Simulate a campaign; a row for each day, in order.  Batches that are kept already are not simulated again.
+
+    ``beyond``: faults that each day has; days with such are not kept.
+    """
+    assert not (kept and beyond), "days with a fault beyond what is assumed are not kept"
     batches = [range(first, min(first + DAYS_A_BATCH, days)) for first in range(0, days, DAYS_A_BATCH)]
     rows = {batch: found for batch in batches if kept and (found := kept.rows(batch)) is not None}
-    todo = [Batch(name, seed, batch) for batch in batches if batch not in rows]
+    todo = [Batch(name, seed, batch, beyond) for batch in batches if batch not in rows]
     done = sum(map(len, rows))
     for batch, found in zip(todo, spread(lived, todo, jobs), strict=True):
         rows[batch.days] = found
@@ -86,6 +92,41 @@ def live_all(
         done += len(found)
         progress(done, days, name)
     return np.concatenate([rows[batch] for batch in batches])
+
+
+@dataclass(frozen=True)
+class Noticed:
+    """What came of one fault beyond what is assumed, on days that are otherwise those of another campaign.
+
+    ``days``: those on which it changed anything.  ``violated``: of them those with a claim broken; ``unexplained``:
+    with every assumption held; ``unnoticed``: with no monitor that counted more than without the fault.
+    ``noticed``: by how many days each monitor counted more.
+    """
+
+    days: int
+    violated: int
+    unexplained: int
+    unnoticed: int
+    noticed: Mapping[str, int]
+
+
+def noticed(system: System, without: Numbers, rows: Numbers) -> Noticed:
+    """Hold days with a fault against the same days without it."""
+    place = {name: number for number, name in enumerate(system.columns)}
+    drawn = [place[name] for name in system.faults]
+    changed = np.delete(rows != without, drawn, axis=1).any(axis=1)
+    claims, assumptions, monitors = (
+        [place[name] for name in names] for names in (system.claims, system.assumptions, system.monitors)
+    )
+    violated, broken = ((rows[:, names] > 0).any(axis=1) & changed for names in (claims, assumptions))
+    more = rows[:, monitors] > without[:, monitors]
+    return Noticed(
+        days=int(changed.sum()),
+        violated=int(violated.sum()),
+        unexplained=int((violated & ~broken).sum()),
+        unnoticed=int((changed & ~more.any(axis=1)).sum()),
+        noticed={name: int(more[:, number].sum()) for number, name in enumerate(system.monitors)},
+    )
 
 
 def outcome(system: System, rows: Numbers) -> Outcome:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 
 from rich.console import Console
 from rich.table import Table
 
-from models.days.campaign import Outcome
+from models.days.campaign import Noticed, Outcome
+from models.days.system import System
 
 
 def print_outcome(out: Console, found: Outcome) -> None:
@@ -35,6 +37,20 @@ def print_outcome(out: Console, found: Outcome) -> None:
         _sums(out, title, names, found)
 
 
+def print_beyond(out: Console, system: System, found: Mapping[str, Noticed]) -> None:
+    """Print one fault beyond what is assumed after the other: what it broke, and what noticed it."""
+    rows = Table(title="One fault beyond what is assumed, on every day", title_justify="left")
+    left = ("fault", "breaks", "noticed by")
+    for heading in ("fault", "breaks", "days it changed", "claim broken", "assumption held", "unnoticed", "noticed by"):
+        rows.add_column(heading, justify="left" if heading in left else "right", overflow="fold")
+    for name, one in found.items():
+        by = ", ".join(f"{monitor} {days}" for monitor, days in one.noticed.items() if days)
+        counts = (one.days, one.violated, one.unexplained, one.unnoticed)
+        rows.add_row(name, system.beyond[name], *(f"{each:,}" for each in counts), by)
+    out.print(rows)
+    _plain(out, "noticed by: a monitor counted more than on the same day without the fault")
+
+
 def _sums(out: Console, title: str, names: Mapping[str, str], found: Outcome) -> None:
     rows = Table(title=title, title_justify="left")
     for heading in ("what", "all", "an hour", "most in a day", "on days"):
@@ -51,8 +67,8 @@ def _plain(out: Console, line: str) -> None:
     out.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
-def record(seed: int, found: Outcome) -> dict[str, object]:
-    """Give a campaign as it is written to a file."""
+def record(seed: int, found: Outcome, beyond: Mapping[str, Noticed] | None = None) -> dict[str, object]:
+    """Give a campaign as it is written to a file, with what came of faults beyond what is assumed."""
     system = found.system
     return {
         "system": system.name,
@@ -62,6 +78,7 @@ def record(seed: int, found: Outcome) -> dict[str, object]:
         "violated": found.violated,
         "unexplained": found.unexplained,
         "bound": found.bound,
+        "beyond": {name: asdict(one) for name, one in (beyond or {}).items()},
         "columns": {
             group: {
                 name: {

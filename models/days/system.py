@@ -21,7 +21,8 @@ class System:
     ``monitors``: what the machines noticed.  ``faults``: those drawn.  ``prices``: what it costs to be on the safe
     side, with units.  ``counts``: the rest.
     ``hours``: of traffic in a day.
-    ``one_day``: from a seed and the number of a day to its row; nothing else has a say in it.
+    ``one_day``: from a seed and the number of a day to its row; nothing else has a say in it, but third the names of
+    faults ``beyond`` what is assumed, which it then has; each goes with the assumption that it breaks.
     """
 
     name: str
@@ -32,13 +33,16 @@ class System:
     prices: Mapping[str, str]
     counts: Mapping[str, str]
     hours: float
-    one_day: Callable[[int, int], Numbers] = field(repr=False)
+    one_day: Callable[..., Numbers] = field(repr=False)
+    beyond: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Every column's name, in order."""
         return (*self.claims, *self.assumptions, *self.monitors, *self.faults, *self.prices, *self.counts)
 
-    def simulate(self, seed: int, days: range) -> Numbers:
-        """Simulate days: a row for each, a column for each of ``columns``."""
-        return np.array([self.one_day(seed, day) for day in days], np.int64).reshape(len(days), len(self.columns))
+    def simulate(self, seed: int, days: range, *beyond: str) -> Numbers:
+        """Simulate days: a row for each, a column for each of ``columns``; ``beyond``: faults that each of them has."""
+        named = (beyond,) if beyond else ()
+        rows = [self.one_day(seed, day, *named) for day in days]
+        return np.array(rows, np.int64).reshape(len(days), len(self.columns))

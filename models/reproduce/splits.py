@@ -81,7 +81,15 @@ def watch(limits: SplitLimits, readings: list[Readings], until_flag: bool = True
 def journeys(seed: int, runs: int, cycles: int, delay_s: float | None = None) -> Traces:
     """Runs of a whole train with sound sensors and a radio as declared; every delay as drawn, or all of one length."""
     present = dict.fromkeys(
-        ("tachometer_silent_at_s", "tachometer_stuck_at_s", "inertial_nan_at_s", "split_at_s", "slip_at_s"), NEVER
+        (
+            "tachometer_silent_at_s",
+            "tachometer_stuck_at_s",
+            "inertial_nan_at_s",
+            "split_at_s",
+            "slip_at_s",
+            "rolls_back_at_s",
+        ),
+        NEVER,
     )
     if delay_s is not None:
         present["delay_s"] = delay_s
@@ -125,7 +133,8 @@ class Parted:
 def parted(limits: SplitLimits, seed: int, runs: int, cycles: int) -> Parted:
     """Let trains truly split, as declared, and the kernel watch them (P5)."""
     present = dict.fromkeys(("tachometer_silent_at_s", "tachometer_stuck_at_s", "inertial_nan_at_s"), NEVER)
-    present |= {"split_at_s": AT_S, "split_shock_m_s2": 0.0, "slip_at_s": NEVER, "radio_out_at_s": NEVER}
+    present |= {"split_at_s": AT_S, "split_shock_m_s2": 0.0}
+    present |= dict.fromkeys(("slip_at_s", "radio_out_at_s", "rolls_back_at_s"), NEVER)
     track = line(seed * 1_000)
     made = traces(Setup(track, cycles, TAIL_M, present=present), seed, range(10**6, 10**6 + runs))
     at = int(AT_S / CYCLE_S)

@@ -52,17 +52,23 @@ def counted(out: Console, title: str, names: Mapping[str, str], counts: Mapping[
 def print_beyond(out: Console, found: Mapping[str, Outcome]) -> None:
     """Print campaigns with one fault beyond its declared range each: claims broken, and whose fault it was."""
     rows = Table(title="One fault beyond its declared range, in every ride", title_justify="left")
-    for heading in ("fault", "rides", "claim broken", "assumption held", "no alarm", "assumptions broken"):
-        rows.add_column(heading, justify="left" if heading in ("fault", "assumptions broken") else "right")
+    left = ("fault", "assumptions broken", "noticed by")
+    for heading in ("fault", "rides", "claim broken", "assumption held", "no alarm", *left[1:]):
+        rows.add_column(heading, justify="left" if heading in left else "right")
     for name, one in found.items():
-        broken = ", ".join(f"{each} {count}" for each, count in one.assumptions.items() if count)
-        rows.add_row(name, f"{one.rides:,}", f"{one.violated:,}", f"{one.unexplained:,}", f"{one.unnoticed:,}", broken)
+        broken, noticed = (
+            ", ".join(f"{each} {count}" for each, count in counts.items() if count)
+            for counts in (one.assumptions, one.monitors)
+        )
+        counts = (one.rides, one.violated, one.unexplained, one.unnoticed)
+        rows.add_row(name, *(f"{each:,}" for each in counts), broken, noticed)
     out.print(rows)
     print_plain(out, "assumption held: a claim was broken and no assumption was, which would be the kernel's fault")
     print_plain(
         out,
         "no alarm: a claim was broken, and no monitor said so by the end of the ride (a wheel not trusted is none)",
     )
+    print_plain(out, "noticed by: in how many rides each monitor spoke, also of what else those rides have")
 
 
 def print_plain(out: Console, line: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from models.rides.plan import LENGTH_MM
 from models.sensors.curves import Registering, averaged, registered
 from models.sensors.dynamics import slope_m_s2
 from models.sensors.faults import CYCLE_S, FAULTS
+from models.sensors.tachometer import WHEEL_MM
 from models.sensors.traces import Traces, Whole
 from models.sensors.track import GRID_M, Track, read, spots
 
@@ -119,7 +121,7 @@ def traces_of(made: Traces, track: Track) -> list[Trace]:
             age_ms=sensors.tail_age_ms[row].astype(np.int64),
             yaw=Reading(yaw[row], whole[row] != 0),
             features=features[features[:, 0] > truth.head_m[row, 0] * 1000],
-            tags_mm=tags_mm,
+            tags_mm=tags_mm + np.rint(made.reads.off_m[row] * 1000).astype(np.int64),
             tag_cycle=made.reads.cycle[row].astype(np.int64),
             tag_frames=made.reads.frames[row],
             tail_cycle=tail_cycles(tail_m[row], track.tags_m),
@@ -176,7 +178,7 @@ def endings_of(made: Traces) -> list[Ending]:
             slows_m_s2=float(values["approach_slows_m_s2"][row]),
             responds_s=float(values["approach_responds_s"][row]),
             gradient=float(values["approach_gradient_permille"][row]) / 1000,
-            scale=float(values["creep_ppm"][row] / 2 + values["diameter_ppm"][row]) * 1e-6,
+            scale=scale_of(values, row),
             bias_m_s2=float(values["head_bias_m_s2"][row]),
             slides_at=int(values["approach_slides_s"][row] / CYCLE_S),
             jolt_m_s2=float(values["slip_jolt_m_s2"][row]),
@@ -184,6 +186,12 @@ def endings_of(made: Traces) -> list[Ending]:
         )
         for row in range(len(made.runs))
     ]
+
+
+def scale_of(values: Mapping[str, Floats], row: int) -> float:
+    """By how much a ride's wheel turns less than its diameter as entered says, in the mean of its creep."""
+    entered = values["diameter_ppm"][row] * 1e-6 + values["diameter_entered_mm"][row] / WHEEL_MM
+    return float(values["creep_ppm"][row] / 2 * 1e-6 + entered)
 
 
 def faults_of(made: Traces) -> Places:

@@ -17,6 +17,8 @@ from models.sensors.faults import CYCLE_S, GRAVITY_M_S2, Floats
 
 SLIDES_FROM_M_S = 3.0
 """Ours: slide protection is cut out, and brakes are weak, near a standstill; a slide begins above this."""
+BRAKED_M_S2 = 0.2
+"""A train that loses more is braked."""
 FULL_M_S2 = ADHESION * GRAVITY_M_S2
 """The acceleration at which the creep is at its largest: all axles driven and braked alike (ours)."""
 
@@ -39,8 +41,27 @@ def wheel_speed_m_s(speed: Singles, gain: Singles, values: Mapping[str, Floats])
         wheel[row, first:end] += difference_m_s(
             end - first, lasts, values["slip_jolt_m_s2"][row], values["slip_speed_m_s"][row]
         )
-    np.maximum(wheel, 0, out=wheel)
+    for row in np.flatnonzero(values["slow_slide_at_s"] < speed.shape[1] * CYCLE_S):
+        of_row = {name: float(values[f"slow_slide_{name}"][row]) for name in ("at_s", "m_s2", "share", "s")}
+        wheel[row] -= slow_slide_m_s(speed[row], gain[row], **of_row)
+    np.copyto(wheel, 0, where=(wheel < 0) & (speed >= 0))
     return wheel
+
+
+def slow_slide_m_s(speed: Singles, gain: Singles, at_s: float, m_s2: float, share: float, s: float) -> Singles:
+    """How much slower the wheel of one run is in each cycle of a slide that begins without a jolt and is held.
+
+    It begins as the train brakes, gets slower than its train by ``m_s2``, is held at a ``share`` below its speed, and
+    comes back as it went, ``s`` after it began.
+    """
+    slower, first = np.zeros_like(speed), int(at_s / CYCLE_S)
+    braked = np.flatnonzero((speed[first:] > SLIDES_FROM_M_S) & (gain[first:] < -BRAKED_M_S2))
+    if len(braked):
+        first += int(braked[0])
+        since_s = np.arange(1, len(speed) - first + 1) * CYCLE_S
+        away = np.minimum(m_s2 * since_s, m_s2 * np.maximum(s - since_s, 0))
+        slower[first:] = np.minimum(away, share * speed[first:])
+    return slower
 
 
 def difference_m_s(cycles: int, lasts: int, jolt: float, most: float) -> Floats:

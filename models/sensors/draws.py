@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from models.sensors.faults import FAULTS, Floats, drawn
+from models.sensors.faults import FAULTS, FIRST_OF_THEIR_OWN, Floats, drawn
 
 Singles = npt.NDArray[np.float32]
 Words = npt.NDArray[np.uint16]
@@ -52,9 +52,9 @@ class Draws:
     noise: Singles
 
 
-def generator(seed: int, run: int) -> np.random.Generator:
-    """The generator of one run, the same whatever other runs are made."""
-    return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run,))))
+def generator(seed: int, run: int, *own: int) -> np.random.Generator:
+    """The generator of one run, the same whatever other runs are made; ``own``: another one of the same run."""
+    return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(run, *own))))
 
 
 def choose(
@@ -71,8 +71,9 @@ def choose(
     """
     uniforms, reads = np.empty((len(runs), len(FAULTS), 2)), np.empty((len(runs), tags, 2))
     sources = tuple(generator(seed, run) for run in runs)
-    for row, source in enumerate(sources):
-        source.random(out=uniforms[row])
+    for row, (run, source) in enumerate(zip(runs, sources, strict=True)):
+        source.random(out=uniforms[row, :FIRST_OF_THEIR_OWN])
+        generator(seed, run, 1).random(out=uniforms[row, FIRST_OF_THEIR_OWN:])
         source.random(out=reads[row])
     return Chosen(drawn(uniforms, beyond, present), reads, sources)
 

@@ -33,6 +33,8 @@ A train that came to stand a little short, where so little is allowed that it wo
 """
 AWAY_M = 4.0
 """Ours: having stayed at a stop, the driver looks only beyond it."""
+ROLLS_M_S2 = 0.3
+"""Ours: gravity on an ascent of 30 per mille."""
 LOOK_S = 0.8
 """Ours: how far ahead a driver looks, since the brake takes that long to build up."""
 
@@ -96,7 +98,25 @@ def run(track: Track, values: Mapping[str, Floats], cycles: int, length_m: float
             stays[leaves] = 0
             regarded_m[leaves] = head[leaves] + AWAY_M
         speeds[cycle] = speed
-    return moved(np.ascontiguousarray(speeds.T), values, length_m + START_M)
+    speed_m_s = np.ascontiguousarray(speeds.T)
+    for row in np.flatnonzero(values["rolls_back_at_s"] < cycles * CYCLE_S):
+        roll_back(speed_m_s[row], int(values["rolls_back_at_s"][row] / CYCLE_S), values["rolls_back_m"][row])
+    return moved(speed_m_s, values, length_m + START_M)
+
+
+def back_m_s(way_m: float) -> Floats:
+    """How fast a train runs in each cycle in which it rolls back so far: ever faster, then ever slower, below 0."""
+    half = max(1, round(float(np.sqrt(way_m / ROLLS_M_S2)) / CYCLE_S))
+    count = np.arange(1, 2 * half + 1)
+    return (np.abs(count - half) - half) * (way_m / (half * half * CYCLE_S))
+
+
+def roll_back(speed_m_s: Singles, first: int, way_m: float) -> None:
+    """Let one run roll back before its first start from a cycle on, and do later what it does, in place (T5)."""
+    starts = np.flatnonzero((speed_m_s[first:-1] == 0) & (speed_m_s[first + 1 :] > 0))
+    if len(starts):
+        at = first + int(starts[0]) + 1
+        speed_m_s[at:] = np.concatenate([back_m_s(way_m), speed_m_s[at:]])[: len(speed_m_s) - at]
 
 
 def moved(speed: Singles, values: Mapping[str, Floats], start_m: float) -> Motion:

@@ -156,8 +156,44 @@ FAULTS: tuple[Fault, ...] = (
     _fault("approach_gradient_permille", "permille", (-35.0, 35.0, 150.0), "odometry.gradient_mm_s2",
            "the technical standard's limit for ordinary railways' electric trains"),
     _fault("approach_slides_s", "s", (0.0, 6.0, 60.0), "none: at any moment", "ours: under the brake", 0.3, NEVER),
+    # ---- drawn from numbers of their own, so that the rides on record stay what they are otherwise
+    _fault("rolls_back_at_s", "s", (5.0, 400.0, 400.0), "reverse_movement: at the next start",
+           "ours: a brake released on an ascent before the motors pull", 0.1, NEVER),
+    _fault("rolls_back_m", "m", (0.1, 1.8, 20.0), "reverse_movement.roll_back_mm, 2,000, less creep and a pulse",
+           "ours: what a driver catches at once; beyond it, one that rolls on or drives back"),
+    _fault("pair_lost_at_s", "s", (5.0, 400.0, 400.0), "tag_window: both tags of the next boundary are overdue",
+           "ours: covered by ballast or snow, or torn off by what hung down", 0.05, NEVER),
+    _fault("pulses_lost_at_s", "s", (400.0, 400.0, 5.0), "odometry.scale_ppm: lost pulses are beyond it",
+           "ours: never, within the declared range; a worn toothed wheel, a gap too wide", 0.0, NEVER),
+    _fault("pulses_lost_s", "s", (5.0, 60.0, 400.0), "none: any duration is allowed", "ours"),
+    _fault("pulses_lost_share", "1", (0.02, 0.5, 1.0), "as above", "ours: one tooth of 60 is 0.017"),
+    _fault("pulses_extra_at_s", "s", (400.0, 400.0, 5.0), "odometry.scale_ppm: extra pulses are beyond it",
+           "ours: never, within the declared range; interference of the motors' current", 0.0, NEVER),
+    _fault("pulses_extra_s", "s", (5.0, 60.0, 400.0), "none: any duration is allowed", "ours"),
+    _fault("pulses_extra_share", "1", (0.02, 0.5, 1.0), "as above", "ours"),
+    _fault("diameter_entered_mm", "mm", (0.0, 0.0, 80.0), "odometry.scale_ppm: a wrong entry is beyond it",
+           "practice: a worn wheel of 780 mm entered as a new one of 860, or the other way"),
+    _fault("slow_slide_at_s", "s", (400.0, 400.0, 5.0), "odometry: a wheel that slips leaves with a jolt",
+           "ours: never, within the declared range; slide protection that holds a slip", 0.0, NEVER),
+    _fault("slow_slide_m_s2", "m/s2", (0.1, 0.8, 0.8), "odometry.slip_mm_s2 + inertial_mm_s2",
+           "ours: so much faster than its train the wheel slows down at first"),
+    _fault("slow_slide_share", "1", (0.05, 0.3, 0.9), "as above", f"{_OURS_TYPICAL} held slip, 10 to 25 per cent"),
+    _fault("slow_slide_s", "s", (5.0, 40.0, 400.0), "none: any duration is allowed", "ours"),
+    _fault("crosstalk_at_s", "s", (400.0, 400.0, 5.0), "the survey (P3): an antenna reads its own track's tags alone",
+           "ours: never, within the declared range; tracks lie 3.4 m and more apart, an antenna reads within 0.3 m",
+           0.0, NEVER),
+    _fault("crosstalk_m", "m", (-60.0, 60.0, 200.0), "as above",
+           "ours: so far off the neighbouring track's tags lie by the kilometrage of their own track"),
+    *(
+        _fault(f"{place}_reversed", "1", (0.0, 0.0, 1.0), "odometry.inertial_mm_s2, split.threshold_mm_s2",
+               "practice: fitted with its front to the back; any value but 0 is this")
+        for place in ("head", "left", "right")
+    ),
 )  # fmt: skip
 """What a campaign draws, in this order."""
+
+FIRST_OF_THEIR_OWN = next(place for place, fault in enumerate(FAULTS) if fault.name == "rolls_back_at_s")
+"""From here on parameters are drawn from numbers of their own."""
 
 PLACE = {fault.name: place for place, fault in enumerate(FAULTS)}
 
@@ -213,7 +249,8 @@ def drawn(
 ) -> dict[str, Floats]:
     """Turn uniform numbers, shape (runs, parameters, 2), into the value of every parameter for every run.
 
-    ``beyond`` names those drawn from beyond their declared range, in every run; ``present`` sets some outright.
+    ``beyond`` names those drawn from beyond their declared range, in every run: of a fault that comes at a time
+    (``slip_at_s``) it then comes in every run (``slip_jolt_m_s2``).  ``present`` sets some outright.
 
     Raises:
         KeyError: a name is no parameter's.
@@ -230,13 +267,15 @@ def drawn(
             values[fault.name] = _beyond(fault, share)
         else:
             value = fault.least + share * (fault.most - fault.least)
-            values[fault.name] = np.where(happens < fault.chance, value, fault.absent)
+            comes = any(name.startswith(fault.name.removesuffix("at_s")) for name in outside)
+            chance = 1.0 if comes and fault.name.endswith("_at_s") else fault.chance
+            values[fault.name] = np.where(happens < chance, value, fault.absent)
     return values
 
 
 def _beyond(fault: Fault, share: Floats) -> Floats:
-    """From the end of the range that lies towards ``beyond`` on; of a range around 0 on both sides."""
-    if fault.least < 0 < fault.beyond:
+    """From the end of the range that lies towards ``beyond`` on; of a range around 0, or of 0 alone, on both sides."""
+    if fault.least < 0 < fault.beyond or fault.least == fault.most == 0:
         side = np.where(share < 0.5, -1.0, 1.0)
         return side * (fault.most + (2 * share % 1) * (fault.beyond - fault.most))
     end = fault.most if fault.beyond >= fault.most else fault.least

@@ -62,12 +62,12 @@ def sway(draws: Draws, channel: str, deviation: Floats) -> Singles:
 def force(true_m_s2: Singles, draws: Draws, place: str) -> Singles:
     """Specific force along the track by the accelerometer at a place: ``head``, ``left`` or ``right`` (P1, P5).
 
-    ``true_m_s2``: acceleration and gravity along the track together.
+    ``true_m_s2``: acceleration and gravity along the track together.  Mounted in reverse it shows both the other way.
     """
     values = draws.values
     scale = (1 + values[f"{place}_scale_ppm"] * 1e-6).astype(np.float32)
     constant = values[f"{place}_bias_m_s2"] + GRAVITY_M_S2 * values[f"{place}_mounting_rad"]
-    shown = true_m_s2 * scale[:, None]
+    shown = true_m_s2 * np.where(values[f"{place}_reversed"] != 0, -scale, scale)[:, None]
     shown += constant.astype(np.float32)[:, None]
     shown += drift(draws, place, values[f"{place}_walk_m_s2"], WALK_MOST_M_S2, shown.shape[1])
     shown += white(draws, place, values[f"{place}_noise_m_s2"])
@@ -75,12 +75,14 @@ def force(true_m_s2: Singles, draws: Draws, place: str) -> Singles:
 
 
 def turn(speed: Singles, curvature: Singles, draws: Draws, channel: str) -> Singles:
-    """Angular rate by the gyro: speed times curvature, with its errors (P2).
+    """Angular rate by the gyro: speed times curvature, with its errors (P2); pitch is the other way in reverse.
 
     The tail's gyro has the drawn bias in the opposite direction: together the worst.
     """
     values = draws.values
     scale = (1 + values["gyro_scale_ppm"] * 1e-6).astype(np.float32)
+    if channel == "pitch":
+        np.negative(scale, out=scale, where=values["head_reversed"] != 0)
     shown = speed * curvature
     shown *= scale[:, None]
     bias = -values["gyro_bias_rad_s"] if channel == "tail_yaw" else values["gyro_bias_rad_s"]

@@ -2,8 +2,8 @@
 
 The unit reckons with the wheel's nominal diameter; the true one differs.  Speed is pulses over the time
 from the last pulse before this cycle to the last one in it, by a timer: so it is the mean over about one
-cycle, half a cycle old.  In a cycle without a pulse it is what it was, or a pulse over the time since the last
-one if that is less; once the timer overflows it is 0 (ours).
+cycle, half a cycle old; below 0 if the wheel turns back.  In a cycle without a pulse it is what it was, or a
+pulse over the time since the last one if that is less; once the timer overflows it is 0 (ours).
 
 Rides measure whole runs at once (:func:`measure`); where a train's motion is not known beforehand there is the same
 tachometer a cycle at a time (:func:`counted`).  A test holds the two to each other.
@@ -11,6 +11,7 @@ tachometer a cycle at a time (:func:`counted`).  A test holds the two to each ot
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -24,6 +25,8 @@ from models.sensors.faults import CYCLE_S, Floats
 
 PULSE_M = 0.045
 """Ours, typical: 60 pulses a turn of a wheel of 860 mm."""
+WHEEL_MM = 860.0
+"""A new wheel, nominal."""
 TIMER_S = 1e-5
 """Ours, typical of a counter at 100 kHz."""
 OVERFLOW_TICKS = 65_535
@@ -61,30 +64,34 @@ class Pulses(NamedTuple):
 def counted(before: Pulses, pulses: float) -> Pulses:
     """Take a cycle in which the wheel turns by so many pulses, evenly (P1)."""
     turned = before.turned + pulses
-    came = int(turned)
+    came = math.floor(turned)
     if came == before.came:
         return Pulses(turned, came, min(before.since_ticks + CYCLE_TICKS, OVERFLOW_TICKS), before.held_m_s)
-    since_ticks = min(int((turned - came) / max(pulses * TIMER_S / CYCLE_S, 1e-9)), CYCLE_TICKS)
+    past = turned - came if pulses >= 0 else came + 1 - turned
+    since_ticks = min(int(past / max(abs(pulses) * TIMER_S / CYCLE_S, 1e-9)), CYCLE_TICKS)
     spent_ticks = max(1, CYCLE_TICKS - since_ticks + before.since_ticks)
     return Pulses(turned, came, since_ticks, (came - before.came) * PULSE_M / TIMER_S / spent_ticks)
 
 
 def shown_m_s(before: Pulses, now: Pulses) -> float:
     """Give the speed that it shows at the end of a cycle (P1)."""
-    if now.came > before.came:
+    if now.came != before.came:
         return now.held_m_s
     if now.since_ticks >= OVERFLOW_TICKS:
         return 0.0
-    return min(now.held_m_s, PULSE_M / TIMER_S / max(1, now.since_ticks))
+    most_m_s = PULSE_M / TIMER_S / max(1, now.since_ticks)
+    return max(-most_m_s, min(now.held_m_s, most_m_s))
 
 
 def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     """Count the pulses of wheels that turn with these rim speeds, shape (runs, cycles) (P1)."""
-    pulses_a_m = 1 / (PULSE_M * (1 + values["diameter_ppm"] * 1e-6))
+    pulses_a_m = 1 / (PULSE_M * (1 + values["diameter_ppm"] * 1e-6 + values["diameter_entered_mm"] / WHEEL_MM))
     turned = np.empty(wheel_m_s.shape)
     turned[:, :1] = wheel_m_s[:, :1] * 0.5
     np.add(wheel_m_s[:, 1:], wheel_m_s[:, :-1], out=turned[:, 1:])
-    np.cumsum(turned[:, 1:] * 0.5, axis=1, out=turned[:, 1:])
+    turned[:, 1:] *= 0.5
+    _miscount(turned, values)
+    np.cumsum(turned[:, 1:], axis=1, out=turned[:, 1:])
     turned[:, 1:] += turned[:, :1]
     turned *= (pulses_a_m * CYCLE_S)[:, None]
     count = np.floor(turned)
@@ -95,6 +102,16 @@ def measure(wheel_m_s: Singles, values: Mapping[str, Floats]) -> Tachometer:
     reading = Tachometer(count, speed, valid)
     _fail(reading, values)
     return reading
+
+
+def _miscount(turned: Floats, values: Mapping[str, Floats]) -> None:
+    """Lose a share of the pulses of some cycles, or count so many too many."""
+    cycles = turned.shape[1]
+    for name, sign in (("lost", -1), ("extra", 1)):
+        for row in np.flatnonzero(values[f"pulses_{name}_at_s"] < cycles * CYCLE_S):
+            first = int(values[f"pulses_{name}_at_s"][row] / CYCLE_S)
+            end = first + int(values[f"pulses_{name}_s"][row] / CYCLE_S)
+            turned[row, first:end] *= 1 + sign * values[f"pulses_{name}_share"][row]
 
 
 def _came(count: Floats) -> Singles:
@@ -121,6 +138,8 @@ def _since_last_pulse(turned: Floats, count: Floats, came: Singles) -> Singles:
     rate = np.empty(turned.shape, np.float32)
     rate[:, :1] = turned[:, :1]
     np.subtract(turned[:, 1:], turned[:, :-1], out=rate[:, 1:], casting="same_kind")
+    np.subtract(1, since, out=since, where=rate < 0)
+    np.abs(rate, out=rate)
     rate *= np.float32(TIMER_S / CYCLE_S)
     np.maximum(rate, np.float32(1e-9), out=rate)
     since /= rate
@@ -143,7 +162,8 @@ def _speed(came: Singles, since: Singles) -> Singles:
     speed /= ticks
     rows, columns = np.nonzero((came == 0) & (since < OVERFLOW_TICKS))
     held = speed[rows, _last_pulse(came)[rows, columns]]
-    speed[rows, columns] = np.minimum(held, np.float32(PULSE_M / TIMER_S) / since[rows, columns])
+    most = np.float32(PULSE_M / TIMER_S) / since[rows, columns]
+    speed[rows, columns] = np.clip(held, -most, most)
     return speed
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.sensors.draws import Chosen
-from models.sensors.dynamics import Motion
+from models.sensors.dynamics import Bools, Motion
 from models.sensors.faults import CYCLE_S, Floats
 from models.sensors.track import Ints, Places, Track
 
@@ -46,6 +46,7 @@ class Reader:
         return self.air_ms + self.processing_ms
 
 
+NO_BOUNDARY = 2**31
 ASKS_MS = 2 * AIR_MS
 """Ours: a question is about as long as the answer."""
 
@@ -104,17 +105,19 @@ class Reads:
     """What the head's antenna read of each tag, shape (runs, tags).
 
     ``cycle``: in which it was passed, -1 if it never was.  ``frames``: without error.
+    ``off_m``: so far beyond the tag's place the one lies, by the list, that answered: of the neighbouring track.
     """
 
     cycle: Ints
     frames: npt.NDArray[np.int64]
+    off_m: Floats
 
 
 def read(track: Track, motion: Motion, chosen: Chosen, reader: Reader = STAND) -> Reads:
     """Read every tag that the head passes (T2, T16).  The antenna is taken to be at the head."""
     runs, cycles = motion.head_m.shape
     apart = 2 * (track.length_m + 100_000.0)
-    flat = (motion.head_m + (np.arange(runs) * apart)[:, None]).reshape(-1)
+    flat = (np.maximum.accumulate(motion.head_m, axis=1) + (np.arange(runs) * apart)[:, None]).reshape(-1)
     sought = track.tags_m + (np.arange(runs) * apart)[:, None]
     index = np.searchsorted(flat, sought) - (np.arange(runs) * cycles)[:, None]
     passed = (index > 0) & (index < cycles)
@@ -122,7 +125,17 @@ def read(track: Track, motion: Motion, chosen: Chosen, reader: Reader = STAND) -
     speed = np.take_along_axis(motion.speed_m_s, np.where(passed, index, 0), axis=1).astype(np.float64)
     values, errors = chosen.values, chosen.values["frame_errors"][:, None]
     count = frames(reader, speed, chosen.reads[:, :, 0], values["window_share"][:, None])
-    return Reads(cycle, np.where(passed, without_errors(count, errors, chosen.reads[:, :, 1]), 0))
+    good = np.where(passed, without_errors(count, errors, chosen.reads[:, :, 1]), 0)
+    good[next_pair(track, cycle, values["pair_lost_at_s"])] = 0
+    off_m = np.where(next_pair(track, cycle, values["crosstalk_at_s"]), values["crosstalk_m"][:, None], 0.0)
+    return Reads(cycle, good, off_m)
+
+
+def next_pair(track: Track, cycle: Ints, at_s: Floats) -> Bools:
+    """Which tags are of the first boundary that the head passes after a time, shape (runs, tags)."""
+    after = (cycle >= 0) & (cycle * CYCLE_S > at_s[:, None]) & (np.arange(cycle.shape[1]) % 2 == 0)
+    boundary = np.where(after, track.boundary_of, NO_BOUNDARY).min(axis=1, initial=NO_BOUNDARY)
+    return np.asarray(boundary[:, None] == track.boundary_of)
 
 
 def passing_s(cycle: Ints) -> Floats:

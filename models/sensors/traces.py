@@ -137,8 +137,8 @@ def measured(setup: Setup, truth: Motion, draws: Draws) -> Sensors:
     left, right, tail_yaw = _tail(track, truth, draws, setup.length_m)
     link = transmission.transmit(draws, cycles)
     here, there = (clock.stamp(draws, place, cycles) for place in (0, 1))
-    speed, speaks = narrow(wheel.speed_m_s, 1000, 0, GREATEST_SPEED_MM_S)
-    way, counts = whole(wheel.way_m, 1000, 0, GREATEST_WAY_MM)
+    speed, speaks = narrow(wheel.speed_m_s, 1000, -GREATEST_SPEED_MM_S, GREATEST_SPEED_MM_S)
+    way, counts = whole(wheel.way_m, 1000, -GREATEST_WAY_MM, GREATEST_WAY_MM)
     return Sensors(
         wheel_mm_s=Whole(speed, speaks & wheel.valid),
         wheel_way_mm=Whole(way.astype(np.int32), counts & wheel.valid),

@@ -12,10 +12,11 @@ from kernel.alarm.tone import Tone
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
 from models.alarm.days import SYSTEM, one_day
 from models.alarm.draws import HOURS, SECONDS, drawn
-from models.alarm.faults import BEYOND, FAULTS, WITHIN
+from models.alarm.faults import BEYOND, FAULTS, KIND, WITHIN
 from models.alarm.line import REGISTER, REGULAR
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
 from models.compiled import compiled, packed
+from models.days.campaign import noticed
 
 FAULT, CAUTION, NORMAL, ALARM = (packed(each) for each in (Tone.FAULT, Tone.CAUTION, Tone.NORMAL, Tone.ALARM))
 SEED = 5
@@ -107,6 +108,32 @@ def test_a_fault_beyond_what_is_assumed_is_counted_against_its_assumption(fault:
     rows = np.array([one_day(SEED, day, beyond=(fault,)) for day in range(6)])
     assert (rows[:, NUMBER[f"fault_{fault}"]] == 1).all()
     assert total(rows, ASSUMPTIONS) > 0
+
+
+def test_a_frozen_gps_tells_the_same_place_with_a_fresh_stamp() -> None:
+    kind, seconds = KIND["gps_frozen"], 0
+    for day in range(3):
+        plain, began = (drawn(SEED, day, beyond, sound=True) for beyond in ((), ("gps_frozen",)))
+        assert all(np.array_equal(one, other) for one, other in zip(began[1:9], plain[1:9], strict=True)), "same day"
+        train, first, lasts = began.train[kind], began.begin_s[kind], began.end_s[kind] - began.begin_s[kind]
+        sound, frozen = (trace(places=True, first_s=first, told_s=lasts) for _ in range(2))
+        for of_day, kept in ((plain, sound), (began, frozen)):
+            watch(of_day, REGISTERED, REGISTERED, ALARM_TONE, NOTHING, np.zeros(len(COLUMNS), np.int64), kept)
+        told, true = frozen.told[20:, train], sound.told[20:, train]
+        runs = np.abs(np.diff(frozen.places[first + 19 : first + lasts, train])) > 5
+        stays = (told[1:, 9] == told[:-1, 9]) & (told[1:, 0] == 1) & (told[1:, 10] < 5_000)
+        seconds += int((stays & runs[1:] & (true[1:, 9] != told[1:, 9])).sum())
+    assert seconds > 60, "a train ran on, and its newest fix stayed and was no older than 5 s"
+
+
+def test_what_notices_a_frozen_gps_is_counted() -> None:
+    without, rows = (SYSTEM.simulate(SEED, range(6), *beyond) for beyond in ((), ("gps_frozen",)))
+    found = noticed(SYSTEM, without, rows)
+    assert found.days > 3
+    assert found.noticed["mismatch_s"] > 0
+    assert set(found.noticed) == set(SYSTEM.monitors)
+    assert found.unexplained == 0
+    assert noticed(SYSTEM, without, without).days == 0
 
 
 def test_a_broken_assumption_breaks_a_claim() -> None:

@@ -58,9 +58,38 @@ EVERY_FAULT = {
     "radio_out_at_s": 50.0,
     "radio_out_s": 2.0,
 }
+OF_WHEEL_AND_MOUNTING = {
+    "traction_m_s2": 0.9,
+    "rolls_back_at_s": 5.0,
+    "rolls_back_m": 12.0,
+    "dwell_s": 20.0,
+    "pair_lost_at_s": 30.0,
+    "pulses_lost_at_s": 20.0,
+    "pulses_lost_s": 8.0,
+    "pulses_lost_share": 0.3,
+    "pulses_extra_at_s": 60.0,
+    "pulses_extra_s": 9.0,
+    "pulses_extra_share": 0.2,
+    "diameter_entered_mm": -40.0,
+    "slow_slide_at_s": 70.0,
+    "slow_slide_share": 0.2,
+    "head_reversed": 1.0,
+    "left_reversed": -1.0,
+}
 
 
-@pytest.mark.parametrize(("run", "present"), [(0, {}), (3, {}), (11, {}), (4, EVERY_FAULT), (5, EVERY_FAULT)])
+@pytest.mark.parametrize(
+    ("run", "present"),
+    [
+        (0, {}),
+        (3, {}),
+        (11, {}),
+        (4, EVERY_FAULT),
+        (5, EVERY_FAULT),
+        (6, OF_WHEEL_AND_MOUNTING),
+        (7, OF_WHEEL_AND_MOUNTING),
+    ],
+)
 def test_the_loop_over_samples_says_the_same(run: int, present: dict[str, float]) -> None:
     """To the rounding of 32 bits: a unit or two, of the wheel's speed 1 in 5,000; where it is valid."""
     setup = Setup(track(), CYCLES, present=present)
