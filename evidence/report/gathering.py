@@ -16,6 +16,7 @@ from evidence.manifest.hashes import ROOT, files, hash_of, sources
 from evidence.pairs import Together, together, unwatched
 from evidence.records.reading import Kept, Records, read
 from evidence.records.showing import Came, Shown, shown
+from evidence.report.chained import ChainDrawing, drawn_chain
 from evidence.report.cored import RECORD as CORES
 from evidence.report.cored import Cored, cored
 from evidence.report.goals import WORST, Drawing, argued, drawn
@@ -27,10 +28,13 @@ from evidence.report.tracing import PROOFS, Proved, Requirement, proofs_of, requ
 from evidence.report.words import titled_rows
 from proofs import assumptions
 from proofs.assumptions import Assumption
+from proofs.chain import Chain, chain
 from proofs.records import commit, versions
 from proofs.theories import THEORIES
 
 DATA = ROOT / "evidence"
+JOINTS = "joints.json"
+"""What ``heisoku mutate --joints --json out/joints.json`` leaves."""
 REPORTS = (".html", ".pdf")
 PAIRS_AT_MOST = 40
 """So many pairs of assumptions are shown, of those on which most rests."""
@@ -85,6 +89,16 @@ class Book:
     def drawing(self) -> Drawing:
         """The goal structure."""
         return drawn(self.case, self.shown)
+
+    @cached_property
+    def chain(self) -> Chain:
+        """What the theorem rests on, by the cores on record if they are of this commit."""
+        return chain(self.of(CORES).get("obligations", ()) if self.cored else ())
+
+    @cached_property
+    def chain_drawing(self) -> ChainDrawing:
+        """The same as shapes."""
+        return drawn_chain(self.chain, self.shown)
 
     @cached_property
     def requirements(self) -> list[Requirement]:
@@ -174,6 +188,12 @@ class Book:
         return cored(record.data) if record.data and record.commit == self.commit else None
 
     @cached_property
+    def joints(self) -> Mapping[str, Any]:
+        """Whether each joint between machines is needed and right; nothing where there is no record of this commit."""
+        record = self.records[JOINTS]
+        return record.data if record.commit == self.commit else {}
+
+    @cached_property
     def mutants(self) -> Mapping[str, Any]:
         """What mutation came to: counts by theory, what kills nothing, and all that is not simply killed."""
         rows = sorted(self.rows("mutate.json", "mutants"), key=lambda row: str(row["mutant"]))
@@ -246,7 +266,7 @@ class Book:
 def gathered(folder: Path) -> Book:
     """Read the case and the records of a folder."""
     known, now = catalogue(), commit()
-    records = dict(read(folder, frozenset({CORES, *(each.record for each in known.values())})))
+    records = dict(read(folder, frozenset({CORES, JOINTS, *(each.record for each in known.values())})))
     found = shown(known, records, now)
     for each in found.values():
         if each.malformed:

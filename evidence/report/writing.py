@@ -12,6 +12,7 @@ from models.whole_page import template_of
 SECTIONS = (
     ("not-shown", "Not shown"),
     ("goals", "Goals"),
+    ("chain", "Chain"),
     ("hazards", "Hazards"),
     ("evidence", "Evidence"),
     ("requirements", "Requirements"),

@@ -28,6 +28,9 @@ def mutate(
         int | None,
         typer.Option(metavar="N", min=1, help="Only N of them, always the same.", show_default=False),
     ] = None,
+    joints: Annotated[
+        bool, typer.Option("--joints", help="Joints between machines, and assumptions below the theorem, instead.")
+    ] = False,
     jobs: Jobs = EVERY_CORE,
     json: Json = None,
 ) -> None:
@@ -37,28 +40,41 @@ def mutate(
     A mutant is killed by a counterexample that is replayed in CPython, or by a witness that fails.  What survives
     stands in a class that is checked; anything else is a hole (1).
 
+    With --joints each guarantee by which one machine discharges what another assumes is replaced by true, and by each
+    other invariant, and each assumption below the theorem is dropped.  One that is not needed is 1, an open one 3.
+
     Examples:
     * `heisoku mutate --only braking --sample 8`
+    * `heisoku mutate --joints --json out/joints.json`
     """
+    from proofs.mutants import joints as between
     from proofs.mutants.record import Trials
     from proofs.mutants.targets import mutants
     from proofs.mutants.trying import chosen, try_all
 
     pattern(only)
     writable(json)
-    names = chosen(only or "", sample)
+    names = (between.chosen if joints else chosen)(only or "", sample)
     if not names:
-        refuse(f"--only {only}: no mutant is named so; heisoku mutate --help")
+        what = "joint and no assumption" if joints else "mutant"
+        refuse(f"--only {only}: no {what} is named so; heisoku mutate --help")
     began = time.perf_counter()
 
     def progress(done: int, of: int, name: str, verdict: Mapping[str, Any]) -> None:
         if sys.stderr.isatty():
             print(f"{done}/{of} {verdict['outcome']:14} {name[:90]}", file=sys.stderr)
 
+    about = {"only": only, "sample": sample, "versions": versions(), "commit": commit()}
+    if joints:
+        tried = between.record(names, jobs, progress)
+        if json:
+            write_json(json, {**tried, **about})
+        between.print_record(console(), tried)
+        raise typer.Exit(between.exit_code(tried))
     verdicts = try_all(names, jobs, Trials(), progress)
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
-        write_json(json, {**found, "only": only, "sample": sample, "versions": versions(), "commit": commit()})
+        write_json(json, {**found, **about})
     print_record(console(), found)
     raise typer.Exit(exit_code(found))
 

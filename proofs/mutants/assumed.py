@@ -1,0 +1,196 @@
+"""Each assumption below the theorem dropped: some claim of its theory must fall, or it is none of the theorem's.
+
+What refuses a step is put as always true, in the worlds of a composed theory's parts as well; what is said of a site
+is left out.  A counterexample must show the fall, one that CPython confirms; what is said of no site and refuses no
+step cannot be dropped, and stays open.
+"""
+
+from __future__ import annotations
+
+import ast
+import copy
+import random
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+from models.world import assumptions as nature
+from proofs import assumptions, usage
+from proofs.catalogue import AXIOMS, INTERLOCKING, PREMISES
+from proofs.chain import Chain, chain
+from proofs.counterexample import Unfaithful
+from proofs.counterexample import search as search_in_a_world
+from proofs.finite import World
+from proofs.lift.sources import definition_of
+from proofs.lints_on_board import asking
+from proofs.lints_on_board import assumptions as asked_on_board
+from proofs.mutants.steps import ERRORS, Lifted, Lifting, identifiers, lifted, search, shaken, sites
+from proofs.mutants.trial import MILLISECONDS, NOT_LIFTED, world
+from proofs.mutated import Sources
+from proofs.reach import called_by
+from proofs.theories import THEORIES, row_of
+from proofs.theory import START, Theory
+
+SHAKES = 3_000
+"""So many sites near the witnesses' are made to find one of which nothing but the premise is false."""
+SHAKEN_SITES = 4
+"""So many of those are tried before any site at all."""
+
+
+@dataclass
+class Outcome:
+    """What became of an assumption: ``falls``, ``none`` or ``open``; over which row, and what is false after it."""
+
+    became: str = "open"
+    by: str = ""
+    finding: str = ""
+    seconds: float = 0.0
+
+
+@cache
+def whole() -> Chain:
+    """Give the chain, followed once a process."""
+    return chain()
+
+
+def names() -> list[str]:
+    """Give every assumption that a proof of the chain rests on, as ``theory.name``, in its order."""
+    return [link.assumption for links in whole().links.values() for link in links if link.rested_on]
+
+
+@cache
+def in_the_chain(theory: str) -> frozenset[str]:
+    """Give the invariants of a theory that the theorem rests on."""
+    return usage.needed(usage.book(THEORIES[theory]), frozenset(whole().asked[theory]))
+
+
+def tried(name: str) -> Outcome:
+    """Drop one assumption."""
+    began = time.perf_counter()
+    found, (theory_name, _, assumption) = Outcome(), name.partition(".")
+    theory = THEORIES[theory_name]
+    tries = of_interlocking(assumption) if theory is INTERLOCKING else beside(theory, assumption)
+    verdicts = []
+    for row, verdict, false in tries:
+        broken = false.split(", ") if false else []
+        fallen = [each for each in broken if each in in_the_chain(theory_name) or each not in theory.invariants]
+        verdicts.append("beside the chain" if broken and not fallen else verdict)
+        if fallen:
+            found.became, found.by, found.finding = "falls", row, ", ".join(fallen)
+            break
+    else:
+        found.became = "none" if verdicts and set(verdicts) == {"none"} else "open"
+    found.seconds = round(time.perf_counter() - began, 2)
+    return found
+
+
+UNCHANGED: Sources = {}
+"""No function is otherwise."""
+Try = tuple[str, str, str]
+"""A row, what the search says, and what is false after the step that it found."""
+
+
+def true_instead(*functions: Callable[..., Any]) -> Sources:
+    """Put *true* in the place of predicates."""
+    return {each: _true(definition_of(each)) for each in functions}
+
+
+def _true(tree: ast.FunctionDef) -> ast.FunctionDef:
+    other = copy.copy(tree)
+    other.body = [ast.Return(ast.Constant(True))]
+    return ast.fix_missing_locations(other)
+
+
+# ---- beside the interlocking
+
+
+def beside(theory: Theory, name: str) -> Iterator[Try]:
+    """Drop an assumption of a theory beside the interlocking, over every row that may notice."""
+    if name in theory.premises:
+        without = replace(theory, premises={other: each for other, each in theory.premises.items() if other != name})
+        rows = dict.fromkeys(row for row, _ in assumptions.proofs_naming(name, theory))
+        for row in (row for row in rows if row != row_of(theory, START)):
+            for lift in _on_sites_without(theory, without, name):
+                yield from _searched(row, {}, lift)
+        return
+    function = asked_on_board(theory)[name]
+    of_parts = {each for part in theory.parts for each in asked_on_board(THEORIES[part]).values()}
+    sources = true_instead(function, *(each for each in called_by(function) if each in of_parts))
+    for step in asking(theory, name):
+        yield from _searched(row_of(theory, step), sources, lifted)
+
+
+def _searched(row: str, sources: Sources, lift: Lifting) -> Iterator[Try]:
+    try:
+        found, verdict = search(row, sources, MILLISECONDS["integers"], lift)
+    except (Unfaithful, *ERRORS, *NOT_LIFTED) as error:
+        yield row, f"error: {error}", ""
+        return
+    yield row, verdict, found.finding if found is not None else ""
+
+
+def _on_sites_without(theory: Theory, without: Theory, name: str) -> Iterator[Lifting]:
+    """Lift a theory without a premise: on sites where nothing else is false, then on any."""
+    for site in [] if identifiers(theory.site) else _sites_against(theory, name):
+        on = Lifted(without, site)
+        yield lambda _theory, _place, on=on: on  # type: ignore[misc]
+    on = _lifted_without(theory.name, name)
+    yield lambda _theory, _place: on
+
+
+@cache
+def _lifted_without(theory: str, name: str) -> Lifted:
+    whole = THEORIES[theory]
+    return Lifted(replace(whole, premises={other: each for other, each in whole.premises.items() if other != name}))
+
+
+def _sites_against(theory: Theory, name: str) -> list[Any]:
+    """Give sites near the witnesses' of which this premise alone is false."""
+    rng, found = random.Random(name), list[Any]()
+    for _ in range(SHAKES if sites(theory.name) else 0):
+        site = shaken(rng, rng.choice(sites(theory.name)))
+        try:
+            false = [other for other, premise in theory.premises.items() if not premise(site)]
+        except ERRORS:
+            continue
+        if false == [name]:
+            found.append(site)
+            if len(found) == SHAKEN_SITES:
+                break
+    return found
+
+
+# ---- the interlocking
+
+
+def of_interlocking(name: str) -> Iterator[Try]:
+    """Drop an assumption of the interlocking, in a small world and a larger one."""
+    if name in {**AXIOMS, **PREMISES}:
+        rows = list(dict.fromkeys(row for row, _ in assumptions.proofs_naming(name)))
+        sources, without = UNCHANGED, frozenset({name})
+    elif hasattr(nature, name):
+        sources, without = true_instead(getattr(nature, name)), frozenset[str]()
+        rows = assumptions.asking(name)
+    else:
+        return
+    for size in ("small", "larger"):
+        for row in (row for row in rows if row in INTERLOCKING.steps):
+            try:
+                answer = search_in_a_world(_without(size, without), row, sources, MILLISECONDS[size])
+            except (Unfaithful, *ERRORS, *NOT_LIFTED) as error:
+                yield row, f"error: {error}", ""
+                continue
+            yield row, answer.verdict, answer.found.finding if answer.found is not None else ""
+
+
+def _without(size: str, names: frozenset[str]) -> World:
+    """Give a world of which some axioms and premises are not taken for granted."""
+    whole = world(size)
+    if not names:
+        return whole
+    other = copy.copy(whole)
+    other.without = names
+    other.__dict__["assumed"] = {name: each for name, each in whole.assumed.items() if name not in names}
+    return other

@@ -1,0 +1,120 @@
+"""`heisoku mutate --joints`: a guarantee between machines, or an assumption, is needed, not needed, or open."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from proofs.chain import chain
+from proofs.mutants import assumed, command, guarantees, joints
+from proofs.mutants.guarantees import Use
+from proofs.theories import THEORIES
+
+FEW = "^(joint.(head_passes|unit_changes|cars_move)|braking|tag_window|tag_reader|link)[. ]"
+"""What is quickly tried; the whole is `make joints`."""
+HEADS_BLOCK = Use("joint.unit_changes", "a_head_that_can_leave_obeys_its_authority", "the_heads_block_is_listed")
+
+
+def run(*arguments: str) -> int:
+    app = typer.Typer()
+    app.command()(command.mutate)
+    app.command("idle")(lambda: None)
+    return int(app(["mutate", "--jobs", "1", "--joints", *arguments], standalone_mode=False) or 0)
+
+
+def test_a_sample_is_needed_and_right(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    target = tmp_path / "joints.json"
+    assert run("--only", FEW, "--sample", "12", "--json", str(target)) == 0
+    found = json.loads(target.read_text("utf-8"))
+    assert found["verdict"] == "holds"
+    assert found["commit"]
+    assert len(found["guarantees"]) + len(found["assumptions"]) == 12
+    assert found["guarantees"]
+    assert found["assumptions"]
+    assert found["of"] == {"guarantees": len(guarantees.uses()), "assumptions": len(assumed.names())}
+    for each in (*found["guarantees"], *found["assumptions"]):
+        assert each["became"] == "needed"
+    told = capsys.readouterr().out
+    assert f"{len(found['assumptions'])} of {len(assumed.names())} assumptions" in told
+    assert "needed and right: holds" in told
+
+
+def test_a_use_is_of_an_invariant_that_a_script_names_and_that_is_not_its_own_claim() -> None:
+    found = guarantees.uses()
+    assert {each.row.partition(".")[0] for each in found} == set(guarantees.COMPOSED)
+    for each in found:
+        invariants = THEORIES[each.row.partition(".")[0]].invariants
+        assert each.guarantee in invariants
+        assert each.guarantee not in (each.column, *each.base, *each.others)
+        assert {each.guarantee, *each.base, *each.others} >= set(invariants)
+
+
+def test_a_guarantee_without_which_the_claim_is_proved_is_told_as_unneeded() -> None:
+    found = guarantees.tried(Use("joint.unit_changes", HEADS_BLOCK.column, "every_list_follows_its_way"))
+    assert found.without == "proved"
+    assert not found.open_with
+
+
+def test_another_invariant_that_does_as_well_is_proved_to() -> None:
+    found = guarantees.tried(HEADS_BLOCK)
+    assert found.without == "refuted"
+    assert found.as_well == [HEADS_BLOCK.column]
+    assert guarantees.proved(HEADS_BLOCK, [*HEADS_BLOCK.base, HEADS_BLOCK.column])
+    assert not guarantees.proved(HEADS_BLOCK, HEADS_BLOCK.base)
+
+
+def test_what_is_unknown_refutes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guarantees, "SPENDING", 1)
+    monkeypatch.setattr(guarantees, "proved", lambda *_: False)
+    monkeypatch.setattr(joints, "uses", lambda: {HEADS_BLOCK.name: HEADS_BLOCK})
+    name, told = joints.trial(HEADS_BLOCK.name)
+    assert (name, told["became"], told["without"]) == (HEADS_BLOCK.name, "open", "open")
+    assert set(told["open_with"]) == set(HEADS_BLOCK.others)
+
+
+def test_a_step_that_nobody_confirms_in_cpython_refutes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guarantees.Questions, "replayed", lambda *_: None)
+    monkeypatch.setattr(guarantees, "proved", lambda *_: False)
+    assert guarantees.tried(HEADS_BLOCK).without == "open"
+
+
+def test_an_assumption_is_dropped_in_the_worlds_of_the_parts_as_well() -> None:
+    found = assumed.tried("train.the_train_gains_no_more")
+    assert found.became == "falls"
+    assert "the_front_stays_before_the_end" in found.finding
+
+
+def test_what_falls_beside_the_chain_is_no_fall_of_the_theorem(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert assumed.tried("tag_window.a_tag_is_read_in_the_read_window").became == "falls"
+    monkeypatch.setattr(assumed, "in_the_chain", lambda _: frozenset[str]())
+    assert assumed.tried("tag_window.a_tag_is_read_in_the_read_window").became == "open"
+
+
+def test_what_is_built_into_the_world_cannot_be_dropped_and_is_open() -> None:
+    assert assumed.tried("interlocking.counters_survive").became == "open"
+
+
+def test_every_assumption_that_the_chain_rests_on_is_tried() -> None:
+    assert set(chain().nature) <= set(assumed.names())
+    assert not set(chain().idle) & set(assumed.names())
+
+
+def told(*became: str) -> dict[str, Any]:
+    return {"guarantees": [{"became": each} for each in became], "assumptions": []}
+
+
+@pytest.mark.parametrize(
+    ("became", "code"),
+    [((), 3), (("needed",), 0), (("needed", "open"), 3), (("open", "unneeded"), 1)],
+)
+def test_what_is_not_needed_is_1_and_what_is_open_3(became: tuple[str, ...], code: int) -> None:
+    assert joints.exit_code(told(*became)) == code
+
+
+def test_bad_usage_is_one_line_and_code_2(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--only", "no such joint") == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
