@@ -20,6 +20,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+from kernel.onboard import tag_kind
+
 UID_BITS = 64
 BLOCK_BITS = 8
 DISTANCE_BITS = 28
@@ -75,16 +77,16 @@ class Rejection(Enum):
 class Kind(Enum):
     """What lies at a tag (paper 000, 3.2: gradient, curve, turnout and so on); the codes are ours."""
 
-    PLAIN = 1
-    GRADIENT = 2
-    CURVE = 3
-    GRADIENT_AND_CURVE = 4
-    TURNOUT = 5
-    TURNOUT_ON_GRADIENT = 6
-    SYSTEM_BOUNDARY = 7
-    CROSSING_WARNING_STARTS = 8
-    CROSSING_WARNING_ENDS = 9
-    UNKNOWN = 0
+    PLAIN = tag_kind.PLAIN
+    GRADIENT = tag_kind.GRADIENT
+    CURVE = tag_kind.CURVE
+    GRADIENT_AND_CURVE = tag_kind.GRADIENT_AND_CURVE
+    TURNOUT = tag_kind.TURNOUT
+    TURNOUT_ON_GRADIENT = tag_kind.TURNOUT_ON_GRADIENT
+    SYSTEM_BOUNDARY = tag_kind.SYSTEM_BOUNDARY
+    CROSSING_WARNING_STARTS = tag_kind.CROSSING_WARNING_STARTS
+    CROSSING_WARNING_ENDS = tag_kind.CROSSING_WARNING_ENDS
+    UNKNOWN = tag_kind.UNKNOWN
     """Codes 0 and 10 to 15: unassigned, taken for the worst of everything."""
 
 
@@ -131,8 +133,8 @@ def traits(code: int) -> Traits:
         return WORST
     return Traits(
         on_gradient=kind in (Kind.GRADIENT, Kind.GRADIENT_AND_CURVE, Kind.TURNOUT_ON_GRADIENT),
-        in_curve=kind in (Kind.CURVE, Kind.GRADIENT_AND_CURVE),
-        at_turnout=kind in (Kind.TURNOUT, Kind.TURNOUT_ON_GRADIENT),
+        in_curve=tag_kind.is_curve(code),
+        at_turnout=tag_kind.is_turnout(code),
         warning_starts=kind is Kind.CROSSING_WARNING_STARTS,
         warning_ends=kind is Kind.CROSSING_WARNING_ENDS,
         presets_length=kind is Kind.SYSTEM_BOUNDARY,

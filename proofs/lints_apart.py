@@ -73,8 +73,6 @@ READINGS: Mapping[str, str] = {
     "brake_demand.decide.acknowledged": "a button that the driver presses",
     "speed_limit.run_on.known": "whether the unit's odometry claims a range",
     "speed_limit.pass_tag.known": "whether the unit's odometry claims a range",
-    "speed_limit.pass_tag.told_curve": "stands in the tag",
-    "speed_limit.pass_tag.told_turnout": "stands in the tag",
 }
 """Truths and sets that an event may bring a machine, by row and name: what says them, beside the truth itself."""
 

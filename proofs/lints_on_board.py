@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import importlib
 import inspect
+import pkgutil
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -18,6 +20,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, get_args, get_type_hints
 
+import kernel.onboard
 from proofs.catalogue import INTERLOCKING
 from proofs.lift.sources import definition_of
 from proofs.lints import SEES_THROUGH
@@ -326,3 +329,80 @@ def unregistered(folder: Path) -> list[str]:
         for path in sorted(folder.glob("*.py"))
         if path.stem not in {"__init__", *THEORIES} and "THEORY = " in path.read_text("utf-8")
     ]
+
+
+# ---- one computer decides on board
+
+NO_MACHINES = frozenset({"computer", "way"})
+"""Modules on board that nobody runs the computer's machines by: the computer itself, and ranges of places."""
+
+BESIDE_THE_COMPUTER: Mapping[str, str] = {
+    "models/reproduce": "a paper's figure is of one machine, put to what the paper put to it",
+    "models/rides": "rides still run the machines in an order of their own",
+    "tests/independent/physics/onboard.py": "ends come without orders, and the computer does not measure the length",
+    "tests/independent/physics/planted_faults.py": "a fault is planted in one machine",
+    "tests/independent/world": "a world of blocks has no millimetres: of a cab it knows its brake alone",
+}
+"""Files and folders that run machines on board beside the computer, and why; a lint fails on one that does not."""
+
+HOSTS = ("models/rides", "models/simulation", "models/simulator", "models/concrete", "models/reproduce",
+         "models/sensors", "fuzz", "evidence", "tests/independent", "heisoku.py")  # fmt: skip
+"""Where whoever feeds machines on board may stand."""
+
+
+@cache
+def steps_on_board() -> Mapping[str, frozenset[str]]:
+    """Give, for each machine on board, the functions that take a state of it and give the next one."""
+    names = [found.name for found in pkgutil.iter_modules(kernel.onboard.__path__) if found.name not in NO_MACHINES]
+    found = {name: _steps_of(importlib.import_module(f"kernel.onboard.{name}")) for name in names}
+    return {name: steps for name, steps in found.items() if steps}
+
+
+def _steps_of(machine: ModuleType) -> frozenset[str]:
+    """Give the functions of a machine that a state of it goes into and comes out of."""
+    found = set()
+    for name, function in own(machine).items():
+        hints = get_type_hints(function)
+        given = hints.pop("return")
+        if dataclasses.is_dataclass(given) and given in hints.values():
+            found.add(name)
+    return frozenset(found)
+
+
+def run_beside_the_computer(source: str) -> list[str]:
+    """Find where a host runs a machine on board by itself: by its module, by name, or compiled."""
+    steps = steps_on_board()
+    named, imported = dict[str, str](), set[str]()
+    tree = ast.parse(source)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module is not None:
+            parent, _, machine = node.module.rpartition(".")
+            for each in node.names:
+                if node.module == "kernel.onboard" and each.name in steps:
+                    named[each.asname or each.name] = each.name
+                elif parent == "kernel.onboard" and each.name in steps.get(machine, ()):
+                    imported.add(each.asname or each.name)
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute):
+            of = node.value
+            machine = (
+                of.attr if isinstance(of, ast.Attribute) else named.get(of.id, "") if isinstance(of, ast.Name) else ""
+            )
+            if node.attr in steps.get(machine, ()):
+                found.append(f"line {node.lineno}: {machine}.{node.attr}")
+        elif isinstance(node, ast.Name) and node.id in imported:
+            found.append(f"line {node.lineno}: {node.id}")
+    return found
+
+
+def hosts_beside_the_computer(root: Path) -> dict[str, list[str]]:
+    """Give the files that run machines on board beside the computer, and where."""
+    files = [
+        path for each in HOSTS for path in ([root / each] if each.endswith(".py") else (root / each).rglob("*.py"))
+    ]
+    return {
+        str(path.relative_to(root)): offences
+        for path in sorted(files)
+        if (offences := run_beside_the_computer(path.read_text("utf-8")))
+    }

@@ -19,6 +19,7 @@ from kernel.onboard import (
     braking,
     odometry,
     reverse_movement,
+    speed_limit,
     split,
     tag_fix,
     tag_window,
@@ -183,18 +184,30 @@ def fix(limits: Limits, computer: Computer, place_mm: int) -> Fix:
     return tag_fix.fix_of(limits.tags, computer.before, computer.known.motion, place_mm)
 
 
-def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int) -> Computer:
-    """Take a tag that the head read within the newest cycle: it narrows the range, and the tail's follows (P7, T13).
+def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, kind: int) -> Computer:
+    """Take a tag that the head read within the newest cycle: where it is, and on which track from here (P7, T12, T13).
 
-    ``place_mm``: where the list has it.  One that was read elsewhere, or before the train was located, says nothing:
-    it is another, or the train has run on since by who knows how much.
+    It narrows the range first, and the tail's follows.  ``place_mm``: where the list has it; ``kind``: what it says.
+    One that was read elsewhere, or before the train was located, is as one of no list: it is another, or the train has
+    run on since by who knows how much.
     """
     if not reads_in_window(limits, computer, place_mm):
-        return computer
+        return read_unlisted(computer)
     found = fix(limits, computer, place_mm)
     motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
     fixed = replace(computer, known=replace(computer.known, motion=motion))
-    return replace(fixed, spacing=antenna_spacing.note_head_read(computer.spacing, uid, place_of_read(fixed)))
+    at = place_of_read(fixed)
+    return replace(
+        fixed,
+        known=replace(fixed.known, limit=speed_limit.note_tag(computer.known.limit, kind, at.known, at.most_mm)),
+        spacing=antenna_spacing.note_head_read(computer.spacing, uid, at),
+    )
+
+
+def read_unlisted(computer: Computer) -> Computer:
+    """Take a tag that the head read, and that no list has there: nobody knows what track lies from it on (T5, T12)."""
+    limit = speed_limit.note_unlisted_tag(computer.known.limit)
+    return replace(computer, known=replace(computer.known, limit=limit))
 
 
 def read_by_tail(limits: Limits, computer: Computer, uid: int) -> Computer:

@@ -5,16 +5,18 @@ whole train: it ends when the rear has passed the tag where it ended, and the re
 odometry's range puts it at the least.  One end is remembered for curves and one for turnouts, the last
 of each; an earlier end lies behind it, and is passed before.
 
-That no tag is missed is the second loop's to watch (T5).  What lies ahead of the next tag is not known
-here: a driver slows down before, or the brake does from the tag on (ours).  Nothing is calculated, so
-that every number of 64 bits is answered.
+A tag that is not where a list has it says nothing, and what was known of the track counts no more: nobody
+knows which one it is.  That no tag is missed is the second loop's to watch (T5).  What lies ahead of the
+next tag is not known here: a driver slows down before, or the brake does from the tag on (ours).  Nothing is
+calculated, so that every number of 64 bits is answered.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from kernel.onboard.arithmetic import smaller
+from kernel.onboard.tag_kind import is_curve, is_turnout
 
 
 @dataclass(frozen=True)
@@ -48,21 +50,23 @@ UNKNOWN = SpeedLimit(in_curve=True, at_turnout=True, curve_until_mm=0, turnout_u
 """Before the first tag everything restricts (T8, T12); where it ends is set by that tag."""
 
 
-def note_tag(limit: SpeedLimit, in_curve: bool, at_turnout: bool, known: bool, front_most_mm: int) -> SpeedLimit:
-    """Take a tag that the head reads: what it was on ends here, and what the kind says begins (T12).
+def note_tag(limit: SpeedLimit, kind: int, known: bool, read_most_mm: int) -> SpeedLimit:
+    """Take a tag that the head has read: what it was on ends here, and what the kind says begins (T1, T12).
 
-    ``in_curve``, ``at_turnout``: by :func:`kernel.tags.traits`, both for a kind that is unknown or not read.
-    ``known``: a range is claimed; without one it is not known where anything ends (T8).
-    ``front_most_mm``: the front is no farther than this, so the tag is not either (P7).
+    ``known``: a range is claimed; without one it is not known where anything ends, nor where it begins (T8).
+    ``read_most_mm``: the front was no farther than this when it was read (P7).
     """
-    if not known:
-        return UNKNOWN
     return SpeedLimit(
-        in_curve=in_curve,
-        at_turnout=at_turnout,
-        curve_until_mm=front_most_mm if limit.in_curve else limit.curve_until_mm,
-        turnout_until_mm=front_most_mm if limit.at_turnout else limit.turnout_until_mm,
+        in_curve=not known or is_curve(kind),
+        at_turnout=not known or is_turnout(kind),
+        curve_until_mm=read_most_mm if known and limit.in_curve else limit.curve_until_mm,
+        turnout_until_mm=read_most_mm if known and limit.at_turnout else limit.turnout_until_mm,
     )
+
+
+def note_unlisted_tag(limit: SpeedLimit) -> SpeedLimit:
+    """Take a tag that is none of a list's there: from it on anything may lie, until the next one (T5, T12)."""
+    return replace(limit, in_curve=True, at_turnout=True)
 
 
 def permitted_mm_s(table: SpeedTable, in_curve: bool, at_turnout: bool) -> int:

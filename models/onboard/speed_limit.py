@@ -1,7 +1,8 @@
 """A train of some length on a line with curves and turnouts, and what its unit knows of them (T12).
 
 Where the head last left a curve, and a turnout, is all the history there is: what it left before
-lies behind that, so the rear has passed it no later.
+lies behind that, so the rear has passed it no later.  A head that has rolled back to a tag, or beyond it, is on
+the track of that one, and has left nothing farther on.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from kernel.onboard import speed_limit
 from kernel.onboard.speed_limit import SpeedLimit, SpeedTable
+from models.onboard.units import NM_A_MM, UM_A_MM, smaller
 
 
 @dataclass(frozen=True)
@@ -24,18 +26,18 @@ class Profile:
 class Passage:
     """One moment of a train on that line.
 
-    ``front_mm``, ``speed_mm_s``: where its front is, and how fast.
-    ``in_curve``, ``at_turnout``: what the track at its front is.
-    ``left_curve_mm``, ``left_turnout_mm``: history: where the front last left a curve, a turnout.
+    ``front_nm``, ``speed_um_s``: where its front is, and how fast.
+    ``in_curve``, ``at_turnout``: what the track from its last tag on is.
+    ``left_curve_nm``, ``left_turnout_nm``: history: where the front last left a curve, a turnout, of those behind it.
     ``limit``: what the unit knows; ``brakes``: whether it demands the emergency brake.
     """
 
-    front_mm: int
-    speed_mm_s: int
+    front_nm: int
+    speed_um_s: int
     in_curve: bool
     at_turnout: bool
-    left_curve_mm: int
-    left_turnout_mm: int
+    left_curve_nm: int
+    left_turnout_nm: int
     limit: SpeedLimit
     brakes: bool
 
@@ -43,15 +45,10 @@ class Passage:
 # ---- assumptions
 
 
-def the_train_runs_forward(system: Passage, to_mm: int) -> bool:
-    """The front does not go back; by how much it may before the train brakes, `reverse_movement` says (T5)."""
-    return system.front_mm <= to_mm
-
-
 def the_range_contains_the_train(
     site: Profile,
-    front_mm: int,
-    speed_mm_s: int,
+    front_nm: int,
+    speed_um_s: int,
     known: bool,
     rear_least_mm: int,
     front_most_mm: int,
@@ -59,13 +56,21 @@ def the_range_contains_the_train(
 ) -> bool:
     """The odometry's theorems, `range_contains_train` and `speed_range…`, while it claims a range (P1, P7)."""
     return not known or (
-        rear_least_mm <= front_mm - site.length_mm and front_mm <= front_most_mm and speed_mm_s <= speed_most_mm_s
+        NM_A_MM * (rear_least_mm + site.length_mm) <= front_nm
+        and front_nm <= NM_A_MM * front_most_mm
+        and speed_um_s <= UM_A_MM * speed_most_mm_s
     )
 
 
-def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, told_curve: bool, told_turnout: bool) -> bool:
-    """Whoever writes a tag writes what lies there; what cannot be read is told as the worst case (T1, T12)."""
-    return (told_curve or not in_curve) and (told_turnout or not at_turnout)
+def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> bool:
+    """Whoever writes a tag writes what lies there: a curve as 3 or 4, a turnout as 5 or 6, both as none (T1, T12).
+
+    The codes that are assigned are 1 to 9 (T1, ours).
+    """
+    is_assigned = 1 <= kind <= 9
+    return (kind == 3 or kind == 4 or not is_assigned or not in_curve) and (
+        kind == 5 or kind == 6 or not is_assigned or not at_turnout
+    )
 
 
 # ---- transitions
@@ -74,22 +79,20 @@ def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, told_curve: bo
 def run_on(
     site: Profile,
     system: Passage,
-    to_mm: int,
-    speed_mm_s: int,
+    to_nm: int,
+    speed_um_s: int,
     known: bool,
     rear_least_mm: int,
     front_most_mm: int,
     speed_most_mm_s: int,
 ) -> Passage:
     """The train runs on within the stretch of its last tag, at any speed; the unit looks at its own (T12)."""
-    if not the_train_runs_forward(system, to_mm):
-        return system
-    if not the_range_contains_the_train(site, to_mm, speed_mm_s, known, rear_least_mm, front_most_mm, speed_most_mm_s):
+    if not the_range_contains_the_train(site, to_nm, speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s):
         return system
     return replace(
         system,
-        front_mm=to_mm,
-        speed_mm_s=speed_mm_s,
+        front_nm=to_nm,
+        speed_um_s=speed_um_s,
         brakes=speed_limit.is_overspeed(site.table, system.limit, known, rear_least_mm, speed_most_mm_s),
     )
 
@@ -99,28 +102,25 @@ def pass_tag(
     system: Passage,
     in_curve: bool,
     at_turnout: bool,
-    told_curve: bool,
-    told_turnout: bool,
+    kind: int,
     known: bool,
     rear_least_mm: int,
     front_most_mm: int,
     speed_most_mm_s: int,
 ) -> Passage:
     """The front passes a tag, and the track becomes another; a tag that is missed opens the second loop (T5, T12)."""
-    if not a_kind_hides_no_restriction(in_curve, at_turnout, told_curve, told_turnout):
-        return system
-    here_mm = system.front_mm
-    if not the_range_contains_the_train(
-        site, here_mm, system.speed_mm_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
+    here_nm = system.front_nm
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind) or not the_range_contains_the_train(
+        site, here_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
     ):
         return system
-    limit = speed_limit.note_tag(system.limit, told_curve, told_turnout, known, front_most_mm)
+    limit = speed_limit.note_tag(system.limit, kind, known, front_most_mm)
     return replace(
         system,
         in_curve=in_curve,
         at_turnout=at_turnout,
-        left_curve_mm=here_mm if system.in_curve else system.left_curve_mm,
-        left_turnout_mm=here_mm if system.at_turnout else system.left_turnout_mm,
+        left_curve_nm=here_nm if system.in_curve else smaller(system.left_curve_nm, here_nm),
+        left_turnout_nm=here_nm if system.at_turnout else smaller(system.left_turnout_nm, here_nm),
         limit=limit,
         brakes=speed_limit.is_overspeed(site.table, limit, known, rear_least_mm, speed_most_mm_s),
     )

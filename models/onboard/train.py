@@ -9,16 +9,19 @@ from dataclasses import replace
 
 from kernel.onboard import brake_demand, computer
 from kernel.onboard import braking as brake_control
-from kernel.onboard.odometry import Readings, is_located
+from kernel.onboard.computer import Computer
+from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
-from models.onboard import antenna_spacing, brake_watch, braking, odometry, tag_window
+from models.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit, tag_window
 from models.onboard.antenna_spacing import Trailing
+from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
     Train,
     Whole,
     a_brake_that_has_responded_keeps_its_bound,
     a_cycle_begins_when_the_one_before_was_sensed,
     a_cycle_is_sensed_once,
+    a_kind_hides_no_restriction,
     a_rolling_wheel_measures,
     a_tachometer_sticks_at_a_speed,
     a_tag_is_read_in_the_read_window,
@@ -29,6 +32,8 @@ from models.onboard.train_nature import (
     braked,
     leaving_the_creep_takes_a_jolt,
     line,
+    passage,
+    profile,
     running,
     stretch,
     tail_comes_over,
@@ -47,6 +52,9 @@ from models.onboard.train_nature import (
     who_finds_the_train_whole_finds_its_antennas_as_preset,
 )
 from models.onboard.units import NM_A_MM
+
+UNASSIGNED = 0
+"""The kind of a tag whose record is not looked at."""
 
 
 def run_a_cycle(
@@ -90,6 +98,16 @@ def run_a_cycle(
         ),
         watched=system.watched if decided.brake.applied else brake_watch.release(watched_over(site), watched(system)),
         trailing=antenna_spacing.run(track(site), system.trailing, system.front_nm),
+        passing=speed_limit.run_on(
+            profile(site),
+            passage(system, system.front_nm),
+            system.front_nm,
+            system.speed_um_s,
+            is_located(at),
+            rear_least_mm(at, site.limits.train.length_mm),
+            at.front_most_mm,
+            at.speed_most_mm_s,
+        ),
         computer=decided,
     )
 
@@ -143,8 +161,20 @@ def sense_the_cycle(
     )
 
 
-def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: int) -> Whole:
-    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, T5, P7)."""
+def read_a_tag(
+    site: Train,
+    system: Whole,
+    uid: int,
+    place_mm: int,
+    kind: int,
+    read_at_nm: int,
+    in_curve: bool,
+    at_turnout: bool,
+) -> Whole:
+    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, T5, P7, T12).
+
+    From it on lies a curve, a turnout, both or neither.
+    """
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
@@ -152,6 +182,8 @@ def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: 
     if not a_tag_is_read_in_the_read_window(site, uid, read_at_nm):
         return system
     if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
         return system
     if place_mm == system.awaited_mm:
         expecting = tag_window.read_a_tag(
@@ -163,17 +195,49 @@ def read_a_tag(site: Train, system: Whole, uid: int, place_mm: int, read_at_nm: 
         )
     else:
         expecting = system.expecting
-    told = computer.read_by_head(site.limits, system.computer, uid, place_mm)
-    if told == system.computer:
-        return replace(system, expecting=expecting)
+    told = computer.read_by_head(site.limits, system.computer, uid, place_mm, kind)
+    counts = computer.reads_in_window(site.limits, system.computer, place_mm)
+    passing = _past_a_tag(site, passage(system, read_at_nm), told, counts, kind, in_curve, at_turnout)
+    seen = replace(system, expecting=expecting, passing=passing, computer=told)
+    if not counts:
+        return seen
     fix = computer.fix(site.limits, system.computer, place_mm)
     there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
     return replace(
-        system,
+        seen,
         running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
-        expecting=expecting,
         trailing=antenna_spacing.head_reads(track(site), there, uid, computer.place_of_read(told)),
-        computer=told,
+    )
+
+
+def _past_a_tag(
+    site: Train, there: Passage, told: Computer, counts: bool, kind: int, in_curve: bool, at_turnout: bool
+) -> Passage:
+    """The front was at a tag, with other track from it on; the computer knows where that was, if the read counts."""
+    at = computer.place_of_read(told)
+    return speed_limit.pass_tag(
+        profile(site),
+        there,
+        in_curve,
+        at_turnout,
+        kind,
+        at.known and counts,
+        at.least_mm - site.limits.train.length_mm,
+        at.most_mm,
+        told.known.motion.speed_most_mm_s,
+    )
+
+
+def read_unlisted(site: Train, system: Whole, read_at_nm: int, in_curve: bool, at_turnout: bool) -> Whole:
+    """In the newest cycle the head's antenna has read a tag of no list, whatever it says (T5, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    return replace(
+        system,
+        passing=speed_limit.pass_tag(
+            profile(site), passage(system, read_at_nm), in_curve, at_turnout, UNASSIGNED, False, 0, 0, 0
+        ),
+        computer=computer.read_unlisted(system.computer),
     )
 
 
@@ -295,6 +359,7 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
         asked=system.computer.brake,
         held=True,
         expecting=tag_window.expect_none(stretch(site), system.expecting),
+        passing=speed_limit.locate_anew(profile(site), passage(system, system.front_nm)),
     )
 
 

@@ -1,4 +1,4 @@
-"""One train as each world sees it, and what is assumed of nature: of odometry, brake, brake watch and tags (P7, T12).
+"""One train as each world sees it, and what is assumed of nature: of odometry, brake, brake watch, tags and track (P7).
 
 The worlds of odometry, brake control and brake watch see this train each in its own way; here there is one
 front, one speed and one computer.  What they assume of each other's machines is not assumed here.
@@ -12,11 +12,12 @@ from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
-from models.onboard import antenna_spacing, brake_watch, braking, odometry, tag_fix, tag_window
+from models.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit, tag_fix, tag_window
 from models.onboard.antenna_spacing import Track, Trailing
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
 from models.onboard.odometry import Line, Running
+from models.onboard.speed_limit import Passage, Profile
 from models.onboard.tag_fix import Antenna
 from models.onboard.tag_window import Expecting, Stretch
 from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM
@@ -48,8 +49,8 @@ class Whole:
 
     ``front_nm``, ``speed_um_s``: where the front is, and how fast; ``from_nm``, ``from_um_s``: when the cycle began.
     ``runs``: the train has run for a cycle that its computer has yet to sense.
-    ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``: the train as odometry, brake control, brake
-    watch, the window for the next tag and the antennas' spacing are proved with it.
+    ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``, ``passing``: the train as odometry, brake
+    control, brake watch, the window for the next tag, the antennas' spacing and the speed limit are proved with it.
     ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
     ``astern``: history: in the newest cycle the tail of a whole train, which ran at no more than twice the speed of its
     line, came over the tag that was awaited then, and which was not overdue.
@@ -67,6 +68,7 @@ class Whole:
     watched: Watched
     expecting: Expecting
     trailing: Trailing
+    passing: Passage
     awaited_mm: int
     astern: bool
     asked: Brake
@@ -119,6 +121,11 @@ def track(site: Train) -> Track:
     )
 
 
+def profile(site: Train) -> Profile:
+    """Give the site of the world of the speed limit."""
+    return Profile(table=site.limits.train.speeds, length_mm=site.length_mm)
+
+
 def running(system: Whole) -> Running:
     """Give the train as the odometry's world saw it before the newest cycle, or sees it after (P7)."""
     return replace(before(system), motion=system.computer.known.motion)
@@ -150,6 +157,11 @@ def watched(system: Whole) -> Watched:
         speed_um_s=system.from_um_s if system.runs else system.speed_um_s,
         watch=system.computer.known.watch,
     )
+
+
+def passage(system: Whole, front_nm: int) -> Passage:
+    """Give it as the world of the speed limit sees it with its front there (T12)."""
+    return replace(system.passing, front_nm=front_nm, speed_um_s=system.speed_um_s, limit=system.computer.known.limit)
 
 
 def way_nm(system: Whole, front_nm: int) -> int:
@@ -298,6 +310,11 @@ def a_tag_lies_where_it_is_listed(site: Train, place_mm: int, uid: int) -> bool:
 def a_tag_is_read_in_the_read_window(site: Train, uid: int, read_at_nm: int) -> bool:
     """An antenna reads a tag while it is no farther from it than its read window reaches (T2, T16)."""
     return tag_fix.a_tag_is_read_in_the_read_window(antenna(site), NM_A_MM * uid, read_at_nm)
+
+
+def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> bool:
+    """Whoever writes a tag writes what lies from it on: a curve, a turnout, or that either may (T1, T12)."""
+    return speed_limit.a_kind_hides_no_restriction(in_curve, at_turnout, kind)
 
 
 def the_tails_antenna_reads_in_its_window(site: Train, system: Whole, uid: int, read_at_nm: int) -> bool:

@@ -93,12 +93,14 @@ class OnBoard:
 
     # ---- tags
 
-    def head_reads(self, number: int, place_mm: int | None) -> bool:
-        """The head reads a tag: is it where the list has it, if it is listed at all (T5, P7, T13)."""
-        if place_mm is None or not computing.reads_in_window(self.limits, self.computer, place_mm):
+    def head_reads(self, number: int, place_mm: int | None, kind: int) -> bool:
+        """The head reads a tag: is it where the list has it, if it is listed at all (T5, P7, T12, T13)."""
+        if place_mm is None:
+            self.computer = computing.read_unlisted(self.computer)
             return False
-        self.computer = computing.read_by_head(self.limits, self.computer, number, place_mm)
-        return self.place.known
+        in_window = computing.reads_in_window(self.limits, self.computer, place_mm)
+        self.computer = computing.read_by_head(self.limits, self.computer, number, place_mm, kind)
+        return in_window and self.place.known
 
     def tail_reads(self, number: int, answers: bool) -> ThroughLine:
         """The tail reads a tag: what says whether it is the train's last antenna (T13, P5)."""

@@ -15,6 +15,7 @@ from models.concrete.drive import Drive
 from models.concrete.rails import Rails
 from models.concrete.train import Happening, OnRails
 from models.layouts.measures import TAG_MM, WINDOW_MM
+from models.layouts.numbers import fields_of
 from models.rides.plan import PLAN
 from models.simulation.cycles import Given, Moving, Ran
 from models.simulation.driver import is_barred, shown_mm_s
@@ -198,6 +199,7 @@ class Line(Drive):
         self.chosen = chosen
         self.now_ms = 0
         self.numbers = {tag: number for number, tag in enumerate(sorted(play.site.layout.tag_in), start=1)}
+        self.kinds = {tag: fields_of(record)[0] for tag, record in play.site.records.record.items()}
         super().__init__(play, rails, [each.on_rails for each in vehicles.values()], random)
 
     def compare(self) -> None:
@@ -236,7 +238,7 @@ class Line(Drive):
         self._head_reads(vehicle, what, what.tag, next(places, None))
 
     def _head_reads(self, vehicle: Vehicle, what: Happening, tag: Tag, place_mm: int | None) -> None:
-        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm)
+        in_window = vehicle.board.head_reads(self.numbers.get(tag, 0), place_mm, self.kinds.get(tag, 0))
         self.head_reads(vehicle.on_rails, what, tag, in_window)
         vehicle.demanded(self.play)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.onboard import speed_limit
 from models.onboard.speed_limit import Passage, Profile, locate_anew, pass_tag, run_on
+from models.onboard.units import NM_A_MM, UM_A_MM
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -11,12 +12,7 @@ from proofs.theory import Theory, by_name
 
 def nothing_is_known_of_the_track(site: Profile, system: Passage) -> bool:
     """At the start no tag has been read, whatever the train stands on, and the brake is on (T8)."""
-    return (
-        system.limit == speed_limit.UNKNOWN
-        and system.brakes
-        and system.left_curve_mm <= system.front_mm
-        and system.left_turnout_mm <= system.front_mm
-    )
+    return system.limit == speed_limit.UNKNOWN and system.brakes
 
 
 # ---- safety
@@ -24,13 +20,18 @@ def nothing_is_known_of_the_track(site: Profile, system: Passage) -> bool:
 
 def a_train_too_fast_for_any_of_its_track_brakes(site: Profile, system: Passage) -> bool:
     """Faster than line, curve or turnout allows, with any part of the train in it: the brake is demanded (T12)."""
-    rear_mm = system.front_mm - site.length_mm
-    return system.brakes or (
-        system.speed_mm_s <= site.table.line_mm_s
-        and (system.speed_mm_s <= site.table.curve_mm_s or not (system.in_curve or rear_mm <= system.left_curve_mm))
-        and (
-            system.speed_mm_s <= site.table.turnout_mm_s or not (system.at_turnout or rear_mm <= system.left_turnout_mm)
-        )
+    return system.brakes or keeps_to_its_track(site, system)
+
+
+def keeps_to_its_track(site: Profile, system: Passage) -> bool:
+    """Tell whether the train is no faster than line, curve and turnout allow, with any part of it in them."""
+    rear_nm = system.front_nm - NM_A_MM * site.length_mm
+    in_curve = system.in_curve or rear_nm <= system.left_curve_nm
+    at_turnout = system.at_turnout or rear_nm <= system.left_turnout_nm
+    return (
+        system.speed_um_s <= UM_A_MM * site.table.line_mm_s
+        and (system.speed_um_s <= UM_A_MM * site.table.curve_mm_s or not in_curve)
+        and (system.speed_um_s <= UM_A_MM * site.table.turnout_mm_s or not at_turnout)
     )
 
 
@@ -39,8 +40,8 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Profile, system: Passage)
 
 def no_restriction_ends_before_the_rear_has_passed(site: Profile, system: Passage) -> bool:
     """Where a curve or a turnout was left is remembered, no nearer than it was, while it does not go on (T12)."""
-    return (system.limit.in_curve or system.left_curve_mm <= system.limit.curve_until_mm) and (
-        system.limit.at_turnout or system.left_turnout_mm <= system.limit.turnout_until_mm
+    return (system.limit.in_curve or system.left_curve_nm <= NM_A_MM * system.limit.curve_until_mm) and (
+        system.limit.at_turnout or system.left_turnout_nm <= NM_A_MM * system.limit.turnout_until_mm
     )
 
 
@@ -49,18 +50,12 @@ def what_the_head_is_on_is_known(site: Profile, system: Passage) -> bool:
     return (system.limit.in_curve or not system.in_curve) and (system.limit.at_turnout or not system.at_turnout)
 
 
-def what_was_left_lies_behind(site: Profile, system: Passage) -> bool:
-    """The front is past all that it has left (T12)."""
-    return system.left_curve_mm <= system.front_mm and system.left_turnout_mm <= system.front_mm
-
-
 INITIAL = (nothing_is_known_of_the_track,)
 SAFETY = (a_train_too_fast_for_any_of_its_track_brakes,)
 INVARIANTS = (
     *SAFETY,
     no_restriction_ends_before_the_rear_has_passed,
     what_the_head_is_on_is_known,
-    what_was_left_lies_behind,
 )
 STEPS = (run_on, pass_tag, locate_anew)
 

@@ -1,10 +1,12 @@
 """What is claimed of a train from its sensors to its brake: it stops before its end, and knows where it is (P7, T12).
 
-Each claim of odometry, brake control, brake watch, the window for the next tag and the antennas' spacing is claimed
-again of the one train that all of them see.
+Each claim of odometry, brake control, brake watch, the window for the next tag, the antennas' spacing and the speed
+limit is claimed again of the one train that all of them see.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
@@ -25,6 +27,7 @@ from models.onboard.train import (
     put_into_service,
     read_a_tag,
     read_by_the_tail,
+    read_unlisted,
     run_a_cycle,
     sense_the_cycle,
     take_end,
@@ -36,6 +39,7 @@ from models.onboard.train_nature import (
     before,
     braked,
     line,
+    profile,
     stretch,
     tail_comes_over,
     the_antennas_lie_farther_apart_than_the_window_is_long,
@@ -49,7 +53,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
 from models.world.assumptions import a_missed_tag_is_overdue_before_the_tail_comes as overdue_before_the_tail
-from proofs.onboard import antenna_spacing, braking, odometry, tag_window
+from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window
 from proofs.onboard.train_parts import (
     a_train_that_keeps_is_no_faster_than_the_limit,
     a_trusted_wheel_has_not_slipped,
@@ -60,6 +64,7 @@ from proofs.onboard.train_parts import (
     anchor_contained_front,
     it_gets_no_farther_before_the_response,
     it_gets_no_faster_before_the_response,
+    no_restriction_ends_before_the_rear_has_passed,
     range_contains_front,
     speed_range_contains_speed,
     the_gradient_estimate_is_no_steeper_than_the_line,
@@ -73,6 +78,7 @@ from proofs.onboard.train_parts import (
     what_is_caught_is_broken,
     what_is_not_preset_is_broken,
     what_is_remembered_was_read,
+    what_the_head_is_on_is_known,
 )
 from proofs.theory import Theory, by_name
 
@@ -102,6 +108,8 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and not system.astern
         and system.computer.brake == system.asked
         and system.held
+        and speed_limit.nothing_is_known_of_the_track(profile(site), system.passing)
+        and system.computer.known.limit == system.passing.limit
     )
 
 
@@ -246,6 +254,12 @@ def a_tail_that_counts_is_the_trains_last(site: Train, system: Whole) -> bool:
     )
 
 
+def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> bool:
+    """In a cycle that began faster than line, curve or turnout allows any part of the train the brake is on (T12)."""
+    seen = replace(system.passing, front_nm=system.from_nm, speed_um_s=system.from_um_s)
+    return not system.runs or system.computer.brake.applied or speed_limit.keeps_to_its_track(profile(site), seen)
+
+
 def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
     """What is told of a train at rest is so, and if it is told to be held its brake holds it (P7, T9, T12)."""
     at, slow_um_s = computer.standstill(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
@@ -323,6 +337,8 @@ def there_is_one_train(site: Train, system: Whole) -> bool:
             or system.expecting.way_nm == way_nm(system, system.from_nm)
         )
         and (not system.runs or system.trailing.front_nm == system.from_nm)
+        and (not system.runs or system.passing.front_nm == system.from_nm)
+        and (not system.runs or system.passing.speed_um_s == system.from_um_s)
     )
 
 
@@ -349,6 +365,11 @@ def the_computer_has_the_proved_window(site: Train, system: Whole) -> bool:
 def the_computer_has_the_proved_spacing(site: Train, system: Whole) -> bool:
     """What it knows of its antennas is what the proof of their spacing does."""
     return system.computer.spacing == system.trailing.spacing
+
+
+def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
+    """What it knows of its track is what the proof of the speed limit does."""
+    return system.computer.known.limit == system.passing.limit
 
 
 def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
@@ -401,6 +422,7 @@ SAFETY = (
     healthy_only_after_a_preset,
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
+    a_train_too_fast_for_any_of_its_track_brakes,
     a_standstill_that_is_told_is_one,
     the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
@@ -409,6 +431,7 @@ SAFETY = (
     the_computer_has_the_proved_watch,
     the_computer_has_the_proved_window,
     the_computer_has_the_proved_spacing,
+    the_computer_has_the_proved_limit,
 )
 INVARIANTS = (
     *SAFETY,
@@ -441,6 +464,8 @@ INVARIANTS = (
     what_is_remembered_was_read,
     the_tails_newest_read_is_noted,
     the_heads_last_eight_are_remembered,
+    no_restriction_ends_before_the_rear_has_passed,
+    what_the_head_is_on_is_known,
 )
 PREMISES = (
     the_odometrys_bounds_fit,
@@ -454,6 +479,7 @@ STEPS = (
     run_a_cycle,
     sense_the_cycle,
     read_a_tag,
+    read_unlisted,
     read_by_the_tail,
     come_apart,
     take_end,
@@ -475,5 +501,5 @@ THEORY = Theory(
     by_name(INVARIANTS),
     by_name(SAFETY),
     by_name(PREMISES),
-    parts=("odometry", "braking", "brake_watch", "tag_fix", "tag_window", "antenna_spacing"),
+    parts=("odometry", "braking", "brake_watch", "tag_fix", "tag_window", "antenna_spacing", "speed_limit"),
 )

@@ -1,9 +1,21 @@
-"""What odometry, brake control, brake watch and antennas rest on, claimed of the one train that all of them see."""
+"""What odometry, brake control and watch, antennas and speed limit rest on, of the one train that all of them see."""
 
 from __future__ import annotations
 
-from models.onboard.train_nature import Train, Whole, approach, braked, line, running, track, watched, watched_over
-from proofs.onboard import antenna_spacing, brake_watch, braking, odometry
+from models.onboard.train_nature import (
+    Train,
+    Whole,
+    approach,
+    braked,
+    line,
+    passage,
+    profile,
+    running,
+    track,
+    watched,
+    watched_over,
+)
+from proofs.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit
 
 
 def range_contains_front(site: Train, system: Whole) -> bool:
@@ -114,3 +126,13 @@ def the_tails_newest_read_is_noted(site: Train, system: Whole) -> bool:
 def the_heads_last_eight_are_remembered(site: Train, system: Whole) -> bool:
     """The one tag, if it is among the head's last eight, is remembered as it was read last (T13)."""
     return antenna_spacing.the_heads_last_eight_are_remembered(track(site), system.trailing)
+
+
+def no_restriction_ends_before_the_rear_has_passed(site: Train, system: Whole) -> bool:
+    """Where a curve or a turnout was left is remembered, no nearer than it was, while it does not go on (T12)."""
+    return speed_limit.no_restriction_ends_before_the_rear_has_passed(profile(site), passage(system, system.front_nm))
+
+
+def what_the_head_is_on_is_known(site: Train, system: Whole) -> bool:
+    """In a curve, or on a turnout, the limit says so (T12)."""
+    return speed_limit.what_the_head_is_on_is_known(profile(site), passage(system, system.front_nm))

@@ -11,6 +11,7 @@ from kernel.onboard.speed_limit import (
     note_tag,
     permitted_mm_s,
 )
+from kernel.onboard.tag_kind import PLAIN
 
 
 def no_restriction_is_exceeded(line: int, curve: int, turnout: int, in_curve: bool, at_turnout: bool) -> None:
@@ -34,7 +35,7 @@ def a_restriction_ends_with_the_rear(until_mm: int, front_mm: int, rear_mm: int)
     """Of a turnout just left, and of a curve left before (T12)."""
     assert until_mm <= front_mm
     before = SpeedLimit(in_curve=False, at_turnout=True, curve_until_mm=until_mm, turnout_until_mm=0)
-    after = note_tag(before, False, False, True, front_mm)
+    after = note_tag(before, PLAIN, True, front_mm)
     limit = limit_mm_s(SpeedTable(30, 20, 10), after, rear_mm)
     assert (limit == 10) == (rear_mm <= front_mm)
     assert (limit == 30) == (rear_mm > front_mm)
@@ -52,4 +53,5 @@ def without_a_range_any_speed_is_too_fast(speed_mm_s: int, rear_mm: int, front_m
     assert isinstance(speed_mm_s, int)
     clear = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=0, turnout_until_mm=0)
     assert is_overspeed(SpeedTable(30, 20, 10), clear, False, rear_mm, speed_mm_s)
-    assert note_tag(clear, False, False, False, front_mm) == UNKNOWN
+    unknown = note_tag(clear, PLAIN, False, front_mm)
+    assert unknown == SpeedLimit(in_curve=True, at_turnout=True, curve_until_mm=0, turnout_until_mm=0)

@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 from kernel.onboard import speed_limit as machine
 from kernel.onboard.speed_limit import UNKNOWN, SpeedLimit, SpeedTable
-from kernel.tags import Kind, Traits, traits
+from kernel.onboard.tag_kind import is_curve, is_turnout
+from kernel.tags import Kind, traits
+from models.onboard.units import NM_A_MM
 from proofs.onboard.witnesses.sixty_four_bits import GREATEST, LEAST, Wrapped, with_ints
 from proofs.onboard.witnesses.speed_limit import (
     TABLE,
@@ -21,7 +23,7 @@ from proofs.onboard.witnesses.speed_limit import (
 
 NUMBERS = st.integers(-50_000, 50_000) | st.sampled_from((0, -1, GREATEST, LEAST))
 LIMITS = st.builds(SpeedLimit, st.booleans(), st.booleans(), NUMBERS, NUMBERS)
-KINDS = tuple(traits(kind.value) for kind in Kind)
+KINDS = tuple(Kind)
 
 
 @pytest.mark.parametrize("witness", WITNESSES)
@@ -58,16 +60,17 @@ def test_each_kind_has_its_speed() -> None:
     st.lists(st.integers(0, 40_000), min_size=4, max_size=4),
 )
 def test_the_whole_train_counts_in_drawn_worlds(
-    line: list[tuple[int, Traits, bool]], off_mm: int, speeds: list[int]
+    line: list[tuple[int, Kind, bool]], off_mm: int, speeds: list[int]
 ) -> None:
     """Against every stretch of the line that the train is on: never faster unbraked, and no limit for nothing."""
     train = Train()
     train.runs(1_000_000, 0)
     stretches: list[tuple[int, int, int]] = [(0, 0, TABLE.turnout_mm_s)]
     for way_mm, kind, worst in line:
-        begins_mm = train.system.front_mm
-        train.tag(curve=kind.in_curve, turnout=kind.at_turnout, told=(True, True) if worst else None, off_mm=off_mm)
-        told = machine.permitted_mm_s(TABLE, kind.in_curve or worst, kind.at_turnout or worst)
+        begins_mm, lies = train.system.front_nm // NM_A_MM, traits(kind.value)
+        written = Kind.UNKNOWN if worst else kind
+        train.tag(curve=lies.in_curve, turnout=lies.at_turnout, kind=written.value, off_mm=off_mm)
+        told = machine.permitted_mm_s(TABLE, traits(written.value).in_curve, traits(written.value).at_turnout)
         stretches.append((begins_mm, begins_mm + way_mm, told))
         stretches[-2] = (stretches[-2][0], begins_mm, stretches[-2][2])
         for part, speed_mm_s in enumerate(speeds, 1):
@@ -80,12 +83,12 @@ def test_the_whole_train_counts_in_drawn_worlds(
             assert not brakes or speed_mm_s + off_mm > min(near)
 
 
-@given(st.builds(SpeedTable, NUMBERS, NUMBERS, NUMBERS), LIMITS, NUMBERS, NUMBERS, NUMBERS)
+@given(st.builds(SpeedTable, NUMBERS, NUMBERS, NUMBERS), LIMITS, st.integers(-1, 16), NUMBERS, NUMBERS, NUMBERS)
 def test_any_numbers_whatever_are_answered_alike_in_64_bits(
-    table: SpeedTable, limit: SpeedLimit, front_mm: int, rear_mm: int, speed_mm_s: int
+    table: SpeedTable, limit: SpeedLimit, kind: int, front_mm: int, rear_mm: int, speed_mm_s: int
 ) -> None:
-    after = machine.note_tag(limit, False, True, True, front_mm)
-    wrapped = machine.note_tag(with_ints(Wrapped, limit), False, True, True, Wrapped(front_mm))
+    after = machine.note_tag(limit, kind, True, front_mm)
+    wrapped = machine.note_tag(with_ints(Wrapped, limit), Wrapped(kind), True, Wrapped(front_mm))
     assert wrapped == after
     assert machine.is_overspeed(table, wrapped, True, rear_mm, speed_mm_s) == machine.is_overspeed(
         table, after, True, rear_mm, speed_mm_s
@@ -102,8 +105,8 @@ def test_a_rear_further_on_is_never_slower(limit: SpeedLimit, rear_mm: int, on_m
 def test_a_broken_machine_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     """The invariants do find a machine that lets a restriction end with the head."""
 
-    def forgets(limit: SpeedLimit, in_curve: bool, at_turnout: bool, known: bool, front_most_mm: int) -> SpeedLimit:
-        return SpeedLimit(in_curve, at_turnout, limit.curve_until_mm, limit.turnout_until_mm)
+    def forgets(limit: SpeedLimit, kind: int, known: bool, read_most_mm: int) -> SpeedLimit:
+        return SpeedLimit(is_curve(kind), is_turnout(kind), limit.curve_until_mm, limit.turnout_until_mm)
 
     monkeypatch.setattr(machine, "note_tag", forgets)
     with pytest.raises(AssertionError, match="does not hold"):

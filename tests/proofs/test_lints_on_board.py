@@ -10,12 +10,17 @@ import pytest
 
 from proofs import lints, usage
 from proofs.lints_on_board import (
+    BESIDE_THE_COMPUTER,
+    NO_MACHINES,
     NOTED,
     OTHERS,
     TOLD,
     Open,
+    hosts_beside_the_computer,
     machine_fields,
     open_to,
+    run_beside_the_computer,
+    steps_on_board,
     told_the_truth,
     unlisted,
     unregistered,
@@ -153,3 +158,43 @@ def test_every_theory_is_registered(tmp_path: Path) -> None:
     (tmp_path / "forgotten.py").write_text("THEORY = Theory()")
     assert unregistered(tmp_path) == ["forgotten.py: no theory of this name is registered"]
     assert all(name == theory.name for name, theory in THEORIES.items())
+
+
+# ---- one computer decides on board
+
+
+def test_who_runs_a_machine_beside_the_computer_says_why() -> None:
+    found = hosts_beside_the_computer(ROOT)
+    for path, offences in found.items():
+        assert any(path == each or path.startswith(f"{each}/") for each in BESIDE_THE_COMPUTER), (path, offences)
+    for each in BESIDE_THE_COMPUTER:
+        assert any(path == each or path.startswith(f"{each}/") for path in found), f"{each} no longer does"
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "from kernel.onboard import odometry\nm = odometry.note_cycle(bounds, m, readings)",
+        "from kernel.onboard import split as machine\nm = machine.note_cycle(limits, m, readings)",
+        "from kernel.onboard.braking import take_end as taken\nb = taken(bounds, b, 0, 0, 0)",
+        "note = MADE.antenna_spacing.note_tail_read",
+    ],
+)
+def test_a_machine_run_beside_the_computer_is_seen(source: str) -> None:
+    assert run_beside_the_computer(source)
+
+
+def test_what_runs_no_machine_is_left_alone() -> None:
+    assert not run_beside_the_computer(
+        "from kernel.onboard import computer, odometry\n"
+        "c = computer.sense(limits, c, readings, tail)\n"
+        "odometry.is_located(c.known.motion)\n"
+        "note_cycle = 1"
+    )
+
+
+def test_every_machine_on_board_has_steps() -> None:
+    """But tables and fixes, which have no state."""
+    folder = ROOT / "kernel/onboard"
+    without = {"__init__", "arithmetic", "frames", "limits", "tag_fix", "tag_kind", *NO_MACHINES, "authority_end"}
+    assert set(steps_on_board()) == {path.stem for path in folder.glob("*.py")} - without

@@ -11,13 +11,16 @@ from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import ReverseLimits
+from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import Acceleration, SplitLimits
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_kind import PLAIN
 from kernel.onboard.tag_window import WindowLimits
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
+from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
     Train,
     Whole,
@@ -74,6 +77,7 @@ def at_rest() -> Whole:
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
+        passing=Passage(front_nm, 0, False, True, front_nm, front_nm - 50_000 * NM_A_MM, NO_TRACK_KNOWN, True),
         awaited_mm=0,
         astern=False,
         asked=begun.brake,
@@ -155,3 +159,23 @@ class Ride(Play[Train, Whole]):
         self.stop()
         for _ in range(5):
             self.cycle(0, may_proceed=False)
+
+
+PLAIN_TRACK: dict[str, int] = {"kind": PLAIN, "in_curve": False, "at_turnout": False}
+"""What a tag says, and what lies from it on."""
+
+
+def approaching(tag_mm: int) -> Ride:
+    """A train that awaits a tag, and runs until its front is where the antenna reads it."""
+    ride = Ride()
+    ride.start()
+    ride.gather(5_000)
+    ride.step("await_tag", place_mm=tag_mm)
+    ride.until(tag_mm + 4_000)
+    assert not ride.system.computer.known.window.passed
+    return ride
+
+
+def read_at(ride: Ride, tag_mm: int) -> dict[str, int]:
+    """Tell of a tag that lies here and was read just there, within the newest cycle; plain track follows it."""
+    return {"uid": tag_mm, "read_at_nm": (tag_mm + 4_000) * NM_A_MM, **PLAIN_TRACK}

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from kernel.onboard import speed_limit as machine
 from kernel.onboard.speed_limit import UNKNOWN, SpeedLimit, SpeedTable
+from kernel.onboard.tag_kind import is_curve, is_turnout
 from models.onboard.speed_limit import Passage, Profile
+from models.onboard.units import NM_A_MM, UM_A_MM
 from proofs.onboard.speed_limit import THEORY
 from proofs.onboard.witnesses.play import Play
 
 TABLE = SpeedTable(line_mm_s=36_000, curve_mm_s=25_000, turnout_mm_s=11_000)
+KINDS = {(False, False): 1, (True, False): 3, (False, True): 5, (True, True): 0}
+"""What is written where a curve begins, or a turnout; no code is for both."""
 SITE = Profile(table=TABLE, length_mm=120_000)
 AT_START = Passage(
-    front_mm=1_000_000,
-    speed_mm_s=0,
+    front_nm=1_000_000 * NM_A_MM,
+    speed_um_s=0,
     in_curve=False,
     at_turnout=True,
-    left_curve_mm=950_000,
-    left_turnout_mm=700_000,
+    left_curve_nm=950_000 * NM_A_MM,
+    left_turnout_nm=700_000 * NM_A_MM,
     limit=UNKNOWN,
     brakes=True,
 )
@@ -33,14 +37,14 @@ class Train(Play[Profile, Passage]):
         """Run to a place at a speed, both known to ``off_mm``; whether the unit brakes then."""
         self.step(
             "run_on",
-            to_mm=to_mm,
-            speed_mm_s=speed_mm_s,
+            to_nm=to_mm * NM_A_MM,
+            speed_um_s=speed_mm_s * UM_A_MM,
             known=known,
             rear_least_mm=to_mm - SITE.length_mm - off_mm,
             front_most_mm=to_mm + off_mm,
             speed_most_mm_s=speed_mm_s + off_mm,
         )
-        assert (self.system.front_mm, self.system.speed_mm_s) == (to_mm, speed_mm_s)
+        assert (self.system.front_nm, self.system.speed_um_s) == (to_mm * NM_A_MM, speed_mm_s * UM_A_MM)
         return self.system.brakes
 
     def tag(
@@ -48,26 +52,25 @@ class Train(Play[Profile, Passage]):
         *,
         curve: bool = False,
         turnout: bool = False,
-        told: tuple[bool, bool] | None = None,
+        kind: int | None = None,
         off_mm: int = 0,
         known: bool = True,
     ) -> bool:
-        """A tag at the front, and what lies behind it; ``told`` if that is not what it says."""
-        told_curve, told_turnout = (curve, turnout) if told is None else told
-        front_mm = self.system.front_mm
+        """A tag at the front, and what lies behind it; ``kind`` if that is not what it says."""
+        told = KINDS[curve, turnout] if kind is None else kind
+        front_mm = self.system.front_nm // NM_A_MM
         self.step(
             "pass_tag",
             in_curve=curve,
             at_turnout=turnout,
-            told_curve=told_curve,
-            told_turnout=told_turnout,
+            kind=told,
             known=known,
             rear_least_mm=front_mm - SITE.length_mm - off_mm,
             front_most_mm=front_mm + off_mm,
-            speed_most_mm_s=self.system.speed_mm_s + off_mm,
+            speed_most_mm_s=self.system.speed_um_s // UM_A_MM + off_mm,
         )
         assert (self.system.in_curve, self.system.at_turnout) == (curve, turnout)
-        noted = (told_curve, told_turnout) if known else (True, True)
+        noted = (is_curve(told), is_turnout(told)) if known else (True, True)
         assert (self.system.limit.in_curve, self.system.limit.at_turnout) == noted
         return self.system.brakes
 
@@ -95,6 +98,16 @@ def the_smallest_that_applies_is_permitted() -> None:
     assert machine.permitted_mm_s(odd, in_curve=True, at_turnout=True) == 10_000
 
 
+def each_kind_says_what_lies_from_it_on() -> None:
+    """Curves are 3 and 4, turnouts 5 and 6, the others of 1 to 9 neither; what is not assigned is both (T1, T12)."""
+    both = dict.fromkeys((-3, -1, 0, 10, 15, 16, 90), (True, True))
+    neither = dict.fromkeys((1, 2, 7, 8, 9), (False, False))
+    told = {3: (True, False), 4: (True, False), 5: (False, True), 6: (False, True), **both, **neither}
+    clear = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=7, turnout_until_mm=8)
+    for kind, (curve, turnout) in told.items():
+        assert machine.note_tag(clear, kind, True, 9) == SpeedLimit(curve, turnout, 7, 8), kind
+
+
 def before_the_first_tag_everything_restricts() -> None:
     """And until the rear has passed it (T8, T12)."""
     train = Train()
@@ -102,7 +115,7 @@ def before_the_first_tag_everything_restricts() -> None:
     assert train.runs(1_060_000, 11_001)
     assert not train.runs(1_060_000, 11_000)
     assert not train.tag()
-    assert train.system.left_turnout_mm == 1_060_000
+    assert train.system.left_turnout_nm == 1_060_000 * NM_A_MM
     assert train.runs(1_180_000, 11_001)
     assert not train.runs(1_180_001, 36_000)
     assert train.runs(1_180_001, 36_001)
@@ -115,7 +128,7 @@ def a_curve_ends_when_the_rear_has_left_it() -> None:
     assert not train.runs(1_300_000, 25_000)
     assert train.runs(1_300_000, 25_001)
     assert train.tag()
-    assert train.system.left_curve_mm == 1_300_000
+    assert train.system.left_curve_nm == 1_300_000 * NM_A_MM
     assert train.runs(1_420_000, 25_001)
     assert not train.runs(1_420_000, 25_000)
     assert not train.runs(1_420_001, 36_000)
@@ -174,7 +187,7 @@ def without_a_range_everything_restricts() -> None:
     assert train.runs(1_200_000, 0, known=False, off_mm=-500)
     assert not train.runs(1_200_000, 36_000)
     assert train.tag(known=False, off_mm=-9_000_000)
-    assert train.system.limit == UNKNOWN
+    assert (train.system.limit.in_curve, train.system.limit.at_turnout) == (True, True)
     assert train.runs(1_400_000, 11_001)
     train.tag()
     assert train.runs(1_520_000, 11_001)
@@ -192,7 +205,7 @@ def located_anew_it_knows_nothing_of_the_track() -> None:
 def what_cannot_be_read_is_the_worst_case() -> None:
     """A tag without a meaning restricts as curve and turnout, until the rear has passed the next (T12)."""
     train = free()
-    assert train.tag(told=(True, True))
+    assert train.tag(kind=0)
     assert train.runs(1_200_000, 11_001)
     assert not train.runs(1_200_000, 11_000)
     train.tag()
@@ -209,27 +222,54 @@ def what_is_no_speed_brakes() -> None:
 
 
 def what_nature_does_not_do_does_not_happen() -> None:
-    """Backward, a range that does not contain the train, a tag that hides a restriction: such events are refused."""
+    """A range that does not contain the train, a tag that hides a restriction: such events are refused."""
     train = free()
     before = train.system
     event = {"known": True, "rear_least_mm": 1_000_001, "front_most_mm": 1_120_001, "speed_most_mm_s": 36_000}
-    run = {"to_mm": 1_120_001, "speed_mm_s": 36_000, **event}
-    pass_by = {"in_curve": False, "at_turnout": False, "told_curve": False, "told_turnout": False, **event}
+    run = {"to_nm": 1_120_001 * NM_A_MM, "speed_um_s": 36_000 * UM_A_MM, **event}
+    pass_by = {"in_curve": False, "at_turnout": False, "kind": 1, **event}
     for what in (
-        {"to_mm": 1_120_000, "rear_least_mm": 0},
         {"rear_least_mm": 1_000_002},
         {"front_most_mm": 1_120_000},
         {"speed_most_mm_s": 35_999},
     ):
         assert train.step("run_on", **{**run, **what}) == before
-        if "to_mm" not in what:
-            assert train.step("pass_tag", **{**pass_by, **what}) == before
-    for hidden in ({"in_curve": True}, {"at_turnout": True}, {"in_curve": True, "told_turnout": True}):
-        assert train.step("pass_tag", **{**pass_by, **hidden}) == before
+        assert train.step("pass_tag", **{**pass_by, **what}) == before
+    hides = [("in_curve", kind) for kind in (1, 2, 5, 6, 7, 8, 9)] + [
+        ("at_turnout", kind) for kind in (1, 2, 3, 4, 7, 8, 9)
+    ]
+    for what_lies_there, kind in hides:
+        assert train.step("pass_tag", **{**pass_by, what_lies_there: True, "kind": kind}) == before
+    for what_lies_there, kind in (
+        ("in_curve", 3),
+        ("in_curve", 4),
+        ("at_turnout", 5),
+        ("at_turnout", 6),
+        ("in_curve", 10),
+    ):
+        assert train.step("pass_tag", **{**pass_by, what_lies_there: True, "kind": kind}) != before
+        train.system = before
+
+
+def a_train_that_has_rolled_back_is_on_the_track_behind() -> None:
+    """It reads the tag before the curve's end again; what it had left lies ahead of it (T12, T5)."""
+    train = free()
+    train.tag(curve=True)
+    train.runs(1_300_000, 20_000)
+    train.tag()
+    assert train.system.left_curve_nm == 1_300_000 * NM_A_MM
+    assert train.runs(1_299_000, 25_001), "a curve is behind its head, and it is in it"
+    train.tag(curve=True)
+    assert train.system.left_curve_nm == 1_299_000 * NM_A_MM
+    train.runs(1_301_000, 20_000)
+    train.tag()
+    assert train.runs(1_421_000, 25_001)
+    assert not train.runs(1_421_001, 36_000)
 
 
 WITNESSES = (
     the_smallest_that_applies_is_permitted,
+    each_kind_says_what_lies_from_it_on,
     before_the_first_tag_everything_restricts,
     a_curve_ends_when_the_rear_has_left_it,
     a_turnout_ends_when_the_rear_has_left_it,
@@ -241,4 +281,5 @@ WITNESSES = (
     what_cannot_be_read_is_the_worst_case,
     what_is_no_speed_brakes,
     what_nature_does_not_do_does_not_happen,
+    a_train_that_has_rolled_back_is_on_the_track_behind,
 )

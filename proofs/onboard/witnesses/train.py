@@ -10,6 +10,7 @@ from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.speed_limit import SpeedLimit
 from kernel.onboard.split import Acceleration
+from kernel.onboard.tag_kind import PLAIN
 from kernel.onboard.tag_window import NONE_AWAITED, Window
 from kernel.onboard.way import Way
 from models.onboard.train_nature import (
@@ -18,8 +19,24 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
-from proofs.onboard.witnesses.one_train import BRAKE, END_MM, LIMITS, SHOWN_MM, SITE, TAIL, Ride, at_rest
+from proofs.onboard.witnesses.one_train import (
+    BRAKE,
+    END_MM,
+    LIMITS,
+    PLAIN_TRACK,
+    SHOWN_MM,
+    SITE,
+    TAIL,
+    Ride,
+    approaching,
+    at_rest,
+    read_at,
+)
 from proofs.onboard.witnesses.rolling_stock import START_MM
+from proofs.onboard.witnesses.train_on_its_track import (
+    a_tag_that_hides_a_curve_is_none_of_this_world,
+    the_track_is_what_the_tags_say_for_the_whole_train,
+)
 
 # ---- it runs
 
@@ -45,26 +62,10 @@ def a_tag_narrows_where_it_is() -> None:
     wide = ride.system.computer.known.motion
     read_at_nm = ride.system.front_nm - 500 * NM_A_MM
     uid = read_at_nm // NM_A_MM - 4_000 - 300
-    ride.step("read_a_tag", uid=uid, place_mm=uid + 100, read_at_nm=read_at_nm)
+    ride.step("read_a_tag", uid=uid, place_mm=uid + 100, read_at_nm=read_at_nm, **PLAIN_TRACK)
     narrow = ride.system.computer.known.motion
     assert narrow.front_most_mm - narrow.front_least_mm < wide.front_most_mm - wide.front_least_mm
     ride.cycle(10_000)
-
-
-def approaching(tag_mm: int) -> Ride:
-    """A train that awaits a tag, and runs until its front is where the antenna reads it."""
-    ride = Ride()
-    ride.start()
-    ride.gather(5_000)
-    ride.step("await_tag", place_mm=tag_mm)
-    ride.until(tag_mm + 4_000)
-    assert not ride.system.computer.known.window.passed
-    return ride
-
-
-def read_at(ride: Ride, tag_mm: int) -> dict[str, int]:
-    """Tell of a tag that lies here and was read just there, within the newest cycle."""
-    return {"uid": tag_mm, "read_at_nm": (tag_mm + 4_000) * NM_A_MM}
 
 
 def an_awaited_tag_is_taken_where_it_lies() -> None:
@@ -108,9 +109,12 @@ def a_tag_listed_elsewhere_says_nothing() -> None:
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
     before = ride.system.computer
-    told = computer.read_by_head(LIMITS, before, 1, tag_mm + 20_000)
-    assert told == before
-    assert computer.read_by_head(LIMITS, before, 1, tag_mm) != before
+    limit = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=9, turnout_until_mm=9)
+    on_plain_track = replace(before, known=replace(before.known, limit=limit))
+    told = computer.read_by_head(LIMITS, on_plain_track, 1, tag_mm + 20_000, PLAIN)
+    unlisted = replace(limit, in_curve=True, at_turnout=True)
+    assert told == replace(before, known=replace(before.known, limit=unlisted)), "and anything may lie from it on"
+    assert computer.read_by_head(LIMITS, before, 1, tag_mm, PLAIN) != before
 
 
 def a_tail_that_follows_as_preset_counts() -> None:
@@ -188,7 +192,7 @@ def a_tag_read_elsewhere_is_none_of_this_world() -> None:
     for off_mm, afar_mm, late_mm in ((201, 0, 0), (0, 501, 0), (0, 0, 1_100)):
         uid = front_nm // NM_A_MM - 4_000 - afar_mm - late_mm
         before = ride.system
-        ride.step("read_a_tag", uid=uid, place_mm=uid + off_mm, read_at_nm=front_nm - late_mm * NM_A_MM)
+        ride.step("read_a_tag", uid=uid, place_mm=uid + off_mm, read_at_nm=front_nm - late_mm * NM_A_MM, **PLAIN_TRACK)
         assert ride.system == before
 
 
@@ -229,7 +233,8 @@ def a_cycle_is_run_and_sensed_in_turn() -> None:
     at_mm = front_nm // NM_A_MM
     ride.step("run_a_cycle", may_proceed=True, acknowledged=False, to_nm=front_nm, speed_um_s=0)
     ride.step("take_end", end_mm=END_MM + 1)
-    ride.step("read_a_tag", uid=at_mm - 4_000, place_mm=at_mm - 4_000, read_at_nm=front_nm)
+    ride.step("read_a_tag", uid=at_mm - 4_000, place_mm=at_mm - 4_000, read_at_nm=front_nm, **PLAIN_TRACK)
+    ride.step("read_unlisted", read_at_nm=front_nm, in_curve=True, at_turnout=True)
     ride.step("read_by_the_tail", uid=at_mm - 116_000, read_at_nm=front_nm)
     ride.step("await_tag", place_mm=at_mm)
     ride.step("await_none")
@@ -285,11 +290,12 @@ def a_tag_told_after_the_train_was_located_anew_says_nothing() -> None:
         "uid": front_mm - 4_000,
         "place_mm": front_mm - 4_000,
         "read_at_nm": front_nm,
+        **PLAIN_TRACK,
     }
     ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
     located = ride.system
     ride.step("read_a_tag", **tag)
-    assert ride.system == located
+    assert ride.system.computer == located.computer
     ride.cycle(0)
     ride.step("read_a_tag", **tag)
     narrowed = ride.system.computer.known.motion
@@ -444,6 +450,8 @@ WITNESSES = (
     an_awaited_tag_is_refused_by_a_train_that_did_not_know_where_it_was,
     an_awaited_tag_that_does_not_come_brakes_the_train,
     a_tag_listed_elsewhere_says_nothing,
+    the_track_is_what_the_tags_say_for_the_whole_train,
+    a_tag_that_hides_a_curve_is_none_of_this_world,
     a_tail_that_follows_as_preset_counts,
     a_tail_that_is_shaken_brakes_the_train,
     a_train_that_rolls_back_is_braked,

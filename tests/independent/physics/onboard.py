@@ -12,6 +12,9 @@ from kernel.onboard.train_length import UNMEASURED, Passing, PointKind
 from kernel.standstill import is_braked
 from tests.independent.physics.declared import ANTENNA_MM, Type
 
+PLAIN_TRACK = 1
+"""The kind that is written in every tag of this world."""
+
 
 class Host:
     """A unit with its computer, as a train of a type has it; places are on the kilometrage of its front."""
@@ -149,9 +152,10 @@ class Host:
 
     def head_reads(self, number: int, place_mm: int, now_ms: int) -> bool:
         """The head reads a tag that the list has; whether it is where it should be."""
-        if not computer.reads_in_window(self.limits, self.computer, place_mm):
+        in_window = computer.reads_in_window(self.limits, self.computer, place_mm)
+        self.computer = computer.read_by_head(self.limits, self.computer, number, place_mm, PLAIN_TRACK)
+        if not in_window:
             return False
-        self.computer = computer.read_by_head(self.limits, self.computer, number, place_mm)
         self.length = train_length.note_head_pass(self.bounds, self.length, self._passing(number, now_ms))
         return True
 
