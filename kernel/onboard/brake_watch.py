@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, smaller
+from kernel.onboard.arithmetic import LONGEST_CYCLE_MS, SHORTEST_CYCLE_MS, divided_up, larger, smaller
 from kernel.onboard.braking import BrakeBounds
 
 
@@ -40,8 +40,8 @@ def released(watch: BrakeWatch) -> BrakeWatch:
 def next_limit_mm_s(bounds: BrakeBounds, watch: BrakeWatch, applied: bool) -> int:
     """Give how fast the train may be a cycle on: slower once the brake has responded, else faster (T12)."""
     if applied and watch.cycles >= bounds.response_cycles:
-        return larger(0, watch.limit_mm_s - CYCLE_MS * bounds.slows_mm_s2 // 1000)
-    return watch.limit_mm_s + divided_up(CYCLE_MS * bounds.gains_mm_s2, 1000)
+        return larger(0, watch.limit_mm_s - SHORTEST_CYCLE_MS * bounds.slows_mm_s2 // 1000)
+    return watch.limit_mm_s + divided_up(LONGEST_CYCLE_MS * bounds.gains_mm_s2, 1000)
 
 
 def note_cycle(

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, NM_A_MM, smaller
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, LONGEST_CYCLE_MS, NM_A_MM, SHORTEST_CYCLE_MS, smaller
 
 FARTHEST_MM = 10**9
 """The farthest ahead that an end of authority is reckoned with; what lies beyond counts as so far."""
@@ -26,7 +26,8 @@ class BrakeBounds:
 
     ``gains_mm_s2``: the most that the train gains while the brake is not yet effective.
     ``slows_mm_s2``: the least that the brake slows it by, once effective.
-    ``response_cycles``: from the command until then.
+    ``response_cycles``: from the command until then; and from when a cycle that is missed had to begin until the
+    brake is effective that the watchdog commands.
     ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing.
     """
 
@@ -51,21 +52,29 @@ class Brake:
     withheld: bool = False
 
 
+def slows_mm_s2(bounds: BrakeBounds) -> int:
+    """Give how the brake slows the train over its way at the least (T12).
+
+    Each cycle may be as long as it may for the way that is run in it, and as short for the brake.
+    """
+    return bounds.slows_mm_s2 * SHORTEST_CYCLE_MS // LONGEST_CYCLE_MS
+
+
 def worst_um_s(bounds: BrakeBounds, speed_most_mm_s: int) -> int:
     """Give how fast the train may be when a brake commanded a cycle from now responds (T12)."""
-    return 1000 * speed_most_mm_s + (bounds.response_cycles + 1) * CYCLE_MS * bounds.gains_mm_s2
+    return 1000 * speed_most_mm_s + (bounds.response_cycles + 1) * LONGEST_CYCLE_MS * bounds.gains_mm_s2
 
 
 def reach_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int) -> int:
     """Give how far the head may be then (T12)."""
-    way_nm = (bounds.response_cycles + 1) * CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
+    way_nm = (bounds.response_cycles + 1) * LONGEST_CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
     return NM_A_MM * front_most_mm + way_nm
 
 
 def left_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> int:
     """Give the way that is left then for the brake, less the one cycle in which it takes hold (T12)."""
     end_nm = NM_A_MM * smaller(end_mm, front_most_mm + FARTHEST_MM)
-    cycle_nm = CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
+    cycle_nm = LONGEST_CYCLE_MS * worst_um_s(bounds, speed_most_mm_s)
     return end_nm - reach_nm(bounds, front_most_mm, speed_most_mm_s) - cycle_nm
 
 
@@ -80,7 +89,7 @@ def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, 
         return False
     fast_um_s = worst_um_s(bounds, speed_most_mm_s)
     way_nm = left_nm(bounds, front_most_mm, speed_most_mm_s, end_mm)
-    return way_nm >= 0 and fast_um_s * fast_um_s <= 2 * bounds.slows_mm_s2 * way_nm
+    return way_nm >= 0 and fast_um_s * fast_um_s <= 2 * slows_mm_s2(bounds) * way_nm
 
 
 def supervise(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.onboard.antenna_spacing import SpacingLimits
-from kernel.onboard.arithmetic import CYCLE_MS
+from kernel.onboard.arithmetic import LONGEST_CYCLE_MS, SHORTEST_CYCLE_MS
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.odometry import SensorBounds
@@ -64,7 +64,10 @@ def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
         and bounds.pulse_mm >= 0
         and bounds.tachometer_mm_s >= 0
         and bounds.gradient_mm_s2 >= 0
-        and surveyed.jolt_mm_s2 >= bounds.slip_mm_s2 + bounds.inertial_mm_s2 + 2 * bounds.gradient_mm_s2
+        and bounds.slip_mm_s2 >= 0
+        and bounds.inertial_mm_s2 >= 0
+        and SHORTEST_CYCLE_MS * (surveyed.jolt_mm_s2 - bounds.slip_mm_s2)
+        >= LONGEST_CYCLE_MS * (bounds.inertial_mm_s2 + 2 * bounds.gradient_mm_s2)
         and surveyed.pace_cycles >= 1
         and bounds.agreement_cycles >= surveyed.pace_cycles + 2
     )
@@ -90,9 +93,9 @@ def widest_mm(tolerance_mm: int, line_mm_s: int, antennas_mm: int, surveyed: Sur
     """Give how wide the range may be for the tail's reads to count: a tag that the head missed is overdue (T2, T5).
 
     Of what lies between the antennas the window's tolerance is taken off, the errors of tags and presetting, and what a
-    train runs in a cycle at twice the speed of its line.
+    train runs in the longest cycle at twice the speed of its line.
     """
-    cycle_mm = 2 * CYCLE_MS * line_mm_s // 1000
+    cycle_mm = 2 * LONGEST_CYCLE_MS * line_mm_s // 1000
     errors_mm = surveyed.laid_within_mm + surveyed.read_within_mm + surveyed.preset_within_mm
     return antennas_mm - tolerance_mm - errors_mm - cycle_mm - 1
 

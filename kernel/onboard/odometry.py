@@ -18,7 +18,19 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up, larger, limited, magnitude, smaller
+from kernel.onboard.arithmetic import (
+    CYCLE_MS,
+    GREATEST_SPEED_MM_S,
+    LONGEST_CYCLE_MS,
+    SHORTEST_CYCLE_MS,
+    divided_up,
+    larger,
+    least_in_a_cycle,
+    limited,
+    magnitude,
+    most_in_a_cycle,
+    smaller,
+)
 
 MILLION = 1_000_000
 GREATEST_WAY_MM = 10**9
@@ -81,7 +93,7 @@ class Loss(Enum):
 
     NONE = 0
     CYCLE_IRREGULAR = 1
-    """The processor's clock did not go on by one cycle."""
+    """The processor's clock did not go on by a lawful cycle: nobody knows how far the train ran in it."""
     CONTRADICTED = 2
     """A fix lay outside the range: some sensor or tag is worse than its bound."""
     LOCATED_ANEW = 3
@@ -199,12 +211,18 @@ def wheel_mm_s2(motion: Motion, readings: Readings) -> int:
 
 
 def agrees(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
-    """Tell whether the wheel's acceleration is the train's: |a_m - a_p| below T_a, both sensors speaking (P1)."""
+    """Tell whether the wheel's acceleration is the train's: |a_m - a_p| below T_a, both sensors speaking (P1).
+
+    Asked of the speeds gained in the cycle, however long it lasted within its limits.
+    """
     measured_mm_s2 = readings.inertial_mm_s2 - motion.gradient_mm_s2
+    gained_um_s = 1000 * (readings.tachometer_mm_s - motion.tachometer_mm_s)
+    slip_um_s = least_in_a_cycle(readings.elapsed_ms, bounds.slip_mm_s2)
     return (
         tachometer_speaks(bounds, motion, readings)
         and inertial_speaks(bounds, readings)
-        and magnitude(measured_mm_s2 - wheel_mm_s2(motion, readings)) < bounds.slip_mm_s2
+        and most_in_a_cycle(readings.elapsed_ms, measured_mm_s2) - slip_um_s < gained_um_s
+        and gained_um_s < least_in_a_cycle(readings.elapsed_ms, measured_mm_s2) + slip_um_s
     )
 
 
@@ -267,10 +285,15 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
     The anchor goes along.  Once the wheel has agreed long enough, at a speed that the train may
     have, it is trusted again; not where the train may have so many speeds that this says little.
     """
-    slowest_mm_s = motion.speed_least_mm_s + CYCLE_MS * least_mm_s2(bounds, readings) // 1000
-    fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(CYCLE_MS * most_mm_s2(bounds, motion, readings), 1000))
-    least_mm = motion.front_least_mm + CYCLE_MS * smaller(motion.speed_least_mm_s, slowest_mm_s) // 1000
-    most_mm = motion.front_most_mm + divided_up(CYCLE_MS * larger(motion.speed_most_mm_s, fastest_mm_s), 1000)
+    lasted_ms = readings.elapsed_ms
+    lost_um_s = least_in_a_cycle(lasted_ms, least_mm_s2(bounds, readings))
+    gained_um_s = most_in_a_cycle(lasted_ms, most_mm_s2(bounds, motion, readings))
+    slowest_mm_s = motion.speed_least_mm_s + lost_um_s // 1000
+    fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(gained_um_s, 1000))
+    back_um = least_in_a_cycle(lasted_ms, smaller(motion.speed_least_mm_s, slowest_mm_s))
+    on_um = most_in_a_cycle(lasted_ms, larger(motion.speed_most_mm_s, fastest_mm_s))
+    least_mm = motion.front_least_mm + back_um // 1000
+    most_mm = motion.front_most_mm + divided_up(on_um, 1000)
     heard = tachometer_is_heard(readings)
     speed_error = speed_error_mm_s(bounds, readings.tachometer_mm_s)
     plausible = (
@@ -302,7 +325,7 @@ def note_cycle(bounds: SensorBounds, motion: Motion, readings: Readings) -> Moti
     """Take the readings of one cycle (P1, P7)."""
     if motion.loss != Loss.NONE:
         return motion
-    if readings.elapsed_ms != CYCLE_MS:
+    if not SHORTEST_CYCLE_MS <= readings.elapsed_ms <= LONGEST_CYCLE_MS:
         return replace(motion, loss=Loss.CYCLE_IRREGULAR)
     if motion.trusted and agrees(bounds, motion, readings):
         return roll(bounds, motion, readings)

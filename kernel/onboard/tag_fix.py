@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kernel.onboard.arithmetic import CYCLE_MS, divided_up, larger, smaller
+from kernel.onboard.arithmetic import LONGEST_CYCLE_MS, divided_up, larger, smaller
 from kernel.onboard.odometry import Motion, is_located
 from kernel.onboard.way import Way
 
@@ -35,12 +35,12 @@ class Fix:
 
 def ran_mm(before: Motion, after: Motion) -> int:
     """Give how far the train may have run forward within the cycle between two states of the odometry (P7)."""
-    return divided_up(CYCLE_MS * larger(0, larger(before.speed_most_mm_s, after.speed_most_mm_s)), 1000)
+    return divided_up(LONGEST_CYCLE_MS * larger(0, larger(before.speed_most_mm_s, after.speed_most_mm_s)), 1000)
 
 
 def ran_back_mm(before: Motion, after: Motion) -> int:
     """Give how far it may have rolled back (P7)."""
-    return divided_up(-CYCLE_MS * smaller(0, smaller(before.speed_least_mm_s, after.speed_least_mm_s)), 1000)
+    return divided_up(-LONGEST_CYCLE_MS * smaller(0, smaller(before.speed_least_mm_s, after.speed_least_mm_s)), 1000)
 
 
 def place_of_read(before: Motion, after: Motion) -> Way:

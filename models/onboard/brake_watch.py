@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from kernel.onboard import brake_watch
 from kernel.onboard.brake_watch import BrakeWatch
 from kernel.onboard.braking import BrakeBounds
-from models.onboard.units import MS_A_CYCLE, UM_A_MM, larger, smaller
+from models.onboard.units import LONGEST_MS, SHORTEST_MS, UM_A_MM, larger, smaller
 
 
 @dataclass(frozen=True)
@@ -64,15 +64,15 @@ def the_range_contains_the_speed(
 def keeps(site: Vehicle, system: Watched, applied: bool, speed_um_s: int) -> bool:
     """Whether motors and brake kept their bounds in this cycle: `the_train_gains_no_more`, `the_brake_keeps…` (T12)."""
     if applied and system.cycles >= site.bounds.response_cycles:
-        return speed_um_s <= larger(0, system.speed_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
-    return speed_um_s - larger(0, system.speed_um_s) <= MS_A_CYCLE * site.bounds.gains_mm_s2
+        return speed_um_s <= larger(0, system.speed_um_s - SHORTEST_MS * site.bounds.slows_mm_s2)
+    return speed_um_s - larger(0, system.speed_um_s) <= LONGEST_MS * site.bounds.gains_mm_s2
 
 
 def allowed_after_mm_s(site: Vehicle, system: Watched, applied: bool) -> int:
     """How fast a train may be a cycle on that was as fast as allowed, in whole mm/s to its favour (T12)."""
     if applied and system.cycles >= site.bounds.response_cycles:
-        return larger(0, system.allowed_mm_s - MS_A_CYCLE * site.bounds.slows_mm_s2 // UM_A_MM)
-    return system.allowed_mm_s - -MS_A_CYCLE * site.bounds.gains_mm_s2 // UM_A_MM
+        return larger(0, system.allowed_mm_s - SHORTEST_MS * site.bounds.slows_mm_s2 // UM_A_MM)
+    return system.allowed_mm_s - -LONGEST_MS * site.bounds.gains_mm_s2 // UM_A_MM
 
 
 def run_a_cycle(

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from kernel.onboard import braking
 from kernel.onboard.braking import Brake, BrakeBounds
-from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM, larger, magnitude
+from models.onboard.units import LONGEST_MS, NM_A_MM, SHORTEST_MS, UM_A_MM, larger, magnitude
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,8 @@ def the_range_contains_the_head(
 
 def the_way_follows_the_speed(system: Approach, to_nm: int, speed_um_s: int) -> bool:
     """Within one cycle the head gets no farther than at the greater of the speeds at its ends (P1)."""
-    return to_nm - system.head_nm <= MS_A_CYCLE * larger(system.speed_um_s, speed_um_s)
+    fastest_um_s, ran_nm = larger(system.speed_um_s, speed_um_s), to_nm - system.head_nm
+    return ran_nm <= LONGEST_MS * fastest_um_s or ran_nm <= SHORTEST_MS * fastest_um_s
 
 
 def the_train_gains_no_more(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
@@ -87,15 +88,20 @@ def the_train_gains_no_more(site: Vehicle, system: Approach, speed_um_s: int) ->
 
     One that rolls back may besides be stopped by its brakes.
     """
-    return speed_um_s - larger(0, system.speed_um_s) <= MS_A_CYCLE * site.bounds.gains_mm_s2
+    return speed_um_s - larger(0, system.speed_um_s) <= LONGEST_MS * site.bounds.gains_mm_s2
 
 
 def the_brake_keeps_its_bound(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
     """A brake that has responded slows the train by what is guaranteed, until it stands, and holds it then (T12)."""
-    return speed_um_s <= larger(0, system.speed_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
+    return speed_um_s <= larger(0, system.speed_um_s - SHORTEST_MS * site.bounds.slows_mm_s2)
 
 
 # ---- transitions
+
+
+def slows_mm_s2(site: Vehicle) -> int:
+    """How a brake slows the train in long cycles that does so by what is guaranteed in short ones (T12)."""
+    return site.bounds.slows_mm_s2 * SHORTEST_MS // LONGEST_MS
 
 
 def run_a_cycle(
@@ -135,15 +141,15 @@ def run_a_cycle(
             demanded=demanded,
             released_amiss=system.released_amiss or amiss,
         )
-    slowed_um_s = larger(0, system.worst_um_s - MS_A_CYCLE * site.bounds.slows_mm_s2)
+    slowed_um_s = larger(0, system.worst_um_s - LONGEST_MS * slows_mm_s2(site))
     return replace(
         system,
         head_nm=to_nm,
         speed_um_s=speed_um_s,
         response_cycles=system.response_cycles if responds else system.response_cycles - 1,
         worst_um_s=slowed_um_s if responds else system.worst_um_s,
-        reach_nm=system.reach_nm + MS_A_CYCLE * system.worst_um_s if responds else system.reach_nm,
-        left_nm=system.left_nm - MS_A_CYCLE * slowed_um_s if responds else system.left_nm,
+        reach_nm=system.reach_nm + LONGEST_MS * system.worst_um_s if responds else system.reach_nm,
+        left_nm=system.left_nm - LONGEST_MS * slowed_um_s if responds else system.left_nm,
         demanded=demanded,
         brake=brake,
     )

@@ -13,7 +13,17 @@ from dataclasses import dataclass, replace
 
 from kernel.onboard import odometry
 from kernel.onboard.odometry import Motion, Readings, SensorBounds
-from models.onboard.units import MS_A_CYCLE, NM_A_MM, NO_SPEED_MM_S, PPM, larger, magnitude, smaller
+from models.onboard.units import (
+    LONGEST_MS,
+    MS_A_CYCLE,
+    NM_A_MM,
+    NO_SPEED_MM_S,
+    PPM,
+    SHORTEST_MS,
+    larger,
+    magnitude,
+    smaller,
+)
 
 
 @dataclass(frozen=True)
@@ -77,8 +87,16 @@ def bounds_are_not_negative(site: Line) -> bool:
 
 
 def a_jolt_stands_out(site: Line) -> bool:
-    """Leaving the creep is more than threshold, sensor error and both gradients can hide: T_a is set by it (P1)."""
-    return site.jolt_mm_s2 >= site.bounds.slip_mm_s2 + site.bounds.inertial_mm_s2 + 2 * site.bounds.gradient_mm_s2
+    """Leaving the creep is more than threshold, sensor error and both gradients can hide: T_a is set by it (P1).
+
+    Even in the shortest cycle, where what it is held against may have lasted for the longest.
+    """
+    hidden_mm_s2 = site.bounds.inertial_mm_s2 + 2 * site.bounds.gradient_mm_s2
+    return (
+        site.bounds.slip_mm_s2 >= 0
+        and site.bounds.inertial_mm_s2 >= 0
+        and SHORTEST_MS * (site.jolt_mm_s2 - site.bounds.slip_mm_s2) >= LONGEST_MS * hidden_mm_s2
+    )
 
 
 def agreement_takes_longer_than_a_chance_pace(site: Line) -> bool:
@@ -94,14 +112,33 @@ def the_length_used_is_no_less(site: Line) -> bool:
 # ---- assumptions
 
 
+def is_lawful(readings: Readings) -> bool:
+    """The cycle lasted as long as is declared of the processor's clock (P1)."""
+    return SHORTEST_MS <= readings.elapsed_ms <= LONGEST_MS
+
+
+def least_in(readings: Readings, rate: int) -> int:
+    """What a rate comes to in the cycle at the least; in one that is not of 100 ms as in any lawful one (P1)."""
+    if readings.elapsed_ms == MS_A_CYCLE:
+        return MS_A_CYCLE * rate
+    return smaller(SHORTEST_MS * rate, LONGEST_MS * rate)
+
+
+def most_in(readings: Readings, rate: int) -> int:
+    """What it comes to at the most (P1)."""
+    if readings.elapsed_ms == MS_A_CYCLE:
+        return MS_A_CYCLE * rate
+    return larger(SHORTEST_MS * rate, LONGEST_MS * rate)
+
+
 def the_way_follows_the_speed(system: Running, readings: Readings, to_nm: int, speed_um_s: int) -> bool:
-    """Within one cycle the train runs at speeds between those at its ends; in one of another length anywhere (P1).
+    """Within a lawful cycle the train runs at speeds between those at its ends; in another one anywhere (P1).
 
     The jerk of a train is small enough that its acceleration does not change sign twice in 100 ms.
     """
-    return readings.elapsed_ms != MS_A_CYCLE or (
-        MS_A_CYCLE * smaller(system.speed_um_s, speed_um_s) <= to_nm - system.front_nm
-        and to_nm - system.front_nm <= MS_A_CYCLE * larger(system.speed_um_s, speed_um_s)
+    return not is_lawful(readings) or (
+        least_in(readings, smaller(system.speed_um_s, speed_um_s)) <= to_nm - system.front_nm
+        and to_nm - system.front_nm <= most_in(readings, larger(system.speed_um_s, speed_um_s))
     )
 
 
@@ -113,8 +150,8 @@ def the_train_stays_within_its_powers(site: Line, system: Running, readings: Rea
     gained_um_s = speed_um_s - system.speed_um_s
     forward = site.bounds.accelerates_mm_s2
     most_mm_s2 = larger(forward, site.bounds.brakes_mm_s2) if system.speed_um_s < 0 else forward
-    return readings.elapsed_ms != MS_A_CYCLE or (
-        -MS_A_CYCLE * site.bounds.brakes_mm_s2 <= gained_um_s <= MS_A_CYCLE * most_mm_s2
+    return not is_lawful(readings) or (
+        least_in(readings, -site.bounds.brakes_mm_s2) <= gained_um_s <= most_in(readings, most_mm_s2)
     )
 
 
@@ -127,13 +164,16 @@ def the_inertial_sensor_keeps_its_bound(
     """
     gained_um_s = speed_um_s - system.speed_um_s
     beside_mm_s2 = site.bounds.gradient_mm_s2 + site.bounds.inertial_mm_s2
+    felt_mm_s2 = readings.inertial_mm_s2 - gradient_mm_s2
     return magnitude(gradient_mm_s2) <= site.bounds.gradient_mm_s2 and (
-        readings.elapsed_ms != MS_A_CYCLE
+        not is_lawful(readings)
         or not readings.inertial_valid
         or readings.inertial_mm_s2 > site.bounds.accelerates_mm_s2 + beside_mm_s2
         or readings.inertial_mm_s2 < -site.bounds.brakes_mm_s2 - beside_mm_s2
-        or magnitude(MS_A_CYCLE * (readings.inertial_mm_s2 - gradient_mm_s2) - gained_um_s)
-        <= MS_A_CYCLE * site.bounds.inertial_mm_s2
+        or (
+            least_in(readings, felt_mm_s2 - site.bounds.inertial_mm_s2) <= gained_um_s
+            and gained_um_s <= most_in(readings, felt_mm_s2 + site.bounds.inertial_mm_s2)
+        )
     )
 
 
@@ -182,7 +222,7 @@ def leaving_the_creep_takes_a_jolt(
         not slips
         or system.slips
         or not (told and system.told)
-        or magnitude(wheel_um_s - gained_um_s) >= MS_A_CYCLE * site.jolt_mm_s2
+        or magnitude(wheel_um_s - gained_um_s) >= least_in(readings, site.jolt_mm_s2)
     )
 
 
@@ -232,7 +272,7 @@ def paced_cycles_after(site: Line, system: Running, readings: Readings, speed_um
     keeps_pace = (
         told
         and system.told
-        and magnitude(wheel_um_s - gained_um_s) < MS_A_CYCLE * site.jolt_mm_s2
+        and magnitude(wheel_um_s - gained_um_s) < least_in(readings, site.jolt_mm_s2)
         and magnitude(1000 * readings.tachometer_mm_s - speed_um_s) <= 1000 * site.bounds.pace_mm_s
         and (readings.tachometer_mm_s != 0 or magnitude(speed_um_s) <= 1000 * site.bounds.locked_mm_s)
     )

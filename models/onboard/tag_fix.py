@@ -11,7 +11,7 @@ from kernel.onboard import tag_fix
 from kernel.onboard.odometry import Loss, Motion
 from kernel.onboard.tag_fix import Fix, TagLimits
 from kernel.onboard.way import Way
-from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM, larger, magnitude, smaller
+from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM, larger, magnitude, smaller
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,9 @@ def the_range_contains_the_train(motion: Motion, front_nm: int, speed_um_s: int)
 
 def the_way_follows_the_speed(from_nm: int, to_nm: int, speed_um_s: int, to_um_s: int) -> bool:
     """Within a part of a cycle the train runs no farther than at the greater speed; nor back (P1)."""
-    return MS_A_CYCLE * smaller(
+    return LONGEST_MS * smaller(
         0, smaller(speed_um_s, to_um_s)
-    ) <= to_nm - from_nm and to_nm - from_nm <= MS_A_CYCLE * larger(0, larger(speed_um_s, to_um_s))
+    ) <= to_nm - from_nm and to_nm - from_nm <= LONGEST_MS * larger(0, larger(speed_um_s, to_um_s))
 
 
 def a_tag_lies_where_it_is_listed(site: Antenna, place_mm: int, lies_nm: int) -> bool:

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 MS_A_CYCLE = 100
 """Sensors are sampled every 100 ms (paper 001, table 2)."""
+SHORTEST_MS, LONGEST_MS = 98, 102
+"""By the processor's clock, with 2 ms of jitter (ours: its interrupt latency)."""
 NM_A_MM = 1_000_000
 UM_A_MM = 1_000
 PPM = 1_000_000

@@ -1,9 +1,10 @@
 """Each guarantee by which the theory of a joint goes on: true in its place, and any other invariant in its place.
 
-A theory that puts machines together (``train``) or speaks between them (``joint``, ``occupancy``) discharges what each assumes by
-what the others have guaranteed a step before: by invariants that its proof scripts name.  Such a use is needed if the
-step breaks the claim without it, and right if no other invariant of the theory does as well.  A counterexample must
-show it, one that CPython confirms; a guarantee without which the claim is proved is to be dropped from the script.
+A theory that puts machines together (``train``) or speaks between them (``joint``, ``occupancy``) discharges what each
+assumes by what the others have guaranteed a step before: by invariants that its proof scripts name.  Such a use is
+needed if the step breaks the claim without it, and right if no other invariant of the theory does as well.  A
+counterexample must show it, one that CPython confirms; a guarantee without which the claim is proved is to be dropped
+from the script.
 """
 
 from __future__ import annotations

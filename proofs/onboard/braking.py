@@ -3,8 +3,16 @@
 from __future__ import annotations
 
 from kernel.onboard import braking
-from models.onboard.braking import Approach, Vehicle, run_a_cycle, take_end, the_brake_slows, withhold_end
-from models.onboard.units import MS_A_CYCLE, NM_A_MM, larger
+from models.onboard.braking import (
+    Approach,
+    Vehicle,
+    run_a_cycle,
+    slows_mm_s2,
+    take_end,
+    the_brake_slows,
+    withhold_end,
+)
+from models.onboard.units import LONGEST_MS, NM_A_MM, larger
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -74,27 +82,27 @@ def the_response_ends(site: Vehicle, system: Approach) -> bool:
 def it_gets_no_faster_before_the_response(site: Vehicle, system: Approach) -> bool:
     """Until the brake has responded the speed stays below the worst that was reckoned with (T12)."""
     return (
-        larger(0, system.speed_um_s) + system.response_cycles * MS_A_CYCLE * site.bounds.gains_mm_s2
+        larger(0, system.speed_um_s) + system.response_cycles * LONGEST_MS * site.bounds.gains_mm_s2
         <= system.worst_um_s
     )
 
 
 def it_gets_no_farther_before_the_response(site: Vehicle, system: Approach) -> bool:
     """Until the brake has responded the head stays short of the place that was reckoned with (T12)."""
-    return system.head_nm + system.response_cycles * MS_A_CYCLE * system.worst_um_s <= system.reach_nm
+    return system.head_nm + system.response_cycles * LONGEST_MS * system.worst_um_s <= system.reach_nm
 
 
 def the_way_left_lies_before_the_end(site: Vehicle, system: Approach) -> bool:
     """From that place, the cycle in which the brake takes hold and the way left end before the authority does (T12)."""
     return (
         system.left_nm >= 0
-        and system.reach_nm + MS_A_CYCLE * system.worst_um_s + system.left_nm <= NM_A_MM * system.brake.end_mm
+        and system.reach_nm + LONGEST_MS * system.worst_um_s + system.left_nm <= NM_A_MM * system.brake.end_mm
     )
 
 
 def the_way_left_is_enough(site: Vehicle, system: Approach) -> bool:
     """The guaranteed brake stops the train from the worst speed within the way left: u² <= 2 b s (T12)."""
-    return system.worst_um_s * system.worst_um_s <= 2 * site.bounds.slows_mm_s2 * system.left_nm
+    return system.worst_um_s * system.worst_um_s <= 2 * slows_mm_s2(site) * system.left_nm
 
 
 INITIAL = (the_train_stands_inside_its_authority,)

@@ -45,7 +45,7 @@ LIMITS = Limits(
 )
 SITE = Train(
     LIMITS,
-    jolt_mm_s2=1_150,
+    jolt_mm_s2=1_181,
     pace_cycles=8,
     length_mm=120_000,
     laid_within_mm=200,

@@ -23,7 +23,7 @@ BOUNDS = SensorBounds(
     pace_mm_s=5_000,
     locked_mm_s=2_500,
 )
-SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_150, pace_cycles=8, length_mm=120_000, length_used_mm=133_000)
+SITE = Line(bounds=BOUNDS, jolt_mm_s2=1_181, pace_cycles=8, length_mm=120_000, length_used_mm=133_000)
 START_MM = 100_000
 AT_POWER_ON = Running(
     front_nm=START_MM * NM_A_MM,

@@ -67,19 +67,19 @@ class Reads(Play[Antenna, Passing]):
 
 
 def a_tag_passed_at_speed_was_read_up_to_a_cycle_ago() -> None:
-    """At 20 m/s the front may have got two metres on since (T2, P7)."""
-    for ran_um in (0, 2_000_000):
+    """At 20 m/s the front may have got 2.04 m on since, in a cycle of 102 ms (T2, P7)."""
+    for ran_um in (0, 2_040_000):
         read = Reads().read(20_000, 20_000, ran_um)
         assert read.front_nm == (FRONT_MM * UM_A_MM + ran_um) * 1_000
-        assert read.fix == Fix(FRONT_MM - 300, FRONT_MM + 300 + 2_000)
+        assert read.fix == Fix(FRONT_MM - 300, FRONT_MM + 300 + 2_040)
         here_mm = read.front_nm // NM_A_MM
-        assert read.place == Way(True, here_mm - 1_000 - 2_000, here_mm + 1_000)
+        assert read.place == Way(True, here_mm - 1_000 - 2_040, here_mm + 1_000)
 
 
 def the_greater_speed_of_the_cycle_counts() -> None:
     """A train that brakes was faster before, one that gains is faster after (P7)."""
     for from_mm_s, to_mm_s in ((20_000, 19_400), (19_400, 20_000)):
-        assert Reads().read(from_mm_s, to_mm_s, 2_000_000).fix.most_mm == FRONT_MM + 300 + 2_000
+        assert Reads().read(from_mm_s, to_mm_s, 2_040_000).fix.most_mm == FRONT_MM + 300 + 2_040
 
 
 def a_part_of_a_millimetre_counts_as_one() -> None:
@@ -91,10 +91,10 @@ def a_part_of_a_millimetre_counts_as_one() -> None:
 def a_train_that_rolls_back_was_farther_on() -> None:
     """By what it may have rolled since; and it did not run forward (T5, P7)."""
     for from_mm_s, to_mm_s in ((-500, -200), (-200, -500)):
-        read = Reads().read(from_mm_s, to_mm_s, -50_000)
-        assert read.fix == Fix(FRONT_MM - 300 - 50, FRONT_MM + 300)
+        read = Reads().read(from_mm_s, to_mm_s, -51_000)
+        assert read.fix == Fix(FRONT_MM - 300 - 51, FRONT_MM + 300)
         here_mm = read.front_nm // NM_A_MM
-        assert read.place == Way(True, here_mm - 1_000, here_mm + 1_000 + 50)
+        assert read.place == Way(True, here_mm - 1_000, here_mm + 1_000 + 51)
 
 
 def a_tag_may_be_read_as_the_cycle_ends() -> None:
@@ -133,10 +133,10 @@ def of_a_lost_range_nothing_is_promised() -> None:
 def what_nature_does_not_do_does_not_happen() -> None:
     """No range without its train, no leap, no tag out of its place, no read out of the window (P1, T1, T2)."""
     for refused in (
-        Reads().read(20_000, 20_000, 2_000_001),
+        Reads().read(20_000, 20_000, 2_040_001),
         Reads().read(20_000, 20_000, -1),
         Reads().read(-500, -500, 1),
-        Reads().read(-500, -500, -50_001),
+        Reads().read(-500, -500, -51_001),
         Reads().read(0, 0, 0, laid_um=43_001),
         Reads().read(0, 0, 0, laid_um=-43_001),
         Reads().read(0, 0, 0, off_um=257_001),
@@ -156,11 +156,11 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert Reads().step("read_a_tag", **event) != NOTHING
 
 
-def the_fastest_train_runs_twenty_metres_in_a_cycle() -> None:
-    """Either way, also at the far end of the line (P7)."""
+def the_fastest_train_runs_twenty_metres_and_a_half_in_a_cycle() -> None:
+    """Either way, to 20.4 m, also at the far end of the line (P7)."""
     fast = motion(10**9, 10**9, -200_000, 200_000)
     fix = machine.fix_of(LIMITS, fast, fast, 10**9)
-    assert fix == Fix(10**9 + 1_700 - 20_000, 10**9 + 2_300 + 20_000)
+    assert fix == Fix(10**9 + 1_700 - 20_400, 10**9 + 2_300 + 20_400)
 
 
 WITNESSES = (
@@ -173,5 +173,5 @@ WITNESSES = (
     a_train_that_has_lost_its_range_says_nothing_of_a_read,
     of_a_lost_range_nothing_is_promised,
     what_nature_does_not_do_does_not_happen,
-    the_fastest_train_runs_twenty_metres_in_a_cycle,
+    the_fastest_train_runs_twenty_metres_and_a_half_in_a_cycle,
 )

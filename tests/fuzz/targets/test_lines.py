@@ -26,8 +26,8 @@ LAYOUTS = Path(__file__).resolve().parents[3] / "layouts"
 STATION = LAYOUTS / "passing_station.toml"
 TARGET = Lines(STATION, trains=3, hours=0.1)
 TRUSTING = (
-    "kernel.onboard.odometry.agrees: and-operand magnitude(measured_mm_s2 - wheel_mm_s2(motion, readings))"
-    " < bounds.slip_mm_s2"
+    "kernel.onboard.odometry.agrees: and-operand gained_um_s"
+    " < least_in_a_cycle(readings.elapsed_ms, measured_mm_s2) + slip_um_s"
 )
 """A wheel that slips is trusted."""
 SLIPPERY = Lines(STATION, trains=3, hours=0.1, fault=TRUSTING)

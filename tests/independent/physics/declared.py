@@ -20,6 +20,8 @@ from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import LengthBounds
 
 CYCLE_MS = 100
+JITTER_MS = 2
+"""So much longer or shorter a cycle is at the most."""
 PULSE_MM = 45.03
 """60 pulses a turn of a wheel of 860 mm."""
 CREEP = 0.005
@@ -62,7 +64,7 @@ SENSORS = SensorBounds(
     inertial_mm_s2=360,
     gradient_mm_s2=350,
     gradient_rate_mm_s2=5,
-    slip_mm_s2=1_000,
+    slip_mm_s2=950,
     accelerates_mm_s2=1_500,
     brakes_mm_s2=1_700,
     agreement_cycles=20,

@@ -14,7 +14,7 @@ from random import Random
 
 from tests.independent.physics import bodies, declared, faults
 from tests.independent.physics.bodies import STEPS, Wheel, shown
-from tests.independent.physics.declared import ANTENNA_MM, CYCLE_MS, LAID_MM, READ_MM, TYPES, VEHICLE_MM
+from tests.independent.physics.declared import ANTENNA_MM, CYCLE_MS, JITTER_MS, LAID_MM, READ_MM, TYPES, VEHICLE_MM
 from tests.independent.physics.faults import Fault
 from tests.independent.physics.onboard import Host
 
@@ -84,6 +84,7 @@ class Ride:
         """Draw it."""
         self.rng = rng = Random(seed)
         self.style = style or rng.choices(STYLES, [each.often for each in STYLES])[0]
+        self.jitters = seed % 4 == 2
         self.type = rng.choice(TYPES)
         self.faults = faults.drawn(rng, self.style.whole_s, beyond)
         self.has = {fault.kind for fault in self.faults}
@@ -252,9 +253,10 @@ class Ride:
         host.decide(acknowledged=body.speed == 0)
         self.judge_window()
         jitter = self.fault(faults.JITTER)
-        lasts_ms = CYCLE_MS + (self.rng.uniform(-1, 1) * jitter.size if jitter else 0.0)
+        lawful_ms = self.out.counts["cycles"] * 7 % (2 * JITTER_MS + 1) - JITTER_MS if self.jitters else 0
+        lasts_ms = CYCLE_MS + (self.rng.uniform(-1, 1) * jitter.size if jitter else lawful_ms)
         elapsed_ms = round(lasts_ms)
-        if elapsed_ms != CYCLE_MS:
+        if abs(elapsed_ms - CYCLE_MS) > JITTER_MS:
             self.breaks(faults.JITTER)
         before, placed = body.speed, body.place_mm
         gravity = body.gravity()
