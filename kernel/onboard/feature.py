@@ -11,7 +11,7 @@ and v in mm/s, κ is 1000 ω / v; bands are compared with it after multiplicatio
 
 Ours: the three parts as check points, each met in at least one cycle; no fix below the feature's least
 speed, while the wheel slips, after the wheel has turned back, or on a reading out of range.  Ranges of
-readings: rates to 1000 rad/s, speeds to 200 m/s, ways to 10**9 mm; bands to 1 / m.
+readings: rates to 1000 rad/s, speeds to 200 m/s, ways to 10**12 mm; bands to 1 / m.
 """
 
 from __future__ import annotations

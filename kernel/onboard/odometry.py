@@ -1,15 +1,17 @@
 """Odometry: where the front of the train is, as a range, from tachometer and inertial sensor (P1, P7).
 
 While the wheel is trusted the range goes with the tachometer's pulses, counted from an anchor, so
-that its error grows with the way and never with time.  When the accelerations of inertial sensor and
+that it widens with the way and never with time.  When the accelerations of inertial sensor and
 tachometer differ, the wheel slips or slides: from the cycle before on, speed and way come from the
 inertial sensor within the line's steepest gradient, and the anchor goes along (paper 001, 2.1).
+Then it widens with time, by the range of speeds, which widens as well; so it does at each start, until
+the wheel has agreed for long enough.
 A fix narrows the range; one that lies outside it shows that a sensor is worse than its bound, and then
 no range is claimed any more.
 
 Speeds and pulses are signed: a train that rolls back is in its range as well.
 
-Ranges of readings: speeds to 200 m/s either way, ways to 10**9 mm and no farther in a cycle than at 200 m/s,
+Ranges of readings: speeds to 200 m/s either way, ways to 10**12 mm and no farther in a cycle than at 200 m/s,
 accelerations that the train can have on the steepest gradient; what is beyond is no reading.
 """
 
@@ -33,7 +35,8 @@ from kernel.onboard.arithmetic import (
 )
 
 MILLION = 1_000_000
-GREATEST_WAY_MM = 10**9
+GREATEST_WAY_MM = 10**12
+"""Pulses count so far either way since power-on, a million kilometres; times an error it fits into 64 bits (P1)."""
 GREATEST_STEP_MM = CYCLE_MS * GREATEST_SPEED_MM_S // 1000
 """So far pulses go in a cycle at most; a counter that jumps gives no reading (P1)."""
 
@@ -76,7 +79,8 @@ class Readings:
     ``elapsed_ms``: since the cycle before, by the processor's clock.
     ``tachometer_valid``, ``inertial_valid``: the sensor's own diagnosis, and that it gave a number at all.
     ``tachometer_mm_s``: speed of the wheel, below 0 if it turns back.
-    ``way_mm``: its pulses as a way, counted since power-on, fewer again if it turns back.
+    ``way_mm``: its pulses as a way, counted since power-on, fewer again if it turns back.  A host whose counter is
+    narrower goes on by its differences.
     ``inertial_mm_s2``: along the track, gravity included.
     """
 

@@ -122,7 +122,7 @@ def is_of_use(site: Registered, readings: Readings) -> bool:
         and readings.rolling
         and readings.front_least_mm >= site.feature.begin_mm
         and site.feature.speed_least_mm_s <= readings.speed_mm_s <= 200_000
-        and 0 <= readings.way_mm <= 1_000_000_000
+        and 0 <= readings.way_mm <= 1_000_000_000_000
         and -1_000_000_000 <= rate_urad_s(site, readings) <= 1_000_000_000
     )
 

@@ -14,8 +14,8 @@ UM_A_MM = 1_000
 PPM = 1_000_000
 NO_SPEED_MM_S = 200_000
 """A reading beyond 200 m/s, or of pulses that go on as fast, is a gross fault and no measurement (ours)."""
-NO_PLACE_MM = 10**9
-"""Nor is a count of pulses beyond 1000 km (ours)."""
+NO_PLACE_MM = 10**12
+"""Nor is a count of pulses beyond a million kilometres (ours)."""
 
 
 def larger(one: int, other: int) -> int:

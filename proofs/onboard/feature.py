@@ -45,8 +45,8 @@ def a_feature_gives_one_fix(site: Registered, system: Looking) -> bool:
 
 
 def ways_fit_the_processor(site: Registered, system: Looking) -> bool:
-    """Every way that is kept was a reading in range, up to 1,000 km (P3)."""
-    return 0 <= system.state.from_mm <= 1_000_000_000 and 0 <= system.state.way_mm <= 1_000_000_000
+    """Every way that is kept was a reading in range, up to a million kilometres (P3)."""
+    return 0 <= system.state.from_mm <= 1_000_000_000_000 and 0 <= system.state.way_mm <= 1_000_000_000_000
 
 
 # ---- what it follows from

@@ -42,7 +42,7 @@ def told(way_mm: int, rate_urad_s: int, speed_mm_s: int = 20_000, rolling: bool 
 
 def no_fix_but_from_the_exit_straight(way_mm: int, rate_urad_s: int) -> None:
     """In the third part of the curve, whatever is read, there is none yet (P3)."""
-    assert 0 <= way_mm <= 10**9
+    assert 0 <= way_mm <= 10**12
     state = note_cycle(BOUNDS, CURVE, Detection(Progress.THIRD_PART, 1_000, 0, 0, 0), told(way_mm, rate_urad_s))
     assert not has_fix(state)
 

@@ -25,6 +25,6 @@ def what_was_found_stays(way_mm: int, valid: bool) -> None:
 
 def the_first_reading_finds_nothing(way_mm: int) -> None:
     """Wherever counting began (T8)."""
-    assert -(10**9) <= way_mm <= 10**9
+    assert -(10**12) <= way_mm <= 10**12
     after = note_cycle(LIMITS, LOCATED, Readings(100, True, 0, way_mm, True, 0))
     assert after == Movement(way_mm, False)

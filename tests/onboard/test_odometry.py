@@ -90,7 +90,7 @@ class World:
 
     def disturbed(self, readings: Readings) -> Readings:
         """Sensors fall silent or wild, or repeat themselves."""
-        wild = self.chance.choice((0, -1, HUGE, -HUGE, 200_001, 100_001, 10**9 + 1))
+        wild = self.chance.choice((0, -1, HUGE, -HUGE, 200_001, 100_001, 10**12 + 1))
         return self.chance.choice(
             (
                 replace(readings, tachometer_valid=False, tachometer_mm_s=wild, way_mm=wild),
@@ -301,7 +301,7 @@ def test_every_number_fits_into_64_bits(bounds: SensorBounds, trusted: bool) -> 
     """At the corners of the declared ranges, with far wider places and bounds than any line has."""
     checked = with_ints(Checked, bounds)
     edges = (-FAR_MM, FAR_MM)
-    for least_mm, speed, way_mm, gradient in product(edges, (0, 400_000), (0, 10**9), (-100_000, 100_000)):
+    for least_mm, speed, way_mm, gradient in product(edges, (0, 400_000), (0, 10**12), (-100_000, 100_000)):
         motion = replace(
             machine.located(least_mm, FAR_MM, 0),
             speed_least_mm_s=speed,
@@ -310,7 +310,7 @@ def test_every_number_fits_into_64_bits(bounds: SensorBounds, trusted: bool) -> 
             gradient_mm_s2=gradient,
             trusted=trusted,
         )
-        for shown, inertial, since_mm in product((-200_000, 0, 200_000), (-100_000, 0, 100_000), (way_mm, 10**9)):
+        for shown, inertial, since_mm in product((-200_000, 0, 200_000), (-100_000, 0, 100_000), (way_mm, 10**12)):
             readings = Readings(100, True, shown, since_mm, True, inertial)
             after = machine.note_cycle(checked, with_ints(Checked, motion), with_ints(Checked, readings))
             assert after == machine.note_cycle(bounds, motion, readings)

@@ -41,11 +41,11 @@ def test_it_is_found_when_the_way_back_passes_the_limit_and_not_before(steps: li
 
 @given(st.integers(LEAST, GREATEST), st.integers(LEAST, GREATEST), st.booleans())
 def test_any_reading_is_answered_within_64_bits(way_mm: int, speed_mm_s: int, valid: bool) -> None:
-    limits, movement = with_ints(Checked, ReverseLimits(10**9)), with_ints(Checked, machine.LOCATED)
+    limits, movement = with_ints(Checked, ReverseLimits(10**12)), with_ints(Checked, machine.LOCATED)
     readings = with_ints(Checked, Readings(100, valid, speed_mm_s, way_mm, True, 0))
     after = machine.note_cycle(limits, movement, readings)
     assert not after.reversed
-    assert -(10**9) <= after.furthest_mm <= 10**9
+    assert -(10**12) <= after.furthest_mm <= 10**12
 
 
 def test_a_broken_machine_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -397,7 +397,7 @@ def a_reading_out_of_range_is_none() -> None:
     wild: tuple[dict[str, Any], ...] = (
         {"yaw_urad_s": 1_000_000_001},
         {"yaw_urad_s": -1_000_000_001},
-        {"way_mm": 1_000_000_001},
+        {"way_mm": 1_000_000_000_001},
     )
     for told in wild:
         train = Train(site)
@@ -415,7 +415,7 @@ def a_reading_out_of_range_is_none() -> None:
     assert train.system.cycle == 1
     assert train.system.runs == NO_RUNS
     assert not machine.is_usable(CURVE, below)
-    for way_mm in (0, 1_000_000_000):
+    for way_mm in (0, 1_000_000_000_000):
         train = Train(site)
         edge = replace(train.readings(STRAIGHT), front_least_mm=100_000, way_mm=way_mm)
         train.step("run_a_cycle", front_um=0, readings=edge)

@@ -18,8 +18,8 @@ def what_is_no_reading_of_the_tachometer_moves_nothing() -> None:
         {"tachometer_valid": False},
         {"tachometer": 200_001},
         {"tachometer": -200_001},
-        {"way_mm": 10**9 + 1},
-        {"way_mm": -(10**9) - 1},
+        {"way_mm": 10**12 + 1},
+        {"way_mm": -(10**12) - 1},
         {"tachometer": 20_000, "way_mm": 205_000, "sticks": True},
     )
     for what in silent:
@@ -84,15 +84,15 @@ def a_silent_tachometer_does_not_agree() -> None:
 
 
 def the_edges_of_the_ranges_are_readings() -> None:
-    """200 m/s and 10**9 mm either way are, and the same way as before at rest (P1)."""
+    """200 m/s and 10**12 mm either way are, and the same way as before at rest (P1)."""
     motion = rolling(20_000).motion
     for sign in (1, -1):
-        far = replace(motion, way_mm=sign * 10**9)
-        assert machine.tachometer_speaks(BOUNDS, far, Readings(100, True, 0, sign * 10**9, True, 0))
-        near = replace(motion, way_mm=sign * (10**9 - 1))
-        assert machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_000, sign * 10**9, True, 0))
-        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_001, sign * 10**9, True, 0))
-        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, 0, sign * (10**9 + 1), True, 0))
+        far = replace(motion, way_mm=sign * 10**12)
+        assert machine.tachometer_speaks(BOUNDS, far, Readings(100, True, 0, sign * 10**12, True, 0))
+        near = replace(motion, way_mm=sign * (10**12 - 1))
+        assert machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_000, sign * 10**12, True, 0))
+        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, sign * 200_001, sign * 10**12, True, 0))
+        assert not machine.tachometer_speaks(BOUNDS, near, Readings(100, True, 0, sign * (10**12 + 1), True, 0))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_600))
     assert machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, -2_200))
     assert not machine.inertial_speaks(BOUNDS, Readings(100, True, 0, 0, True, 1_601))
