@@ -15,7 +15,7 @@ from models.onboard.odometry import (
     take_fix,
     the_length_used_is_no_less,
 )
-from models.onboard.units import NM_A_MM, magnitude
+from models.onboard.units import NM_A_MM, PPM, magnitude
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -65,6 +65,20 @@ def speed_range_contains_speed(site: Line, system: Running) -> bool:
 def a_contradicted_range_is_claimed_no_more(site: Line, system: Running) -> bool:
     """Since a fix lay wholly outside the range none is claimed, until the train is located anew at rest (P7)."""
     return not system.contradicted or system.motion.loss != Loss.NONE
+
+
+def a_trusted_wheels_range_grows_with_way_alone(site: Line, system: Running) -> bool:
+    """Since the wheel was trusted, or a fix came, it has widened by twice creep, diameter and a pulse, and a mm (P1).
+
+    However long that is ago: at rest it stays as it is.
+    """
+    now, since_mm = system.motion, system.motion.way_mm - system.motion.anchor_way_mm
+    widened_mm = now.front_most_mm - now.front_least_mm - (now.anchor_most_mm - now.anchor_least_mm)
+    return (
+        now.loss != Loss.NONE
+        or not now.trusted
+        or PPM * widened_mm <= 2 * (site.bounds.scale_ppm * magnitude(since_mm) + PPM * (site.bounds.pulse_mm + 1))
+    )
 
 
 # ---- what they rest on
@@ -138,7 +152,12 @@ def the_gradient_estimate_is_no_steeper_than_the_line(site: Line, system: Runnin
 
 
 INITIAL = (the_train_stands_where_it_is_located,)
-SAFETY = (range_contains_train, speed_range_contains_speed, a_contradicted_range_is_claimed_no_more)
+SAFETY = (
+    range_contains_train,
+    speed_range_contains_speed,
+    a_contradicted_range_is_claimed_no_more,
+    a_trusted_wheels_range_grows_with_way_alone,
+)
 INVARIANTS = (
     *SAFETY,
     range_contains_front,
