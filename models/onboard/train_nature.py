@@ -20,7 +20,7 @@ from models.onboard.odometry import Line, Running
 from models.onboard.speed_limit import Passage, Profile
 from models.onboard.tag_fix import Antenna
 from models.onboard.tag_window import Expecting, Stretch
-from models.onboard.units import MS_A_CYCLE, NM_A_MM, UM_A_MM
+from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM
 
 
 @dataclass(frozen=True)
@@ -170,8 +170,8 @@ def way_nm(system: Whole, front_nm: int) -> int:
 
 
 def fastest_cycle_nm(site: Train) -> int:
-    """Give how far a train runs within a cycle at twice the speed of its line (T12)."""
-    return 2 * MS_A_CYCLE * UM_A_MM * site.limits.train.speeds.line_mm_s
+    """Give how far a train runs within the longest cycle at twice the speed of its line (T12)."""
+    return 2 * LONGEST_MS * UM_A_MM * site.limits.train.speeds.line_mm_s
 
 
 def tail_comes_over(site: Train, system: Whole) -> bool:
