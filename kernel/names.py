@@ -2,7 +2,7 @@
 
 Identifiers are opaque: two of them are equal or not.  Only the numbered ones
 (``Serial``, ``UnitLife``, ``TerminalLife``, ``Epoch``) are ordered as well; the kernel
-compares them and never calculates with them.
+compares them; where a machine begins a life or numbers a run (`kernel.machine`) it takes the next one.
 """
 
 from __future__ import annotations

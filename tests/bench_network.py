@@ -9,13 +9,22 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
-from kernel import recovery, release, route_setting
 from kernel.centre import Centre
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Epoch, Read, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.machine import centre as centre_machine
+from kernel.machine.messages import (
+    Confirmation,
+    Echo,
+    Request,
+    Standing,
+    Stopped,
+    TailReport,
+    Tick,
+    ToCentre,
+)
+from kernel.names import Block, Read, Route, Run, Tag, Train, UnitLife
 from models.host.maps import hosted
 from models.layouts import load
 from models.layouts.generate import generate
@@ -25,9 +34,6 @@ ROOT = Path(__file__).resolve().parents[1]
 SHARED = Path(os.environ.get("HEISOKU_LAYOUTS", ROOT.parent / "shared" / "layouts"))
 ROUTES = 100_000
 RUNS = 1_500
-FOUND = 3_000
-"""Lost blocks that are found again one by one, each timed; the others untimed."""
-
 Step = Callable[[Centre], Centre]
 
 
@@ -70,15 +76,13 @@ class Day:
         self.trains = [Train(f"T{number}") for number in range(trains)]
         layout = replace(network.layout, fleet=frozenset(self.trains))
         self.layout, self.lives, self.stands = layout, dict.fromkeys(self.trains, 0), dict[Train, Run]()
-        self.centre = self.host(
-            Centre(Epoch(1), Serial(0), {}, {}, {}, {}, layout.blocks, layout.points, {}, frozenset(), {})
-        )
+        self.centre = self.host(centre_machine.start(layout, centre_machine.NEVER_STARTED))
 
-    def step(self, name: str, step: Step) -> bool:
-        """Take a step and its time; tell whether it changed anything."""
+    def tell(self, told: ToCentre) -> bool:
+        """Tell the centre something, and take its time; tell whether that changed anything."""
         before, began = self.centre, time.perf_counter_ns()
-        self.centre = self.host(step(before))
-        self.spent_us[name].append((time.perf_counter_ns() - began) / 1000)
+        self.centre = self.host(centre_machine.answer(self.layout, self.network.records, before, told))
+        self.spent_us[type(told).__name__].append((time.perf_counter_ns() - began) / 1000)
         return self.centre is not before
 
     def stand(self, train: Train) -> None:
@@ -90,23 +94,9 @@ class Day:
                 break
         self.lives[train] += 1
         life = UnitLife(self.lives[train])
-        run = Run(Serial(self.centre.newest + 1), train, life, Route("stands"))
-        assert self.step(
-            "note_standing",
-            lambda centre: recovery.note_standing(self.layout, centre, train, life, Epoch(1), frozenset({block}), run),
-        )
+        run = centre_machine.next_run(self.centre, train, life, centre_machine.NO_ROUTE)
+        assert self.tell(Standing(train, life, self.centre.epoch, frozenset({block})))
         self.stands[train] = run
-
-    def find(self) -> None:
-        """Every lost block and point is found again."""
-        for number, block in enumerate(sorted(self.layout.blocks)):
-            find = partial(recovery.recover_block, self.layout, block=block)
-            if number < FOUND:
-                assert self.step("recover_block", find)
-            else:
-                self.centre = find(self.centre)
-        for point in sorted(self.layout.points):
-            self.centre = recovery.recover_point(self.layout, self.centre, point)
 
     def run(self, train: Train) -> bool:
         """A train runs one route from where it stands; false if none can be set."""
@@ -114,35 +104,30 @@ class Day:
         here = [block for block, holders in self.centre.claimed.items() if base in holders]
         routes = [route for block in here for route in self.network.from_block.get(block, ())]
         for route in self.random.sample(routes, min(3, len(routes))):
-            run = Run(Serial(self.centre.newest + 1), train, base.life, route)
-            if self.step("request", partial(route_setting.request, self.layout, run=run, base=base)):
+            run = centre_machine.next_run(self.centre, train, base.life, route)
+            if self.tell(Request(run, base)):
                 self.ride(run, base)
                 return True
         return False
 
     def ride(self, run: Run, base: Run) -> None:
         """The run from its first loop to the word that the train stands in its destination."""
-        layout, records = self.layout, self.network.records
-        for point, lies in sorted(layout.needs[run.route].items()):
-            self.step(
-                "note_confirmation",
-                partial(route_setting.note_confirmation, layout, run=run, point=point, position=lies),
-            )
-        assert self.step("open_first_loop", partial(route_setting.open_first_loop, layout, run=run))
-        assert self.step("note_echo", partial(route_setting.note_echo, run=run))
+        for point, lies in sorted(self.layout.needs[run.route].items()):
+            self.tell(Confirmation(run, point, lies))
+        self.tell(Tick())
+        assert self.tell(Echo(run, self.layout.tag_list[run.route]))
         for block, left, entered in self.network.left_by(run.route):
             for of in (base, run):
-                told = partial(release.release, layout, records, run=of, block=block, left=left, entered=entered)
-                self.step("release", told)
-        self.step("release_overlap", partial(release.release_overlap, layout, run=run))
-        self.step("retire", partial(release.retire, run=base))
+                self.tell(TailReport(of, block, left, entered))
+        self.tell(Stopped(run))
+        self.tell(Tick())
         self.stands[run.train] = run
 
     def live(self, runs: int) -> int:
         """So many runs, the trains in turn; a train for which no route can be set tells anew where it stands."""
         for train in self.trains:
             self.stand(train)
-        self.find()
+        assert self.tell(Tick())
         done = 0
         while done < runs:
             train = self.random.choice(self.trains)

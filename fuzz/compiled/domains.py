@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Run
-from models.simulator.messages import NO_ROUTE
 from models.world.state import Formation, Site
 from proofs.lift.kinds import (
     Kind,

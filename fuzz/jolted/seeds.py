@@ -9,10 +9,10 @@ from random import Random
 from typing import Any
 
 from fuzz.machines.places import over_points
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Run, Serial, UnitLife
 from models.layouts import Imported
 from models.simulator.journey import Chances
-from models.simulator.messages import NO_ROUTE
 from models.simulator.play import berths, site_of, two_cars_each
 from models.simulator.traffic import Traffic, Troubles, traffic_at
 from models.world.state import Site, System

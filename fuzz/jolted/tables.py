@@ -26,7 +26,7 @@ from fuzz.jolted.leaves import (
     type_of,
 )
 from fuzz.machines.plausible import MESSAGES
-from models.simulator.messages import NO_ROUTE
+from kernel.machine.centre import NO_ROUTE
 from proofs.lift.kinds import Scalar
 from proofs.transitions import TRANSITIONS, event_types
 

@@ -7,8 +7,8 @@ from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Run
-from models.simulator.messages import NO_ROUTE
 from models.world.start import start
 from models.world.state import Site, System
 

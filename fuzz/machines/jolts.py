@@ -19,8 +19,8 @@ from fuzz.machines.plausible import UNREAD
 from fuzz.machines.strange import VALUES, Pick, strange
 from fuzz.machines.watched import Broken, Place, judged
 from kernel.layout import Layout
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Record, Route, Serial
-from models.simulator.messages import NO_ROUTE
 from models.world.state import Site, System
 from proofs.catalogue import AXIOMS, PREMISES
 from proofs.lift.kinds import Kind, MapKind, OptionKind, RecordKind, Scalar, SetKind, TupleKind, fields_of, kind_of_type

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Epoch, Read, Record, Route, Run, Serial, Stage, Tag, TerminalLife, Train, UnitLife
-from models.simulator.messages import NO_ROUTE
 from models.simulator.senses import AT_REST, BROKEN, INSIDE, NOT_HELD, WHOLE
 from models.world.state import Site, System
 

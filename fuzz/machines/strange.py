@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, get_args, get_origin
 
 from fuzz.machines.plausible import FOREIGN, UNREAD, plausible, stands_in
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import (
     Block,
     Cab,
@@ -24,7 +25,6 @@ from kernel.names import (
     UnitLife,
 )
 from kernel.standstill import Standstill, ThroughLine
-from models.simulator.messages import NO_ROUTE
 from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, ROLLING, WHOLE
 from models.world.state import Site, System
 from proofs.catalogue import STEPS

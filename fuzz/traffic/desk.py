@@ -16,9 +16,9 @@ from fuzz.traffic.distributions import QUANTILES, WHOLE
 from fuzz.traffic.driver import BY_SECOND, IS_BEYOND
 from fuzz.traffic.faults import FAULTS
 from fuzz.traffic.steps import LOG_HEAD, PAIR_BITS, REGISTER_BITS, STAGES
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Position, Route, Run, Serial, Train, UnitLife
 from kernel.refusal import Refusal
-from models.simulator.messages import NO_ROUTE
 from models.world.state import Site
 
 Ints = npt.NDArray[np.int64]

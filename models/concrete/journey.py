@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from random import Random
 
+from kernel.machine.messages import Request, Tick, Withdrawal
 from kernel.names import Block, Car, Route, Run, Train
 from models.concrete.drive import Drive
 from models.concrete.rails import Piece, Rails
 from models.concrete.train import CAR_MM, OnRails
 from models.layouts.results import Imported
 from models.simulator import messages
+from models.simulator.machines import next_run, tell_centre
 from models.simulator.play import begin, site_of
 
 MARGIN_MM = 4_000
@@ -29,7 +31,7 @@ def place(
         heading = rails.start_of(where[name])
         length, train_mm = rails.length_mm(heading), CAR_MM * len(cars)
         front = random.randint(train_mm + 1, length - 1)
-        facing = messages.next_run(play, name, eastward)
+        facing = next_run(play, name, eastward)
         order = list(cars) if site.formation.last[facing] == cars[-1] else list(reversed(cars))
         trains.append(OnRails(name, order, [Piece(heading, 0, length)], front, random))
     return Drive(play, rails, trains, random)
@@ -47,9 +49,8 @@ class Journeys:
         """Every train that has no run tells where it stands; what is lost is found again."""
         for train in self.drive.trains:
             if self.base[train.name] is None:
-                self.base[train.name] = messages.tell(self.drive.play, train.name)
-                messages.retire_what_is_over(self.drive.play, train.name)
-        messages.recover(self.drive.play)
+                self.base[train.name] = messages.tell(self.drive.play, train.name, self.random)
+        tell_centre(self.drive.play, Tick())
 
     def go(self, train: OnRails) -> bool:
         """One route for a train, if there is one for it now; tell whether it ran."""
@@ -58,9 +59,9 @@ class Journeys:
         routes = self.routes(train)
         self.random.shuffle(routes)
         for route in routes:
-            run = messages.next_run(play, train.name, route)
+            run = next_run(play, train.name, route)
             assert base is not None
-            if play.take("request", run=run, base=base):
+            if tell_centre(play, Request(run, base)):
                 return self.set_and_run(train, run)
         return False
 
@@ -91,13 +92,11 @@ class Journeys:
         """The route is set, the train turns if it must, and drives."""
         play = self.drive.play
         for _ in range(20):
-            for point in sorted(play.site.layout.needs[run.route]):
-                if point not in play.system.centre.runs[run].proved:
-                    messages.lay(play, run, point, self.random, 0.1)
-            if messages.close_loop(play, run, self.random, 0.1):
+            messages.converse(play, train.name, self.random, 0.1)
+            if messages.is_permitted(play, run):
                 break
         else:
-            play.take("withdraw", run=run)
+            tell_centre(play, Withdrawal(run))
             return False
         if not self.faces(train, run):
             train.turn()
@@ -121,7 +120,7 @@ class Journeys:
             if self.random.random() < 0.05 and not play.system.units[train.name].loop_open:
                 self.stops_on_the_way(train, run)
             if self.random.random() < 0.2:
-                messages.report(play, train.name, self.random, 0.1)
+                messages.converse(play, train.name, self.random, 0.1)
         if play.system.units[train.name].loop_open:
             self.brakes(train, run)
             return
@@ -165,13 +164,12 @@ class Journeys:
         """At rest in the destination: the overlap is freed, what was left is reported."""
         play = self.drive.play
         self.rest(train)
-        messages.stop(play, run)
+        messages.stop(play, run, self.random)
         for _ in range(3):
-            messages.report(play, train.name, self.random, 0.1)
+            messages.converse(play, train.name, self.random, 0.1)
         self.base[train.name] = run
         held = {b for b, runs in play.system.centre.claimed.items() if any(r.train == train.name for r in runs)}
         under = {b for blocks in train.blocks(self.drive.rails).values() for b in blocks}
-        messages.retire_what_is_over(play, train.name)
         self.drive.seen["arrivals"] += 1
         if held - under and self.random.random() < 0.7:
             self.base[train.name] = None

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from random import Random
 
-from kernel.names import Point, Run, TerminalLife
+from kernel.machine.messages import PointOrder, Tick
+from kernel.names import Point
 from models.simulation.agenda import Agenda
 from models.simulation.faults import Chosen, happens
+from models.simulator.machines import contacts, motor_runs_to, tell_terminal
 from models.simulator.play import Play
 
 LEAST_MS, MOST_MS = 3_000, 6_000
@@ -30,16 +32,14 @@ class Motors:
         """A point does not move for so long."""
         self._stuck_until_ms[point] = self.agenda.now_ms + ms
 
-    def obey(self, run: Run, point: Point, life: TerminalLife) -> None:
+    def obey(self, order: PointOrder) -> None:
         """An order arrives at the terminal; it throws the point if it has to."""
         is_detected = not happens("point_undetected", self.chosen, self.random, self.seen)
-        event = {"run": run, "point": point, "life": life, "detected": self.play.system.track.lies[point]}
-        self.play.take("obey_order", **event, is_detected=is_detected)
-        self._throw(point)
+        tell_terminal(self.play, order.point, order, contacts(self.play, order.point, is_detected))
+        self._throw(order.point)
 
     def _throw(self, point: Point) -> None:
-        terminal = self.play.system.terminals[point]
-        if not terminal.unlocked or terminal.wanted is None or point in self._thrown:
+        if motor_runs_to(self.play, point) is None or point in self._thrown:
             return
         stuck_ms = max(0, self._stuck_until_ms.get(point, 0) - self.agenda.now_ms)
         self._thrown.add(point)
@@ -48,8 +48,8 @@ class Motors:
     def _arrives(self, point: Point) -> None:
         """The motor has run: the point lies as wanted, if anything still is."""
         self._thrown.discard(point)
-        wanted = self.play.system.terminals[point].wanted
-        if wanted is None or not self.play.system.terminals[point].unlocked:
+        wanted = motor_runs_to(self.play, point)
+        if wanted is None:
             return
         self.play.take("drift", point=point, position=wanted)
-        self.play.take("lock", point=point, detected=self.play.system.track.lies[point], is_detected=True)
+        tell_terminal(self.play, point, Tick(), contacts(self.play, point))

@@ -7,8 +7,8 @@ is in none any more, that nothing is to be held for it (T8).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from random import Random
 
-from kernel.names import UnitLife
 from models.simulation.diary import STAFF, Diary
 from models.simulation.vehicle import Line, Vehicle
 from models.simulator import messages
@@ -25,15 +25,11 @@ class Parted:
     line: Line
     diary: Diary
 
-    def state(self) -> None:
+    def state(self, random: Random) -> None:
         """Two persons state in which blocks the cars are; the unit is isolated, so no authority reaches it (T8)."""
-        play, train = self.line.play, self.vehicle.on_rails.name
-        unit = play.system.units[train]
-        play.take("send_challenge", epoch=play.system.centre.epoch)
-        messages.state(play, train, UnitLife(unit.life + 1))
-        messages.retire_what_is_over(play, train)
+        messages.state(self.line.play, self.vehicle.on_rails.name, random)
 
-    def take_off(self) -> None:
+    def take_off(self, random: Random) -> None:
         """Its cars are taken off the rails where they stand; the blocks are free once it has been stated anew."""
         play, rails = self.line.play, self.vehicle.on_rails
         for car in (*rails.cars, *rails.standing):
@@ -41,4 +37,4 @@ class Parted:
                 play.take("car_leaves", car=car, block=block)
         self.line.trains.remove(rails)
         self.diary.note(STAFF, rails.name, "is taken off the line")
-        self.state()
+        self.state(random)

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from random import Random
 
 from kernel.authority import may_proceed
-from kernel.names import Block, Route, Run, Stage, Train, UnitLife
+from kernel.machine.messages import Cancellation, Request, Withdrawal
+from kernel.names import Block, Route, Run, Stage, Train
 from kernel.route_setting import request_refusal
 from models.simulation.ahead import ahead, follows_the_way
 from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
@@ -25,7 +26,7 @@ from models.simulation.talking import Talk
 from models.simulation.timetable import Trip, Ways
 from models.simulation.vehicle import SETTLES_CYCLES, Line, Vehicle
 from models.simulation.waiting import Barred, barred
-from models.simulator import messages
+from models.simulator.machines import next_run, restart_unit, tell_centre
 
 ASKS_AHEAD_MM = 3_000_000
 STAYS_S, AGAIN_S, PATIENCE_S, STAFF_S = (30, 90), 10, 240, (300, 900)
@@ -163,11 +164,10 @@ class Service:
         if told is not None and told in unit.orders and unit.life > self.life_before:
             vehicle.restarted = False
             self.base, self.run, self.onward = told, None, None
-            messages.retire_what_is_over(self.play, self.train)
             self.staff.locates("is told under which run it stands")
             self.become(Phase.STANDS, 5)
         elif unit.answered == self.play.system.centre.epoch and unit.life == self.life_before:
-            self.play.take("restart_unit", train=self.train, life=UnitLife(unit.life + 1))
+            restart_unit(self.play, self.train)
 
     # ---- standing, asking
 
@@ -279,11 +279,11 @@ class Service:
         layout, refused = self.play.site.layout, list[Barred]()
         self.no_way = not routes and what == "run"
         for route in routes:
-            run = messages.next_run(self.play, self.train, route)
+            run = next_run(self.play, self.train, route)
             refusal = request_refusal(layout, self.play.system.centre, run, base)
             if refusal is None and not self.office.foresight.lets(self.office.board(), self.train, route):
                 continue
-            if refusal is None and self.play.take("request", run=run, base=base):
+            if refusal is None and tell_centre(self.play, Request(run, base)):
                 self.office.orders.note(run, self.vehicle.on_rails, what == "onward" or self._leads(route))
                 setattr(self, what, run)
                 if what == "run":
@@ -319,7 +319,7 @@ class Service:
     def _gives_up(self, run: Run, stage: Stage) -> None:
         """The signaller takes a route back that does not come about."""
         self.since_s = self.now_s
-        self.play.take("withdraw" if stage == Stage.RESERVED else "cancel", run=run)
+        tell_centre(self.play, Withdrawal(run) if stage == Stage.RESERVED else Cancellation(run))
 
     def _departs(self, run: Run) -> None:
         vehicle, board = self.vehicle, self.vehicle.board
@@ -462,7 +462,6 @@ class Service:
         self._rests()
         self._tells_that_it_stands(run)
         self.base, self.run = run, None
-        messages.retire_what_is_over(self.play, self.train)
         self.become(Phase.STANDS, self.random.randint(*STAYS_S))
 
     def _tells_that_it_stands(self, run: Run) -> None:
@@ -479,7 +478,7 @@ class Service:
         """Two persons come and state where all of it stands (T8)."""
         if self.now_s >= self.ready_s and self.vehicle.stands:
             self._rests()
-            self.parted.state()
+            self.parted.state(self.random)
             self.base = self.run = self.onward = None
             if self.under:
                 self.become(Phase.STATED, self.random.randint(*TAKEN_OFF_S))
@@ -491,5 +490,5 @@ class Service:
         if self.train not in self.play.system.centre.accounted:
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
         elif self.phase is Phase.STATED and self.now_s >= self.ready_s:
-            self.parted.take_off()
+            self.parted.take_off(self.random)
             self.become(Phase.OFF)

@@ -8,7 +8,8 @@ from random import Random
 from typing import Any
 
 from kernel.link import Party
-from kernel.names import Block, Car, Epoch, Point, Run, Stage, TerminalLife, Train, UnitLife
+from kernel.machine.messages import Cancellation, Tick
+from kernel.names import Block, Car, Point, Run, Stage, Train
 from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.standstill import Standstill, ThroughLine
 from models.concrete.drive import NatureRefusedError
@@ -38,7 +39,7 @@ from models.simulation.timetable import Ways
 from models.simulation.vehicle import Line, Vehicle
 from models.simulation.waiting import Waits, deadlocked
 from models.simulation.wording import RANGING, Fields, Wording
-from models.simulator import messages
+from models.simulator.machines import restart_centre, restart_terminal, restart_unit, tell_centre
 from models.simulator.play import Watcher, begin, site_of
 from models.world.state import System
 
@@ -157,7 +158,7 @@ class Simulation:
         self._set_clock(begins_ms)
         self.agenda.go_to(begins_ms)
         self._goes_wrong(begins_ms)
-        self._recovers()
+        tell_centre(self.play, Tick())
         for place, (train, service) in enumerate(self.services.items()):
             service.second(self.now_s)
             if (self.now_s + place) % TALKS_S == 0:
@@ -179,13 +180,6 @@ class Simulation:
             self.oracles.judged_on_board(ran.cycles - 1, ran.located)
             self.oracles.on_board(vehicle.on_rails.name, vehicle)
             left -= ran.cycles
-
-    def _recovers(self) -> None:
-        """What is lost and can be found again is; runs that hold nothing are forgotten."""
-        centre = self.play.system.centre
-        lost = centre.lost_blocks or centre.lost_points
-        if lost and all(train in centre.accounted for train in self.play.site.layout.fleet):
-            messages.recover(self.play)
 
     # ---- what goes wrong
 
@@ -233,19 +227,16 @@ class Simulation:
         service = self.services[train]
         if service.phase in HAS_PARTED:
             return False
-        self.play.take("restart_unit", train=train, life=UnitLife(self.play.system.units[train].life + 1))
+        restart_unit(self.play, train)
         self.vehicles[train].restarted = True
         service.lose_way("has lost its authority and brakes")
         return True
 
     def _centre_restart(self, each: Occurrence) -> bool:
-        self.play.take("restart_centre", epoch=Epoch(self.play.system.centre.epoch + 1))
-        return True
+        return restart_centre(self.play)
 
     def _terminal_restart(self, each: Occurrence) -> bool:
-        point = Point(each.who)
-        life = TerminalLife(self.play.system.terminals[point].life + 1)
-        return self.play.take("restart_terminal", point=point, life=life)
+        return restart_terminal(self.play, Point(each.who))
 
     def _point_stuck(self, each: Occurrence) -> bool:
         self.motors.stick(Point(each.who), each.lasts_ms)
@@ -273,7 +264,7 @@ class Simulation:
         grant = None if run is None else self.play.system.centre.runs.get(run)
         if run is None or grant is None or grant.stage not in (Stage.OFFERED, Stage.SET):
             return False
-        return self.play.take("cancel", run=run)
+        return tell_centre(self.play, Cancellation(run))
 
     # ---- what it has come to
 

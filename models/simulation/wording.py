@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from typing import Any, NamedTuple
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Position, Read, Record, Run, Serial, UnitLife
 from kernel.telegram import Said
-from models.simulator.messages import NO_ROUTE
 from models.world.state import Radio, Site
 
 SERIAL_BYTES, SIGNED_BYTES, NUMBER_BYTES, LENGTH_BYTES, TEXT_LENGTH_BYTES = 8, 8, 4, 1, 2
@@ -26,12 +26,13 @@ class Kind(NamedTuple):
 
 LIFE_SIGN, RANGING = "life sign", "ranging"
 OF_A_POINT = ("run", "point", "life")
+OF_AN_ORDER = ("run", "point", "position", "life")
 OF_A_LIST = ("run", "part", "parts", "text")
 KINDS: Mapping[str, Kind] = {
     LIFE_SIGN: Kind((), ""),
     RANGING: Kind(("at_ms", "way_mm", "speed_mm_s", "is_coming"), ""),
-    "order": Kind(OF_A_POINT, "orders"),
-    "relayed order": Kind(OF_A_POINT, "relayed_orders"),
+    "order": Kind(OF_AN_ORDER, "orders"),
+    "relayed order": Kind(OF_AN_ORDER, "relayed_orders"),
     "enquiry": Kind(OF_A_POINT, "enquiries"),
     "relayed enquiry": Kind(OF_A_POINT, "relayed_enquiries"),
     "confirmation": Kind(("run", "point", "position"), "confirmed"),
@@ -58,7 +59,10 @@ Fields = Mapping[str, Any]
 
 
 def was_sent(radio: Radio, kind: str, fields: Fields) -> bool:
-    """Tell whether a message is among those that the abstract world has sent; where it has no such kind, it is."""
+    """Tell whether a message is among those that the abstract world has sent; where it has no such kind, it is.
+
+    There an order wants the position that its route needs.
+    """
     if not KINDS[kind].sent_in:
         return True
     if kind == "standing":
@@ -67,7 +71,8 @@ def was_sent(radio: Radio, kind: str, fields: Fields) -> bool:
     sent: Set[Any] = getattr(radio, KINDS[kind].sent_in)
     if KINDS[kind].fields == OF_A_LIST:
         return fields["run"] in sent
-    said = tuple(fields[name] for name in KINDS[kind].fields)
+    names = KINDS[kind].fields
+    said = tuple(fields[name] for name in (OF_A_POINT if names == OF_AN_ORDER else names))
     return (said[0] if len(said) == 1 else said) in sent
 
 

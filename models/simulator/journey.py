@@ -6,8 +6,10 @@ from dataclasses import dataclass, field
 from enum import Enum
 from random import Random
 
+from kernel.machine.messages import Cancellation, Request, Withdrawal
 from kernel.names import Block, Route, Run, Stage
 from models.simulator import messages
+from models.simulator.machines import next_run, tell_centre
 from models.simulator.play import Play
 from models.simulator.senses import AT_REST
 from models.simulator.train import OnTrack, front_passes, rear_must_follow, rear_passes
@@ -61,7 +63,7 @@ class Journey:
             self.seconds -= 1
             return
         if self.phase is Phase.LOST:
-            self._tell(play)
+            self._tell(play, random)
         elif self.phase is Phase.STANDS:
             self._ask(play, random)
         elif self.phase is Phase.WAITS:
@@ -78,9 +80,8 @@ class Journey:
         for run in [run for run in play.system.track.rolling if run.train == self.train.train]:
             play.take("come_to_rest", run=run)
 
-    def _tell(self, play: Play) -> None:
-        self.base = messages.tell(play, self.train.train)
-        messages.retire_what_is_over(play, self.train.train)
+    def _tell(self, play: Play, random: Random) -> None:
+        self.base = messages.tell(play, self.train.train, random)
         self.phase, self.seconds = (Phase.LOST if self.base is None else Phase.STANDS), 5
 
     def _ask(self, play: Play, random: Random) -> None:
@@ -92,8 +93,8 @@ class Journey:
         if not self.wanted:
             self.seconds = 60
             return
-        run = messages.next_run(play, self.train.train, self.wanted.pop())
-        if play.take("request", run=run, base=self.base):
+        run = next_run(play, self.train.train, self.wanted.pop())
+        if tell_centre(play, Request(run, self.base)):
             self.run, self.phase, self.patience, self.wanted = run, Phase.WAITS, 60, []
         else:
             self.seconds = random.randint(10, 30) if self.wanted else 60
@@ -118,19 +119,16 @@ class Journey:
         if grant is None:
             return
         tired = self.patience < 0 or random.random() < self.chances.withdrawn
-        if tired and play.take("withdraw", run=self.run):
-            messages.retire_what_is_over(play, self.train.train)
+        if tired and tell_centre(play, Withdrawal(self.run)):
             self.phase, self.run, self.seconds = Phase.STANDS, None, 10
             return
-        if grant.stage == Stage.RESERVED:
-            for point in sorted(frozenset(play.site.layout.needs[self.run.route]) - grant.proved):
-                messages.lay(play, self.run, point, random, self.chances.loss)
-        if messages.close_loop(play, self.run, random, self.chances.loss):
+        messages.converse(play, self.train.train, random, self.chances.loss)
+        if messages.is_permitted(play, self.run):
             self._depart(play, random)
 
     def _depart(self, play: Play, random: Random) -> None:
         assert self.run is not None
-        if random.random() < self.chances.cancelled and self._give_back(play, self.run):
+        if random.random() < self.chances.cancelled and self._give_back(play, self.run, random):
             self.phase, self.run, self.seconds = Phase.STANDS, None, 10
             return
         if not self.train.faces(play, self.run):
@@ -139,22 +137,20 @@ class Journey:
         play.take("start_rolling", run=self.run)
         self.phase, self.seconds = Phase.RUNS, random.randint(10, 30)
 
-    def _give_back(self, play: Play, run: Run) -> bool:
+    def _give_back(self, play: Play, run: Run, random: Random) -> bool:
         """The signaller wants a run back before the train moves; its brake holds the end before the run."""
-        play.take("cancel", run=run)
-        play.take("send_recall", run=run)
-        play.take("recall", run=run)
+        tell_centre(play, Cancellation(run))
+        messages.converse(play, run.train, random)
         play.take("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
-        play.take("send_return", run=run)
-        given = play.take("note_given_back", run=run)
-        messages.retire_what_is_over(play, self.train.train)
-        return given
+        messages.converse(play, run.train, random)
+        grant = play.system.centre.runs.get(run)
+        return grant is None or grant.stage == Stage.OVER
 
     def _run(self, play: Play, random: Random) -> None:
         """The next boundary: the rear may lag behind the front by one; the next route may be set ahead."""
         assert self.run is not None
         self.seconds = random.randint(5, 25)
-        messages.report(play, self.train.train, random, self.chances.loss)
+        messages.converse(play, self.train.train, random, self.chances.loss)
         layout, front = play.site.layout, self.train.trail[-1]
         if self.onward is None and front == layout.destination[self.run.route] and random.random() < self.chances.ahead:
             self._ask_ahead(play, random)
@@ -192,8 +188,8 @@ class Journey:
             and not layout.covers[route] & {*self.train.trail, layout.start[self.run.route]}
         ]
         if routes:
-            run = messages.next_run(play, self.train.train, random.choice(routes))
-            if play.take("request", run=run, base=self.run):
+            run = next_run(play, self.train.train, random.choice(routes))
+            if tell_centre(play, Request(run, self.run)):
                 self.onward, self.patience = run, 20
 
     def _prolonged(self, play: Play, random: Random) -> bool:
@@ -202,14 +198,12 @@ class Journey:
             return False
         grant = play.system.centre.runs.get(self.onward)
         self.patience -= 1
-        if grant is None or (self.patience < 0 and play.take("withdraw", run=self.onward)):
+        if grant is None or (self.patience < 0 and tell_centre(play, Withdrawal(self.onward))):
             self.onward = None
             return False
-        if grant.stage == Stage.RESERVED:
-            for point in sorted(frozenset(play.site.layout.needs[self.onward.route]) - grant.proved):
-                messages.lay(play, self.onward, point, random, self.chances.loss)
         self.seconds = 1
-        if messages.close_loop(play, self.onward, random, self.chances.loss):
+        messages.converse(play, self.train.train, random, self.chances.loss)
+        if messages.is_permitted(play, self.onward):
             assert self.run is not None
             play.take("start_rolling", run=self.onward)
             self.base, self.run, self.onward = self.run, self.onward, None
@@ -221,10 +215,9 @@ class Journey:
         if random.random() < self.chances.slips and play.take("overrun", run=self.run) and random.random() < 0.5:
             front_passes(play, self.train, self.run)
         self._rest(play)
-        messages.report(play, self.train.train, random, 0.0)
+        messages.converse(play, self.train.train, random)
         if self.train.trail[-1] == play.site.layout.destination[self.run.route]:
-            messages.stop(play, self.run)
-        messages.retire_what_is_over(play, self.train.train)
+            messages.stop(play, self.run, random)
         self.base, self.run, self.phase = self.run, None, Phase.STANDS
         self.finished += 1
         self.seconds = random.randint(20, 60)

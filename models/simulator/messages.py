@@ -1,160 +1,143 @@
-"""Conversations of centre, train and terminals, each message of which may get lost and is sent again (T4, T8, T10)."""
+"""Conversations of centre, train and terminals, each message of which may get lost and is said again (T4, T8, T10)."""
 
 from __future__ import annotations
 
 from random import Random
 
-from kernel.names import Point, Route, Run, Serial, Stage, Train, UnitLife
+from kernel.machine.centre import NO_ROUTE
+from kernel.machine.messages import (
+    Challenge,
+    FirstStatement,
+    PointEnquiry,
+    PointOrder,
+    Procedure,
+    SecondStatement,
+    Tick,
+    ToCentre,
+)
+from kernel.machine.unit import Place
+from kernel.names import Block, Point, Run, Train
+from models.simulator.machines import (
+    NOWHERE,
+    centre_says,
+    contacts,
+    is_news_to_centre,
+    is_news_to_unit,
+    isolate,
+    motor_runs_to,
+    next_run,
+    pass_on,
+    send,
+    tell_centre,
+    tell_terminal,
+    tell_unit,
+    terminal_says,
+    terminals_near,
+    unit_says,
+)
 from models.simulator.play import Play
 from models.simulator.senses import AT_REST, INSIDE, WHOLE
 
-NO_ROUTE = Route("standing")
+
+def converse(play: Play, train: Train, random: Random, loss: float = 0.0) -> None:
+    """All that centre, unit and the terminals near a train have to say to one another, as far as it comes through."""
+    tell_centre(play, Tick())
+    for point in terminals_near(play, train):
+        point_speaks(play, train, point, random, loss)
+    for said in centre_says(play, train):
+        if isinstance(said, Challenge) or not is_news_to_unit(play, train, said):
+            continue
+        send(play, said)
+        if random.random() < loss or not pass_on(play, train, said):
+            continue
+        if isinstance(said, PointOrder | PointEnquiry):
+            tell_terminal(play, said.point, said, contacts(play, said.point))
+            throw(play, said.point)
+            point_speaks(play, train, said.point, random, loss)
+        else:
+            tell_unit(play, train, said, NOWHERE)
+    for answered in unit_says(play, train):
+        reaches_centre(play, answered, random, loss)
 
 
-def next_run(play: Play, train: Train, route: Route) -> Run:
-    """A run with the next number, for the life of the train's unit."""
-    return Run(Serial(play.system.centre.newest + 1), train, play.system.units[train].life, route)
-
-
-def lay(play: Play, run: Run, point: Point, random: Random, loss: float) -> None:
-    """Have a point laid and confirmed for a run, as far as messages come through."""
-    hear(play, point)
-    terminal = play.system.terminals[point]
-    wanted = play.site.layout.needs[run.route][point]
-    play.take("send_order", run=run, point=point, life=terminal.life)
-    if random.random() < loss or (run, point, terminal.life) not in play.system.radio.orders:
-        return
-    play.take("relay_order", run=run, point=point, life=terminal.life)
-    lies = play.system.track.lies[point]
-    play.take("obey_order", run=run, point=point, life=terminal.life, detected=lies, is_detected=True)
-    if play.system.terminals[point].unlocked and play.system.terminals[point].wanted == wanted:
-        play.take("drift", point=point, position=wanted)
-        play.take("lock", point=point, detected=wanted, is_detected=True)
-    confirm(play, run, point)
-    if random.random() >= loss:
-        play.take("note_confirmation", run=run, point=point, position=wanted)
-
-
-def hear(play: Play, point: Point) -> None:
-    """Hear which life a terminal is in, if the centre does not know."""
-    life = play.system.terminals[point].life
-    if play.system.centre.terminal_life.get(point) != life:
-        play.take("send_terminal_life", point=point)
-        play.take("note_terminal_life", point=point, life=life)
-
-
-def confirm(play: Play, run: Run, point: Point) -> None:
-    """The terminal's word for a run goes out and on."""
-    lies = play.system.track.lies[point]
-    play.take("send_confirmation", run=run, point=point, position=lies, detected=lies, is_detected=True)
-    if (run, point, lies) in play.system.radio.confirmed:
-        play.take("relay_confirmation", run=run, point=point, position=lies)
-
-
-def close_loop(play: Play, run: Run, random: Random, loss: float) -> bool:
-    """First loop and permit, as far as messages come through; tell whether the train may go."""
-    grant = play.system.centre.runs.get(run)
-    if grant is None:
-        return False
-    if grant.stage == Stage.RESERVED:
-        play.take("open_first_loop", run=run)
-    kept = {"run": run, "tag_list": play.site.layout.tag_list[run.route]}
-    for send, sent, receive, received in (
-        ("send_offer", {"run": run}, "take_offer", kept),
-        ("send_echo", kept, "note_echo", {"run": run}),
-        ("send_permit", {"run": run}, "take_permit", {"run": run}),
-    ):
-        play.take(send, **sent)
+def reaches_centre(play: Play, said: ToCentre, random: Random, loss: float) -> None:
+    """A unit says something to the centre, if it is news."""
+    if is_news_to_centre(play, said):
+        send(play, said)
         if random.random() >= loss:
-            play.take(receive, **received)
+            tell_centre(play, said)
+
+
+def throw(play: Play, point: Point) -> None:
+    """The motor throws an unlocked point, and its terminal locks it."""
+    wanted = motor_runs_to(play, point)
+    if wanted is not None:
+        play.take("drift", point=point, position=wanted)
+        tell_terminal(play, point, Tick(), contacts(play, point))
+
+
+def point_speaks(play: Play, train: Train, point: Point, random: Random, loss: float) -> None:
+    """What a terminal tells goes by way of the train to the centre, if it is news."""
+    for said in terminal_says(play, point, contacts(play, point)):
+        if is_news_to_centre(play, said):
+            send(play, said)
+            pass_on(play, train, said)
+            if random.random() >= loss:
+                tell_centre(play, said)
+
+
+def is_permitted(play: Play, run: Run) -> bool:
+    """Whether the train may go by a run."""
     order = play.system.units[run.train].orders.get(run)
     return order is not None and order.permitted
 
 
-def report(play: Play, train: Train, random: Random, loss: float) -> None:
-    """Every block the tail has left and the centre still holds is reported, for every run it is held for."""
-    for run, order in play.system.units[train].orders.items():
-        if run not in play.system.centre.runs:
-            continue
-        for block, evidence in order.left.items():
-            if run in play.system.centre.claimed.get(block, frozenset()):
-                event = {"run": run, "block": block, "left": evidence.left, "entered": evidence.entered}
-                play.take("send_tail_report", **event)
-                if random.random() >= loss:
-                    play.take("release_block", **event)
-
-
-def stop(play: Play, run: Run) -> None:
-    """The train tells that it stands in its destination, and the overlap is freed."""
+def stop(play: Play, run: Run, random: Random) -> None:
+    """The train finds that it stands in its destination, and tells."""
     play.take("note_stopped", run=run, **INSIDE)
-    play.take("send_stop", run=run)
-    play.take("release_overlap", run=run)
+    converse(play, run.train, random)
 
 
-def retire_what_is_over(play: Play, train: Train) -> None:
-    """The centre forgets runs of a train that hold nothing."""
-    held = {run for _, holders in play.system.centre.claimed.items() for run in holders}
-    for run in [run for run in play.system.centre.runs if run.train == train and run not in held]:
-        play.take("retire", run=run)
-
-
-def tell(play: Play, train: Train) -> Run | None:
+def tell(play: Play, train: Train, random: Random) -> Run | None:
     """A train at rest tells where it stands, is taken at its word and told so; none while it cannot."""
-    epoch, unit = play.system.centre.epoch, play.system.units[train]
-    at, train_of = play.system.track.at, play.site.formation.train_of
-    blocks = frozenset(block for car in at if train_of[car] == train for block in at[car])
-    life = UnitLife(unit.life + 1)
-    play.take("send_challenge", epoch=epoch)
     if train in play.system.track.parted:
-        return state(play, train, life)
-    play.take("answer", train=train, epoch=epoch, life=life, blocks=blocks, at=AT_REST, line=WHOLE)
-    play.take("send_standing", train=train, epoch=epoch)
+        return state(play, train, random)
+    asked = Challenge(play.system.centre.epoch)
+    send(play, asked)
+    tell_unit(play, train, asked, Place(where(play, train), AT_REST, WHOLE, asks_anew=True))
+    return taken(play, train, random)
+
+
+def taken(play: Play, train: Train, random: Random) -> Run | None:
+    """The centre takes the word of a train, or of two persons: the run that it stands under then."""
+    before = play.system.centre.newest
     run = next_run(play, train, NO_ROUTE)
-    if not play.take("note_standing", train=train, life=life, epoch=epoch, run=run):
+    converse(play, train, random)
+    if play.system.centre.newest == before:
         return None
-    return told(play, run)
-
-
-def state(play: Play, train: Train, life: UnitLife) -> Run | None:
-    """Two persons state where a train is whose unit cannot; the first begins with what he sees of it at once."""
-    epoch, at, train_of = play.system.centre.epoch, play.system.track.at, play.site.formation.train_of
-    blocks = frozenset(block for car in at if train_of[car] == train for block in at[car])
-    play.take("open_procedure", train=train)
-    play.take("take_over", train=train, epoch=epoch, life=life, blocks=frozenset())
-    play.take("correct_statement", train=train, epoch=epoch, life=life, blocks=blocks)
-    play.take("note_statement", train=train, life=life, epoch=epoch)
-    play.take("confirm_statement", train=train, epoch=epoch, life=life, blocks=blocks)
-    run = next_run(play, train, NO_ROUTE)
-    if not play.take("note_statement_confirmed", train=train, life=life, epoch=epoch, run=run):
-        return None
-    return told(play, run)
-
-
-def told(play: Play, run: Run) -> Run:
-    """The train is told under which run it stands, and the points below it are adopted."""
-    play.take("send_standing_run", run=run)
-    play.take("take_standing", run=run)
-    for block, holders in play.system.centre.claimed.items():
-        for point in sorted(play.site.layout.points_in.get(block, frozenset())) if run in holders else ():
-            adopt(play, run, point)
+    converse(play, train, random)
     return run
 
 
-def adopt(play: Play, run: Run, point: Point) -> None:
-    """The centre learns how a point below a standing train lies."""
-    hear(play, point)
-    life, lies = play.system.terminals[point].life, play.system.track.lies[point]
-    play.take("send_enquiry", run=run, point=point, life=life)
-    play.take("relay_enquiry", run=run, point=point, life=life)
-    play.take("answer_enquiry", run=run, point=point, life=life)
-    confirm(play, run, point)
-    play.take("adopt_point", run=run, point=point, position=lies)
+def state(play: Play, train: Train, random: Random) -> Run | None:
+    """Two persons state where a train is whose unit cannot; the first begins with what he sees of it at once."""
+    blocks, epoch = where(play, train), play.system.centre.epoch
+    send(play, Challenge(epoch))
+    tell_centre(play, Procedure(train))
+    isolate(play, train, frozenset())
+    life = play.system.units[train].life
+    play.take("correct_statement", train=train, epoch=epoch, life=life, blocks=blocks)
+    tell_centre(play, FirstStatement(train, life, epoch, blocks))
+    play.take("confirm_statement", train=train, epoch=epoch, life=life, blocks=blocks)
+    run = next_run(play, train, NO_ROUTE)
+    if not tell_centre(play, SecondStatement(train, life, epoch, blocks)):
+        return None
+    converse(play, train, random)
+    converse(play, train, random)
+    return run
 
 
-def recover(play: Play) -> None:
-    """Everything that is lost and can be found again is."""
-    for block in sorted(play.system.centre.lost_blocks):
-        play.take("recover_block", block=block)
-    for point in sorted(play.system.centre.lost_points):
-        if not play.system.centre.claimed.get(play.site.layout.stands_in[point]):
-            play.take("recover_point", point=point)
+def where(play: Play, train: Train) -> frozenset[Block]:
+    """The blocks a train is in: by the tags at both its ends, as it stands."""
+    at, train_of = play.system.track.at, play.site.formation.train_of
+    return frozenset(block for car in at if train_of[car] == train for block in at[car])

@@ -2,14 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
+from typing import Any
 
-from kernel.names import Block, Car, Epoch, Tag, TerminalLife, Train, UnitLife
+from kernel.machine.messages import (
+    Confirmation,
+    Echo,
+    GivenBack,
+    Offer,
+    Permit,
+    PointEnquiry,
+    PointOrder,
+    Standing,
+    StandingRun,
+    Stopped,
+    TailReport,
+    TerminalTold,
+    Tick,
+)
+from kernel.names import Block, Car, Tag, Train
 from models.layouts.results import Imported
-from models.simulator import messages
 from models.simulator.journey import Chances, Journey
+from models.simulator.machines import (
+    NOWHERE,
+    contacts,
+    restart_centre,
+    restart_terminal,
+    restart_unit,
+    tell_centre,
+    tell_terminal,
+    tell_unit,
+)
 from models.simulator.play import Play, Watcher, begin, berths, site_of, two_cars_each
 from models.simulator.train import OnTrack
 from models.world.state import Site
@@ -40,7 +65,7 @@ class Traffic:
     def run(self, seconds: int) -> None:
         """Let so many seconds pass."""
         for _ in range(seconds):
-            self._recover()
+            tell_centre(self.play, Tick())
             for journey in self.journeys:
                 journey.second(self.play, self.random)
             self._trouble()
@@ -49,12 +74,6 @@ class Traffic:
     def finished(self) -> int:
         """How many runs have been run to their destination."""
         return sum(journey.finished for journey in self.journeys)
-
-    def _recover(self) -> None:
-        centre = self.play.system.centre
-        everybody = all(train in centre.accounted for train in self.play.site.layout.fleet)
-        if everybody and (centre.lost_blocks or centre.lost_points):
-            messages.recover(self.play)
 
     def _trouble(self) -> None:
         """Each trouble comes or does not."""
@@ -66,22 +85,19 @@ class Traffic:
         return self.random.choice(self.journeys)
 
     def _centre_restarts(self) -> None:
-        self.play.take("restart_centre", epoch=Epoch(self.play.system.centre.epoch + 1))
+        restart_centre(self.play)
         for journey in self.journeys:
             journey.lose_way(self.play)
 
     def _unit_restarts(self) -> None:
         journey = self._some()
-        train = journey.train.train
-        self.play.take("restart_unit", train=train, life=UnitLife(self.play.system.units[train].life + 1))
+        restart_unit(self.play, journey.train.train)
         journey.lose_way(self.play)
 
     def _terminal_restarts(self) -> None:
         points = sorted(self.play.site.layout.points)
         if points:
-            point = self.random.choice(points)
-            life = TerminalLife(self.play.system.terminals[point].life + 1)
-            self.play.take("restart_terminal", point=point, life=life)
+            restart_terminal(self.play, self.random.choice(points))
 
     def _foreign_tag(self) -> None:
         journey = self._some()
@@ -103,38 +119,37 @@ class Traffic:
 
     def _old_message(self) -> None:
         """Some message that was ever sent arrives once more."""
-        radio, random, take = self.play.system.radio, self.random, self.play.take
+        play, random = self.play, self.random
         kind = random.choice(sorted(ARRIVALS))
-        sent = sorted(getattr(radio, kind), key=repr)
-        if sent:
-            message = random.choice(sent)
-            step, names = ARRIVALS[kind]
-            event = dict(zip(names, message if len(names) > 1 else (message,), strict=True))
-            if step == "obey_order":
-                event |= {"detected": self.play.system.track.lies[event["point"]], "is_detected": random.random() < 0.8}
-            if step == "note_standing":
-                run = messages.next_run(self.play, event["train"], messages.NO_ROUTE)
-                event["run"] = run._replace(life=event["life"])
-            if step == "take_offer":
-                event["tag_list"] = self.play.site.layout.tag_list[event["run"].route]
-            take(step, **event)
+        sent = sorted(getattr(play.system.radio, kind), key=repr)
+        if not sent:
+            return
+        said = ARRIVALS[kind](play, random.choice(sent))
+        if isinstance(said, PointOrder | PointEnquiry):
+            tell_terminal(play, said.point, said, contacts(play, said.point, random.random() < 0.8))
+        elif isinstance(said, Offer | Permit | StandingRun):
+            tell_unit(play, said.run.train, said, NOWHERE)
+        else:
+            tell_centre(play, said)
 
 
-ARRIVALS: Mapping[str, tuple[str, tuple[str, ...]]] = {
-    "relayed_orders": ("obey_order", ("run", "point", "life")),
-    "relayed_enquiries": ("answer_enquiry", ("run", "point", "life")),
-    "confirmations": ("note_confirmation", ("run", "point", "position")),
-    "offers": ("take_offer", ("run",)),
-    "echoes": ("note_echo", ("run",)),
-    "permits": ("take_permit", ("run",)),
-    "returns": ("note_given_back", ("run",)),
-    "tail_reports": ("release_block", ("run", "block", "left", "entered")),
-    "stops": ("release_overlap", ("run",)),
-    "standings": ("note_standing", ("train", "life", "epoch")),
-    "standing_runs": ("take_standing", ("run",)),
-    "terminal_lives": ("note_terminal_life", ("point", "life")),
+ARRIVALS: Mapping[str, Callable[[Play, Any], Any]] = {
+    "relayed_orders": lambda play, sent: PointOrder(
+        sent[0], sent[1], play.site.layout.needs[sent[0].route][sent[1]], sent[2]
+    ),
+    "relayed_enquiries": lambda _, sent: PointEnquiry(*sent),
+    "confirmations": lambda _, sent: Confirmation(*sent),
+    "offers": lambda play, sent: Offer(sent, play.site.layout.tag_list[sent.route]),
+    "echoes": lambda play, sent: Echo(sent, play.system.radio.echoes[sent]),
+    "permits": lambda _, sent: Permit(sent),
+    "returns": lambda _, sent: GivenBack(sent),
+    "tail_reports": lambda _, sent: TailReport(*sent),
+    "stops": lambda _, sent: Stopped(sent),
+    "standings": lambda play, sent: Standing(sent[0], sent[1], sent[2], play.system.radio.standings[sent]),
+    "standing_runs": lambda _, sent: StandingRun(sent),
+    "terminal_lives": lambda _, sent: TerminalTold(*sent),
 }
-"""For each kind of message the transition in which it arrives, and the names of what it carries."""
+"""For each set of messages sent the message that arrives."""
 
 
 def traffic_on(

@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Block, Car, Cause, Stage, TerminalLife, Train, UnitLife
 from kernel.refusal import Refusal
 from kernel.unit import Evidence
@@ -21,7 +22,6 @@ from proofs.witnesses.stations import (
     A2,
     B1,
     EAST,
-    NO_ROUTE,
     NORMAL,
     ONE,
     ONE_TO_EAST,

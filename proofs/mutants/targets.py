@@ -36,6 +36,10 @@ __all__ = [
 NOT_STEPS = frozenset(
     {
         "kernel.error_correction",
+        "kernel.machine.centre",
+        "kernel.machine.messages",
+        "kernel.machine.point_terminal",
+        "kernel.machine.unit",
         "kernel.maps",
         "kernel.onboard.frames",
         "kernel.onboard.limits",
@@ -50,7 +54,10 @@ NOT_STEPS = frozenset(
         "models.world.start",
     }
 )
-"""Modules that no transition is made of: what a state is kept in, tables, codes, limits, premises, the start."""
+"""Modules that no transition is made of: what a state is kept in, tables, codes, limits, premises, the start.
+
+The machines of `kernel.machine` only choose among steps; `proofs/lints_machines.py` holds them to that.
+"""
 BESIDE = (models.onboard, models.crossing, models.alarm, models.tram)
 """Worlds of theories beside the interlocking."""
 SINGLE = ("models.link",)

@@ -10,6 +10,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Block, Epoch, Run, Stage, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import AT_REST, INSIDE, ROLLING
@@ -44,7 +45,7 @@ from proofs.witnesses.setting import (
     return_it,
     set_route,
 )
-from proofs.witnesses.stations import NO_ROUTE, T1, T2
+from proofs.witnesses.stations import T1, T2
 from proofs.witnesses.telling import all_tell, hear_terminals, next_run, recover
 
 Script = Callable[[Scenario, Line], None]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Epoch, Route, Serial, Train, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, ROLLING, WHOLE
@@ -15,7 +16,6 @@ from proofs.witnesses.stations import (
     A2,
     B1,
     EAST,
-    NO_ROUTE,
     NORMAL,
     ONE,
     ONE_TO_EAST,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from kernel.centre import Statement
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Block, Cause, Epoch, Run, Stage, TerminalLife, UnitLife
 from kernel.refusal import Refusal
 from kernel.restarts import restart_unit
@@ -42,7 +43,6 @@ from proofs.witnesses.setting import (
 from proofs.witnesses.stations import (
     A1,
     A2,
-    NO_ROUTE,
     NORMAL,
     ONE,
     OUTLET,

@@ -7,12 +7,12 @@ from itertools import pairwise
 from typing import Any
 
 from kernel.layout import Layout
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Block, Cab, Car, Cause, Point, Read, Route, Run, Stage, Tag, Train
 from kernel.unit import Evidence, Order
 from models.simulator.senses import INSIDE, WHOLE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario
-from proofs.witnesses.stations import NO_ROUTE
 from proofs.witnesses.telling import blocks_of
 
 

@@ -408,8 +408,6 @@ LEADS: Mapping[str, Route] = {
     SPIRAL: INTO_THE_LOOP,
 }
 """A route of each station in which a1 leads."""
-NO_ROUTE = Route("standing")
-"""What a run names that stands for a train at rest."""
 
 
 @cache

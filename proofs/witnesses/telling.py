@@ -7,13 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from kernel.centre import Grant
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Block, Car, Cause, Point, Position, Route, Run, Serial, Stage, Train, UnitLife
 from kernel.restarts import restart_unit
 from kernel.unit import Order
 from models.simulator.senses import AT_REST, WHOLE
 from proofs.witnesses.changes import GONE, Changes, came, went
 from proofs.witnesses.scenario import Scenario, Steps
-from proofs.witnesses.stations import B1, NO_ROUTE, PASSING_PLACE, PLATFORM_2, YARD_EAST, site_of, standing_at
+from proofs.witnesses.stations import B1, PASSING_PLACE, PLATFORM_2, YARD_EAST, site_of, standing_at
 
 At = Mapping[Car, frozenset[Block]]
 Lies = Mapping[Point, Position]

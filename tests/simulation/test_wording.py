@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kernel.machine.centre import NO_ROUTE
 from kernel.names import Position, Read, Run, Serial, UnitLife
 from kernel.telegram import PAYLOAD_BYTES, Said, content_of, said_in
 from models.simulation.faults import NO_FAULT
 from models.simulation.parts import PART_BYTES
 from models.simulation.simulation import Simulation
 from models.simulation.wording import KINDS, NAMES, Wording, was_sent
-from models.simulator.messages import NO_ROUTE
 from tests.simulation.lines import plan
 
 SIM = Simulation(plan("junction", chosen=NO_FAULT))

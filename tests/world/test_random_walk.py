@@ -28,7 +28,7 @@ SMALL = "small site"
 PLACES = (SMALL, *(path.stem for path in SAMPLES))
 SEEDS = range(12)
 SECONDS = 400
-CHANCES = Chances(loss=0.2, missed_tag=0.03, withdrawn=0.03, cancelled=0.1, slips=0.3)
+CHANCES = Chances(loss=0.2, missed_tag=0.03, withdrawn=0.1, cancelled=0.1, slips=0.3)
 TROUBLES = Troubles(
     centre_restarts=0.001,
     unit_restarts=0.002,

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from kernel import recovery, release, route_setting
 from kernel.centre import Centre
 from kernel.claims import held_refusal
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Cause, Epoch, Point, Position, Read, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.machine import centre as machine
+from kernel.machine.messages import Confirmation, Echo, Permit, Request, Standing, Stopped, TailReport, Tick, ToCentre
+from kernel.names import Block, Epoch, Point, Position, Read, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.route_setting import request_refusal
 from models.layouts import Imported
 from tests.independent.layouts.rails import Back, Line, Stretch, Survey, Swept, run, ways_back
 from tests.independent.raw_graph import Place
@@ -28,7 +30,7 @@ LIFE = UnitLife(1)
 EMPTY = Centre(
     epoch=Epoch(1),
     newest=Serial(0),
-    accounted={ONE: LIFE, OTHER: LIFE},
+    accounted={},
     runs={},
     claimed={},
     locked={},
@@ -89,7 +91,7 @@ class Driver:
     @staticmethod
     def of(survey: Survey, imported: Imported) -> Driver:
         """What the kernel is told, and the places of the tags on the rails."""
-        layout = imported.layout
+        layout = replace(imported.layout, fleet=frozenset({ONE, OTHER}))
         places = {tag: survey.marks.get(imported.places.tags[tag][0]) for tag in layout.tag_in}
         return Driver(survey, layout, imported.records, places)
 
@@ -235,13 +237,13 @@ class Driver:
                 if layout.released_after[name].get(block, block) in left:
                     over = [Read(tag, self.records.record[tag]) for tag in left_at[block]]
                     for each in (base, route):
-                        centre = release.release(layout, self.records, centre, each, block, *over)
+                        centre = self.tell(centre, TailReport(each, block, *over))
             rails, points = behind[at]
             for point in points:
                 if any(held.get(route) != needs[point] for known, held in centre.locked.items() if known == point):
                     self.hazard("a point is free before the train has passed it", point, name)
             yield Step(centre, self.survey.swept(rails), route)
-        last = release.release_overlap(layout, centre, route)
+        last = self.tell(centre, Stopped(route))
         if layout.overlap[name]:
             yield Step(last, self.survey.swept(self.arrived(name, behind[len(pairs) - 1][0])), route)
 
@@ -258,6 +260,12 @@ class Driver:
 
     # ---- the kernel
 
+    def tell(self, centre: Centre, *told: ToCentre) -> Centre:
+        """What becomes of the centre by what it is told, one after the other."""
+        for each in told:
+            centre = machine.answer(self.layout, self.records, centre, each)
+        return centre
+
     def standing(
         self,
         centre: Centre,
@@ -270,25 +278,22 @@ class Driver:
 
         Points there are told to lie as a route needs, but for those that are known to lie otherwise.
         """
-        layout, base = self.layout, Run(Serial(centre.newest + 1), train, LIFE, Route(""))
-        centre = recovery.account_for(layout, centre, blocks, base, Cause.RECOVERED)
-        for point, position in layout.needs[route].items():
-            centre = recovery.adopt_point(layout, centre, base, point, lie.get(point, position))
-        return centre, base
+        base = machine.next_run(centre, train, LIFE, machine.NO_ROUTE)
+        lies = [
+            Confirmation(base, point, lie.get(point, position)) for point, position in self.layout.needs[route].items()
+        ]
+        return self.tell(centre, Standing(train, LIFE, centre.epoch, blocks), *lies), base
 
     def granted(self, centre: Centre, name: Route, base: Run) -> tuple[Centre, Run] | None:
         """A route requested, its points proved, offered, echoed and set; nothing if the kernel refuses it."""
-        layout = self.layout
-        route = Run(Serial(centre.newest + 1), base.train, LIFE, name)
-        self.refusal = route_setting.request_refusal(layout, centre, route, base)
+        layout, route = self.layout, machine.next_run(centre, base.train, LIFE, name)
+        self.refusal = request_refusal(layout, centre, route, base)
         if self.refusal is not None:
             return None
-        centre = route_setting.request(layout, centre, route, base)
-        for point, position in layout.needs[name].items():
-            centre = route_setting.note_confirmation(layout, centre, route, point, position)
-        centre = route_setting.open_first_loop(layout, centre, route)
-        centre = route_setting.note_echo(layout, centre, route, layout.tag_list[name])
-        return (centre, route) if route_setting.permits(centre, route) else None
+        proved = [Confirmation(route, point, position) for point, position in layout.needs[name].items()]
+        echo = Echo(route, layout.tag_list[name])
+        centre = self.tell(centre, Request(route, base), *proved, Tick(), echo)
+        return (centre, route) if Permit(route) in machine.says_of(layout, centre, route) else None
 
     # ---- two trains
 

@@ -7,6 +7,7 @@ Messages are tuples: their kind, to whom they go, and what they carry.  What goe
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,18 +17,20 @@ from kernel import (
     change_of_ends,
     first_loop,
     recovery,
-    relay,
     release,
-    restarts,
     route_setting,
     second_loop,
     standing,
-    supervision,
     tail_evidence,
     terminal,
 )
 from kernel.centre import NO_RUNS, Centre
 from kernel.layout import Layout, TagRecords
+from kernel.machine import centre as machine_of_centre
+from kernel.machine import messages, point_terminal
+from kernel.machine import unit as machine_of_unit
+from kernel.machine.point_terminal import Contacts
+from kernel.machine.unit import Place
 from kernel.maps import Map
 from kernel.names import (
     Block,
@@ -38,11 +41,9 @@ from kernel.names import (
     Read,
     Route,
     Run,
-    Serial,
     Stage,
     Tag,
     TagList,
-    TerminalLife,
     Train,
     UnitLife,
 )
@@ -57,7 +58,19 @@ from tests.independent.world.sight import Sight, line
 
 Message = tuple[Any, ...]
 CENTRE = "centre"
-STANDING = Route("standing")
+STANDING = machine_of_centre.NO_ROUTE
+HEARD: dict[str, Callable[..., messages.ToCentre]] = {
+    "echo": messages.Echo,
+    "confirmation": messages.Confirmation,
+    "tail report": messages.TailReport,
+    "stopped": messages.Stopped,
+    "given back": messages.GivenBack,
+    "life": messages.TerminalTold,
+    "standing": messages.Standing,
+    "statement": messages.FirstStatement,
+    "confirmed statement": messages.SecondStatement,
+}
+"""What the centre hears, by the kind of the message."""
 BEHIND_MM = 2_000
 """So far behind the front a list may end and still count: more than the odometer is ever wrong."""
 
@@ -94,22 +107,25 @@ class Calls:
     # ---- beginnings and restarts: what survives is docs/persistence.md
 
     def new_centre(self) -> Centre:
-        none = frozenset[Any]()
-        return self.restart_centre(Centre(Epoch(0), Serial(0), {}, {}, {}, {}, none, none, {}, none, {}))
+        return machine_of_centre.start(self.layout, machine_of_centre.NEVER_STARTED)
 
     def restart_centre(self, centre: Centre) -> Centre:
-        return restarts.restart_centre(self.layout, centre, Epoch(centre.epoch + 1))
+        return machine_of_centre.start(self.layout, machine_of_centre.to_write(centre))
+
+    def tell(self, centre: Centre, told: messages.ToCentre) -> Centre:
+        return machine_of_centre.answer(self.layout, self.records, centre, told)
 
     def new_board(self, front_mm: int, cab: Cab) -> Board:
-        nothing = Unit(UnitLife(0), None, frozenset(), None, {}, False, None, None, None, frozenset())
-        unit = change_of_ends.change_ends(self.lists, restarts.restart_unit(nothing, UnitLife(1)), cab)
+        unit = change_of_ends.change_ends(self.lists, machine_of_unit.start(machine_of_unit.NEVER_STARTED), cab)
         return Board(unit, braking.stand_still(front_mm))
 
     def restart_board(self, board: Board, sight: Sight, isolated_in: Epoch | None = None) -> None:
         """After a restart, or once isolated, the driver chooses his direction anew."""
-        board.asks_anew, life = False, UnitLife(board.unit.life + 1)
-        anew = restarts.restart_unit(board.unit, life)
-        board.unit = anew if isolated_in is None else standing.isolate(board.unit, isolated_in, life)
+        board.asks_anew = False
+        if isolated_in is None:
+            board.unit = machine_of_unit.start(board.unit.life)
+        else:
+            board.unit = self.told(board, messages.Isolation(isolated_in), sight)
         self.begin_anew(board, sight)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
@@ -119,28 +135,28 @@ class Calls:
         self.follow(board, sight)
 
     def new_terminal(self) -> Terminal:
-        return Terminal(TerminalLife(1), None, None, False)
+        return point_terminal.start(point_terminal.NEVER_STARTED)
 
     def restart_terminal(self, machine: Terminal) -> Terminal:
-        return restarts.restart_terminal(machine, TerminalLife(machine.life + 1))
+        return point_terminal.start(point_terminal.to_write(machine))
 
     # ---- what the signaller and the centre do of themselves
 
     def request(self, centre: Centre, train: Train, life: UnitLife, route: Route, base: Run) -> Centre:
-        return route_setting.request(self.layout, centre, self.run_of(centre, train, life, route), base)
+        return self.tell(centre, messages.Request(self.run_of(centre, train, life, route), base))
 
     def is_refused(self, centre: Centre, train: Train, route: Route, base: Run) -> bool:
         run = self.run_of(centre, train, base.life, route)
         return route_setting.request_refusal(self.layout, centre, run, base) is not None
 
     def run_of(self, centre: Centre, train: Train, life: UnitLife, route: Route) -> Run:
-        return Run(Serial(centre.newest + 1), train, life, route)
+        return machine_of_centre.next_run(centre, train, life, route)
 
     def withdraw(self, centre: Centre, run: Run) -> Centre:
-        return cancellation.withdraw(self.layout, centre, run)
+        return self.tell(centre, messages.Withdrawal(run))
 
     def cancel(self, centre: Centre, run: Run) -> Centre:
-        return cancellation.cancel(self.layout, centre, run)
+        return self.tell(centre, messages.Cancellation(run))
 
     def open_first_loop(self, centre: Centre, run: Run) -> Centre:
         return route_setting.open_first_loop(self.layout, centre, run)
@@ -155,7 +171,7 @@ class Calls:
         return recovery.recover_point(self.layout, centre, point)
 
     def open_procedure(self, centre: Centre, train: Train) -> Centre:
-        return supervision.open_procedure(self.layout, centre, train)
+        return self.tell(centre, messages.Procedure(train))
 
     def holders(self, centre: Centre, block: Block) -> frozenset[Train] | None:
         """For whom the centre holds a block; nothing if it is lost, and so closed to everybody."""
@@ -206,47 +222,29 @@ class Calls:
 
     def centre_hears(self, centre: Centre, message: Message) -> Centre:
         kind, _, *told = message
-        if kind == "echo":
-            return route_setting.note_echo(self.layout, centre, *told)
-        if kind == "confirmation":
-            return recovery.adopt_point(self.layout, route_setting.note_confirmation(self.layout, centre, *told), *told)
-        if kind == "tail report":
-            return release.release(self.layout, self.records, centre, *told)
-        if kind == "stopped":
-            return release.release_overlap(self.layout, centre, *told)
-        if kind == "given back":
-            return cancellation.note_given_back(self.layout, centre, *told)
-        if kind == "life":
-            return recovery.note_terminal_life(centre, *told)
-        return self.centre_hears_of_standing(centre, kind, *told)
+        if kind in ("standing", "statement", "confirmed statement"):
+            return self.centre_hears_of_standing(centre, kind, *told)
+        return self.tell(centre, HEARD[kind](*told))
 
     def centre_hears_of_standing(
         self, centre: Centre, kind: str, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
     ) -> Centre:
-        run = self.run_of(centre, train, life, STANDING)
-        if kind == "standing":
-            return recovery.note_standing(self.layout, centre, train, life, epoch, blocks, run)
-        if kind == "statement":
-            return supervision.note_statement(centre, train, life, epoch, blocks)
-        assert kind == "confirmed statement", kind
-        return self.statement_confirmed(centre, train, life, epoch, blocks, run)
-
-    def statement_confirmed(
-        self, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
-    ) -> Centre:
-        """The second person confirms the blocks that he has seen the train in."""
-        return supervision.note_statement_confirmed(self.layout, centre, train, life, epoch, blocks, run)
+        return self.tell(centre, HEARD[kind](train, life, epoch, blocks))
 
     # ---- what a train receives
+
+    def told(self, board: Board, told: messages.ToUnit | messages.Isolation, sight: Sight) -> Unit:
+        """What becomes of a unit by what it is told."""
+        place = Place(sight.blocks, standstill(sight), line(sight.whole), board.asks_anew)
+        return machine_of_unit.answer(self.lists, board.unit, told, place)
 
     def board_hears(self, board: Board, message: Message, sight: Sight) -> list[Message]:
         """Take a message on board; what it passes on."""
         kind, _, *told = message
         if kind == "order":
+            passed = machine_of_unit.passes_on(self.plan, self.lists, board.unit, messages.PointOrder(*told))
             run, point, position, life = told
-            if not relay.relays_order(self.plan, self.lists, board.unit, run, point, position):
-                return []
-            return [("relayed order", point, run, position, life)]
+            return [("relayed order", point, run, position, life) for _ in passed]
         if kind == "enquiry":
             run, point, life = told
             return [("relayed enquiry", point, run, life)]
@@ -270,13 +268,13 @@ class Calls:
         if kind == "recall":
             self.recall(board, run, sight)
         elif kind == "offer":
-            board.unit = first_loop.take_offer(self.lists, board.unit, run, *lists)
+            board.unit = self.told(board, messages.Offer(run, *lists), sight)
         else:
-            takes = {"permit": first_loop.take_permit, "standing run": first_loop.take_standing}
-            board.unit = takes[kind](board.unit, run)
+            takes = messages.Permit if kind == "permit" else messages.StandingRun
+            board.unit = self.told(board, takes(run), sight)
 
     def recall(self, board: Board, run: Run, sight: Sight) -> None:
-        board.unit = first_loop.recall(board.unit, run)
+        board.unit = self.told(board, messages.Recall(run), sight)
 
     def give_back(self, board: Board, sight: Sight) -> None:
         """Give back, at rest, what is wanted and what the brake keeps the train out of, the last runs first."""
@@ -290,10 +288,10 @@ class Calls:
             board.unit = first_loop.give_back(self.lists, board.unit, run, standstill(sight), held_mm, end_mm)
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
-        before, life = board.unit, UnitLife(board.unit.life + 1)
+        before = board.unit
         if board.asks_anew or not standing.tells_standing(before, epoch):
             board.brake = put_on(board.brake, sight)
-            board.unit = standing.answer(before, epoch, life, sight.blocks, standstill(sight), line(sight.whole))
+            board.unit = self.told(board, messages.Challenge(epoch), sight)
         if board.unit is not before:
             board.asks_anew = False
             self.begin_anew(board, sight)
@@ -413,15 +411,12 @@ class Calls:
     # ---- points
 
     def terminal_hears(self, machine: Terminal, message: Message, detected: Position, is_detected: bool) -> Terminal:
-        kind, _, *told = message
-        if kind == "relayed order":
-            run, position, life = told
-            return terminal.obey(machine, run, position, life, detected, is_detected)
-        assert kind == "relayed enquiry", kind
-        return terminal.relabel(machine, *told)
+        kind, point, run, *told = message
+        heard = messages.PointOrder if kind == "relayed order" else messages.PointEnquiry
+        return point_terminal.answer(machine, heard(run, point, *told), Contacts(detected, is_detected))
 
     def lock(self, machine: Terminal, detected: Position) -> Terminal:
-        return terminal.lock(machine, detected, True)
+        return point_terminal.answer(machine, messages.Tick(), Contacts(detected, True))
 
     def is_unlocked(self, machine: Terminal) -> bool:
         return machine.unlocked

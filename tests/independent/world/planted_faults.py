@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel import authority, recovery, standing, supervision
+from kernel import authority, standing
 from kernel.centre import Centre
 from kernel.names import Block, Cab, Epoch, Position, Read, Run, Stage, Train, UnitLife
 from kernel.onboard import authority_end, braking
@@ -17,7 +17,7 @@ from kernel.tail_evidence import has_been_in
 from kernel.terminal import Terminal
 from kernel.unit import Evidence
 from tests.independent.world.cab import BOUNDS, standstill
-from tests.independent.world.kernel_calls import STANDING, Board, Calls, Message
+from tests.independent.world.kernel_calls import Board, Calls, Message
 from tests.independent.world.sight import Sight, line
 
 
@@ -121,12 +121,12 @@ class RunSetAhead(Calls):
 class LifeConfirmed(Calls):
     """Hole 6: the second person confirms a life, and not a place."""
 
-    def statement_confirmed(
-        self, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
+    def centre_hears_of_standing(
+        self, centre: Centre, kind: str, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
     ) -> Centre:
-        said = centre.statements.get(train)
-        stated = blocks if said is None else said.blocks
-        return supervision.note_statement_confirmed(self.layout, centre, train, life, epoch, stated, run)
+        said = centre.statements.get(train) if kind == "confirmed statement" else None
+        seen = blocks if said is None else said.blocks
+        return super().centre_hears_of_standing(centre, kind, train, life, epoch, seen)
 
 
 class NothingCompared(Calls):
@@ -167,8 +167,7 @@ class KeepsWhatItHeld(Calls):
         self, centre: Centre, kind: str, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block]
     ) -> Centre:
         held = {block for block, holders in centre.claimed.items() if any(run.train == train for run in holders)}
-        run = self.run_of(centre, train, life, STANDING)
-        return recovery.note_standing(self.layout, centre, train, life, epoch, blocks | held, run)
+        return super().centre_hears_of_standing(centre, kind, train, life, epoch, blocks | held)
 
 
 class NeverForgets(Calls):
