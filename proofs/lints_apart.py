@@ -388,6 +388,8 @@ def told_by_simulation(source: str, judged: frozenset[str]) -> list[str]:
             if root_of(call.func) in kernels:
                 physical = [each for argument in arguments(call) for each in physical_in(argument, carried)]
                 found += [f"{function.name} hands {each} to {ast.unparse(call.func)}" for each in physical]
+            if ast.unparse(call.func) == "Place" and "answer.blocks" in judged and isinstance(call.args[0], ast.Call):
+                found.append(f"{function.name} tells answer blocks")
             if isinstance(call.func, ast.Attribute) and call.func.attr == "take" and call.args:
                 step = ast.unparse(call.args[0]).strip("'")
                 told = [keyword.arg for keyword in call.keywords if f"{step}.{keyword.arg}" in judged]

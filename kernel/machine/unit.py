@@ -69,6 +69,11 @@ def start(written: UnitLife) -> Unit:
     return restart_unit(before, UnitLife(written + 1))
 
 
+def next_life(unit: Unit) -> UnitLife:
+    """Give the life that begins when this one ends (T8)."""
+    return UnitLife(unit.life + 1)
+
+
 def answer(lists: TagLists, unit: Unit, told: ToUnit | Isolation, place: Place) -> Unit:
     """Take what the centre says, or the person who isolates the unit (T4, T8, T9).
 
@@ -80,7 +85,7 @@ def answer(lists: TagLists, unit: Unit, told: ToUnit | Isolation, place: Place) 
         case Challenge(epoch):
             if standing.tells_standing(unit, epoch) and not place.asks_anew:
                 return unit
-            return standing.answer(unit, epoch, UnitLife(unit.life + 1), place.blocks, place.at, place.line)
+            return standing.answer(unit, epoch, next_life(unit), place.blocks, place.at, place.line)
         case Offer(run, tag_list):
             return first_loop.take_offer(lists, unit, run, tag_list)
         case Permit(run):
@@ -90,7 +95,7 @@ def answer(lists: TagLists, unit: Unit, told: ToUnit | Isolation, place: Place) 
         case StandingRun(run):
             return first_loop.take_standing(unit, run)
         case Isolation(epoch):
-            return standing.isolate(unit, epoch, UnitLife(unit.life + 1))
+            return standing.isolate(unit, epoch, next_life(unit))
         case PointOrder() | PointEnquiry():
             return unit
 

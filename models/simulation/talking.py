@@ -32,7 +32,6 @@ from kernel.machine.messages import (
     ToCentre,
     ToUnit,
 )
-from kernel.machine.unit import Place
 from kernel.maps import Map
 from kernel.names import Run, Stage, Train
 from kernel.standstill import Standstill, ThroughLine, is_held
@@ -55,7 +54,7 @@ from models.simulator.machines import (
     terminals_near,
     unit_says,
 )
-from models.simulator.messages import where
+from models.simulator.messages import place
 from models.simulator.play import Play
 
 MayAnswer = Callable[[Train], bool]
@@ -188,8 +187,8 @@ class Talk:
         if not isinstance(told, Challenge):
             return tell_unit(self.play, train, told, NOWHERE)
         at, line = self.sensed(train)
-        place = Place(where(self.play, train), at, line, asks_anew=False)
-        return self.may_answer(train) and tell_unit(self.play, train, told, place)
+        stands = place(self.play, train, at, line, asks_anew=False)
+        return self.may_answer(train) and tell_unit(self.play, train, told, stands)
 
     def _passes_on(self, train: Train, kind: str, fields: Fields, told: ToUnit | ToCentre) -> None:
         """A unit passes on what a terminal says, or is to hear."""

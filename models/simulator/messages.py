@@ -17,6 +17,7 @@ from kernel.machine.messages import (
 )
 from kernel.machine.unit import Place
 from kernel.names import Block, Point, Run, Train
+from kernel.standstill import Standstill, ThroughLine
 from models.simulator.machines import (
     NOWHERE,
     centre_says,
@@ -104,7 +105,7 @@ def tell(play: Play, train: Train, random: Random) -> Run | None:
         return state(play, train, random)
     asked = Challenge(play.system.centre.epoch)
     send(play, asked)
-    tell_unit(play, train, asked, Place(where(play, train), AT_REST, WHOLE, asks_anew=True))
+    tell_unit(play, train, asked, place(play, train, AT_REST, WHOLE, asks_anew=True))
     return taken(play, train, random)
 
 
@@ -135,6 +136,11 @@ def state(play: Play, train: Train, random: Random) -> Run | None:
     converse(play, train, random)
     converse(play, train, random)
     return run
+
+
+def place(play: Play, train: Train, at: Standstill, line: ThroughLine, *, asks_anew: bool) -> Place:
+    """What the computer of a train knows of where it stands: the blocks by the tags at both ends, as it stands."""
+    return Place(where(play, train), at, line, asks_anew)
 
 
 def where(play: Play, train: Train) -> frozenset[Block]:

@@ -34,13 +34,18 @@ WORLD: Mapping[str, Step] = {
 
 
 class Play:
-    """The state of a world, moved on step by step; counts what was tried and what changed something."""
+    """The state of a world, moved on step by step; counts what was tried and what changed something.
+
+    ``is_tied``: its steps are the kernel's own, so that they come to what the machines of the kernel make of an input;
+    not so where a fault is planted in them.
+    """
 
     def __init__(self, site: Site, system: System, watch: Watcher | None = None, steps: Mapping[str, Step] = WORLD):
         self.site = site
         self.system = system
         self.steps = steps
         self.watch = watch
+        self.is_tied = True
         self.tried: Counter[str] = Counter()
         self.accepted: Counter[str] = Counter()
 

@@ -13,13 +13,15 @@ Orders in which a host could go wrong while it called the steps itself, written 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import fields, replace
 from functools import cache
 from random import Random
 from typing import Any
 
 import pytest
 
+from kernel import persistence
 from kernel.centre import Centre
 from kernel.machine import centre as machine
 from kernel.machine import point_terminal, unit
@@ -38,6 +40,7 @@ from kernel.machine.messages import (
 from kernel.machine.point_terminal import Contacts
 from kernel.machine.unit import Place
 from kernel.names import Block, Cause, Epoch, Route, Run, Serial, Stage, TerminalLife, Train, UnitLife
+from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from models.simulator import machines
 from models.simulator.journey import Chances
@@ -237,6 +240,22 @@ def test_a_terminal_confirms_nothing_that_its_contacts_do_not_show() -> None:
     for shown in (Contacts(R, False), Contacts(N, True)):
         said = point_terminal.says(laid, point_terminal.to_write(laid), PW, shown)
         assert [each for each in said if isinstance(each, Confirmation) and each.position == R] == []
+
+
+@pytest.mark.parametrize(
+    ("table", "written"),
+    [
+        (persistence.CENTRE, machine.Written),
+        (persistence.TERMINAL, point_terminal.Written),
+    ],
+)
+def test_what_is_written_down_is_what_survives_a_restart(table: Mapping[str, Any], written: type) -> None:
+    survives = {name for name, (memory, _) in table.items() if memory is not Memory.LOST}
+    assert {each.name for each in fields(written)} == survives
+
+
+def test_of_a_unit_its_life_alone_survives() -> None:
+    assert [name for name, (memory, _) in persistence.UNIT.items() if memory is not Memory.LOST] == ["life"]
 
 
 # ---- 6. confirmations

@@ -45,7 +45,7 @@ WRONG: list[tuple[ModuleType, str, str]] = [
     ),
     (
         unit,
-        "return standing.answer(unit, epoch, UnitLife(unit.life + 1)",
+        "return standing.answer(unit, epoch, next_life(unit)",
         "return standing.answer(unit, epoch, unit.life",
     ),
     (unit, "UnitLife(written + 1)", "written"),

@@ -48,6 +48,7 @@ def traffic(place: str, seed: int, planted: str | None = None, seconds: int = 60
     moving = traffic_on(imported(place), seed, CHANCES, TROUBLES, trains, watch)
     if planted is not None:
         moving.play.steps = table_running(WORLD, sources_of(planted))
+        moving.play.is_tied = False
     track = moving.play.system.track
     fleet = two_cars_each(sorted(moving.play.site.layout.fleet))
     at, lies = {car: track.at[car] for cars in fleet.values() for car in cars}, dict(track.lies.items())
@@ -59,9 +60,9 @@ def traffic(place: str, seed: int, planted: str | None = None, seconds: int = 60
 
 PLANTED: Mapping[str, tuple[str, int]] = {
     "a terminal that obeys an older run": ("passing_station", 18),
-    "a centre that frees the start block on head evidence": ("passing_station", 0),
+    "a centre that frees the start block on head evidence": ("passing_station", 3),
     "the whole route is released on the evidence of one block": ("junction", 0),
-    "a terminal keeps its life over a restart": ("junction", 0),
+    "a terminal keeps its life over a restart": ("junction", 6),
     "a tag list is taken in any life": ("junction", 0),
 }
 """Planted faults, each with a layout and a seed of traffic that finds it, whichever way its trains are made up."""

@@ -180,7 +180,7 @@ def test_a_bench_judges_only_what_is_asked() -> None:
 
 
 def test_trains_that_do_not_start_apart_are_a_violation_before_any_step() -> None:
-    trace = replace(failing(), planted=None)
+    trace = replace(found("a terminal that obeys an older run"), planted=None)
     there = frozenset({Block("track 1")})
     together = replace(trace, at=dict.fromkeys(trace.at, there))
     again = replay(together, imported(PLACE))

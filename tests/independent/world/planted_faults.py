@@ -10,6 +10,9 @@ from dataclasses import replace
 
 from kernel import authority, standing
 from kernel.centre import Centre
+from kernel.machine import unit
+from kernel.machine.messages import Challenge
+from kernel.machine.unit import Place
 from kernel.names import Block, Cab, Epoch, Position, Read, Run, Stage, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
@@ -27,15 +30,15 @@ class EvidenceAhead(Calls):
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
         before = board.unit
         super().tail_reads(board, cab, healthy, read, sight)
-        unit, was = board.unit, before.tail_read
-        if was is None or unit.occupied == before.occupied:
+        after, was = board.unit, before.tail_read
+        if was is None or after.occupied == before.occupied:
             return
         evidence = {self.layout.tag_in[was.tag]: Evidence(left=was, entered=read)}
         orders = {
             run: replace(order, left=order.left | evidence) if order.begun else order
-            for run, order in unit.orders.items()
+            for run, order in after.orders.items()
         }
-        board.unit = replace(unit, orders=orders)
+        board.unit = replace(after, orders=orders)
         self.follow(board, sight)
 
 
@@ -64,14 +67,14 @@ class EvidenceAcrossTurns(Calls):
 
     def _left_as_once(self, board: Board, block: Block, evidence: Evidence) -> None:
         """Once a block was left, under runs that the other cab had led too, without a look at where the head is."""
-        unit = board.unit
+        before = board.unit
         orders = {
             run: replace(order, left=order.left | {block: evidence})
-            if has_been_in(self.lists, order, block) and order.led_by != unit.leading
+            if has_been_in(self.lists, order, block) and order.led_by != before.leading
             else order
-            for run, order in unit.orders.items()
+            for run, order in before.orders.items()
         }
-        board.unit = replace(unit, occupied=unit.occupied - {block}, orders=orders)
+        board.unit = replace(before, occupied=before.occupied - {block}, orders=orders)
 
     def begin_anew(self, board: Board, sight: Sight) -> None:
         if not any(True for _ in board.unit.orders):
@@ -151,10 +154,9 @@ class AnswersUnbraked(Calls):
     """A train that stands answers at once, whether or not its brake holds it."""
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
-        before, life = board.unit, UnitLife(board.unit.life + 1)
-        if board.asks_anew or not standing.tells_standing(before, epoch):
-            at = replace(standstill(sight), response_cycles=0)
-            board.unit = standing.answer(before, epoch, life, sight.blocks, at, line(sight.whole))
+        before, at = board.unit, replace(standstill(sight), response_cycles=0)
+        place = Place(sight.blocks, at, line(sight.whole), board.asks_anew)
+        board.unit = unit.answer(self.lists, before, Challenge(epoch), place)
         if board.unit is not before:
             board.asks_anew = False
             self.begin_anew(board, sight)
