@@ -69,7 +69,7 @@ def _places(length: int, chance: random.Random) -> list[float]:
     """Detectors at random, now and then close to the end of the track."""
     if chance.random() < 0.3:
         return []
-    places = {round(chance.uniform(1, length - 1), 3) for _ in range(chance.choice((1, 1, 2)))}
+    places = {round(chance.uniform(3.5, length - 3.5), 3) for _ in range(chance.choice((1, 1, 2)))}
     return sorted({chance.choice((place, place, 3.5, length - 3.5)) for place in places})
 
 
