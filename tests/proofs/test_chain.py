@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rich.console import Console
 from typer.testing import CliRunner
 
@@ -51,6 +53,47 @@ def test_the_tree_says_what_was_proved_and_how_its_links_are_tied() -> None:
     for line in counted(chain()):
         assert line in text
     assert f"{len(chain().tied(BY_NAME))} discharged: tied by name alone" in text
+
+
+def core(row: str, invariant: str, *guards: str, parts_open: int = 0) -> dict[str, Any]:
+    return {"transition": row, "invariant": invariant, "guards": [*guards], "open": parts_open}
+
+
+def cores_of(theory: str, *guards: str, parts_open: int = 0) -> list[dict[str, Any]]:
+    """A record in which every proof of a theory rests on these."""
+    whole = THEORIES[theory]
+    return [
+        core(f"{theory}.{step}", name, *guards, parts_open=parts_open)
+        for step in whole.steps
+        for name in whole.invariants
+    ]
+
+
+def test_by_recorded_cores_what_no_proof_of_the_chain_uses_is_told_apart() -> None:
+    nothing, told = chain(()), chain(cores_of("link", "models.link.clocks_agree_within_the_bound: a <= b"))
+    name = "link.only_the_holder_of_the_key_makes_a_valid_mac"
+    assert name in nothing.nature
+    assert name in told.idle
+    assert name not in told.nature
+    assert "link.clocks_agree_within_the_bound" in told.nature
+    assert (list(nothing.by_cores), list(told.by_cores)) == ([], ["link"])
+    assert "told by the unsat cores on record in 1 theories" in counted(told)[-1]
+
+
+def test_a_core_that_asks_an_assumption_by_name_uses_it() -> None:
+    asked = "models.link.arrive: only_the_holder_of_the_key_makes_a_valid_mac(site, system, arrived)"
+    assert "link.only_the_holder_of_the_key_makes_a_valid_mac" in chain(cores_of("link", asked)).nature
+
+
+def test_cores_that_are_not_whole_leave_all_that_steps_ask_in_the_chain() -> None:
+    assert chain(cores_of("link", parts_open=1)).idle == chain(()).idle
+    assert chain(cores_of("link")[1:]).by_cores == []
+
+
+def test_what_a_site_is_assumed_to_be_and_no_claim_asked_for_rests_on_is_idle() -> None:
+    found = chain(())
+    assert "tag_reader.a_gap_has_a_length" in found.idle
+    assert not set(found.idle) & set(found.nature)
 
 
 def test_the_whole_is_not_asked_of_a_part() -> None:
