@@ -30,11 +30,13 @@ class Spare:
 
     def of(self, block: Block, entry: Heading, lies: Lies) -> Mapping[Point, Beside]:
         """The points of a block that a path which comes in there does not pass; ``lies``: those that it does."""
+        beside = self.blocks.points_in[block] - lies.keys()
+        if not beside:
+            return {}
         key = entry, frozenset(lies.items())
         if key not in self.known:
-            beside = self.blocks.points_in[block] - lies.keys()
-            path = _Path.through(self.blocks, entry, lies) if beside else None
-            self.known[key] = {} if path is None else {point: self._beside(path, block, point) for point in beside}
+            path = _Path.through(self.blocks, entry, lies)
+            self.known[key] = {point: self._beside(path, block, point) for point in beside}
         return self.known[key]
 
     def _beside(self, path: _Path, block: Block, point: Point) -> Beside:
@@ -94,8 +96,10 @@ class _Path:
         comes, met, todo = False, set[Heading](), list(starts)
         while todo:
             heading = todo.pop()
-            if heading in met or heading[0] in self.segments:
-                comes = comes or heading[0] in self.segments
+            if heading[0] in self.segments:
+                comes = True
+                continue
+            if heading in met:
                 continue
             met.add(heading)
             end = self.blocks.segments.at[heading]

@@ -98,9 +98,9 @@ def _lay_beside(
 
 
 def _named_beside(blocks: Blocks, path: Path, findings: Findings) -> dict[Point, Position]:
-    """The positions that a route names for points beside its path, in blocks that it claims.
+    """The positions that a route names for points that it does not pass: those of its flank, and in its blocks.
 
-    A position for any other junction that it does not pass is a violation, and so is one that its flank contradicts.
+    A position for any other junction is a violation.
     """
     name, claims = path.wanted.name, {*path.blocks, *path.overlap}
     found: dict[Point, Position] = {}
@@ -115,11 +115,7 @@ def _named_beside(blocks: Blocks, path: Path, findings: Findings) -> dict[Point,
             found[Point(junction)] = Position(position)
             continue
         findings.violation("a route's positions are of its points", (name, junction), text)
-    passed = {point: at for points in path.points.values() for point, at in points.items()}
-    for junction, position in sorted(path.wanted.flank.items()):
-        if blocks.stands_in[Point(junction)] in claims and passed.get(Point(junction), position) == position:
-            found.setdefault(Point(junction), Position(position))
-    return {point: at for point, at in found.items() if point not in passed}
+    return {**{Point(point): Position(at) for point, at in path.wanted.flank.items()}, **found}
 
 
 def _release(path: Path, granted: Granted) -> None:

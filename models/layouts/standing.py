@@ -65,10 +65,13 @@ def _out(blocks: Blocks, path: Path) -> Heading:
 def _back(
     blocks: Blocks, path: Path, out: Heading, named: Mapping[Point, Position], findings: Findings
 ) -> tuple[Heading, dict[Point, Position]] | None:
-    """The other end of the track that leads out there, and its points; none, with a violation, where there are more."""
+    """The other end of the track that leads out there, and its points; none, with a violation, where there are more.
+
+    Points that lie fixed join ends of track two by two, so that no way comes back to where it has been.
+    """
     segments, name, start = blocks.segments, path.wanted.name, path.blocks[0]
     lies: dict[Point, Position] = {}
-    heading, seen = opposite(out), set[Heading]()
+    heading = opposite(out)
     while isinstance(end := segments.at[heading], Joint):
         point, is_point = Point(end.junction), segments.station.junctions[end.junction].is_point
         given = lies.get(point, named.get(point)) if is_point else None
@@ -82,12 +85,11 @@ def _back(
             )
             findings.violation(SAID, (name, point), text)
             return None
-        if not ways or heading in seen:
+        if not ways:
             over = f", its points lying as it says: {', '.join(sorted(named))}" if named else ""
             text = f"route '{name}' starts in block '{start}', through which no track leads to where it leaves it{over}"
             findings.violation(SAID, (name, *sorted(named)), text)
             return None
-        seen.add(heading)
         if is_point:
             lies[point] = Position(given or min(ways[0][0]))
         heading = ways[0][1]

@@ -93,7 +93,9 @@ def differing_ground(imported: Imported, found: Enumerated) -> list[str]:
 
 def listed_violations(result: CheckResult) -> Counter[Listed]:
     """Rule and elements of every violation; the order of elements says nothing."""
-    return Counter((violation.axiom, tuple(sorted(set(violation.elements)))) for violation in result.violations)
+    return Counter(
+        (violation.axiom, tuple(sorted(set(map(str, violation.elements))))) for violation in result.violations
+    )
 
 
 def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:

@@ -14,6 +14,7 @@ from models.layouts.conflict_pairs import Conflicts
 from models.layouts.export.control_table import control_table
 from models.layouts.generate import as_toml
 from tests.independent.files import OTHERS, SAMPLES, path_of
+from tests.independent.layouts.crafted import TRAP
 from tests.independent.layouts.mutants import RAILML
 from tests.independent.layouts.stations import station
 from tests.independent.made_up import made_up
@@ -21,56 +22,6 @@ from tests.independent.test_verdicts import needs_folder
 from tests.layouts.mirrored import differences, mirrored
 
 FILES = [*SAMPLES, *(pytest.param(name, marks=needs_folder) for name in (*OTHERS, *RAILML))]
-TRAP = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-[tracks.main_w]
-from = "west"
-to = "P.tip"
-length_mm = 900_000
-boundaries = { W = 800_000 }
-[tracks.main_e]
-from = "P.normal"
-to = "east"
-length_mm = 900_000
-boundaries = { E = 100_000 }
-[tracks.link]
-from = "P.reverse"
-to = "T.normal"
-length_mm = 60_000
-[tracks.siding]
-from = "T.tip"
-to = "buffer"
-length_mm = 300_000
-boundaries = { S = 20_000 }
-[tracks.drag]
-from = "T.reverse"
-to = "S.tip"
-length_mm = 30_000
-[tracks.sand]
-from = "S.normal"
-to = "sand drag"
-length_mm = 40_000
-[tracks.wall]
-from = "S.reverse"
-to = "wall"
-length_mm = 20_000
-[points]
-P = {}
-T = {}
-S = {}
-[routes."main"]
-from = "W"
-direction = "forward"
-to = "E"
-points = { P = "normal" }
-[routes."shunt in"]
-from = "W"
-direction = "forward"
-to = "buffer"
-points = { P = "reverse", T = "normal" }
-"""
-"""A trap between a siding and the main line, and behind it a point that shields nothing."""
 
 
 @pytest.mark.parametrize("name", FILES)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import copy
 import importlib
+import itertools
 import json
 import random
 import signal
@@ -31,6 +32,7 @@ from tests.independent import files, raw_native, raw_railjson, raw_table
 from tests.independent.compare import disagreements
 from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
+from tests.independent.layouts.crafted import CRAFTED
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station
@@ -216,6 +218,7 @@ def corpus() -> Iterator[File]:
     """The files, those that take least first."""
     for name in SAMPLES:
         yield File(name, files.path_of(name).read_text(encoding="utf-8"))
+    yield from itertools.starmap(File, CRAFTED.items())
     for number in range(EDITED):
         what, data = edited("junction.toml", NATIVE, random.Random(number))
         yield File(f"{what}.toml", as_toml(data))

@@ -16,8 +16,9 @@ import pytest
 from kernel.layout import Layout
 from models.layouts import check, load, load_text
 from tests.independent.files import OTHERS, ROOT, SAMPLES, path_of
+from tests.independent.layouts.crafted import CRAFTED, TWO_LEGS
 from tests.independent.layouts.driving import Driver, Found
-from tests.independent.layouts.mutants import RAILML
+from tests.independent.layouts.mutants import RAILML, File
 from tests.independent.layouts.stations import station, without
 from tests.independent.layouts.survey import of_railjson, survey_file, survey_text
 from tests.independent.test_verdicts import needs_folder
@@ -121,44 +122,6 @@ def no_point_of_its_start(layout: Layout) -> Layout:
     return replace(layout, needs=needs)
 
 
-TWO_LEGS = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-[tracks.line]
-from = "west"
-to = "P.tip"
-length_mm = 1_000_000
-boundaries = { W0 = 400_000, W = 900_000 }
-[tracks.a]
-from = "P.normal"
-to = "stop a"
-length_mm = 300_000
-boundaries = { A = 100_000 }
-[tracks.b]
-from = "P.reverse"
-to = "stop b"
-length_mm = 300_000
-boundaries = { B = 100_000 }
-[points]
-P = {}
-[routes."to a"]
-from = "W"
-direction = "forward"
-to = "A"
-points = { P = "normal" }
-[routes."on b"]
-from = "B"
-direction = "forward"
-to = "stop b"
-[routes."out from b"]
-from = "W"
-direction = "backward"
-to = "W0"
-points = { P = "reverse" }
-"""
-"""A block of three boundaries: from one leg a train is not to be let go as if it stood on the other."""
-
-
 def test_a_train_on_the_other_leg_of_its_block_is_refused() -> None:
     imported, survey = load_text("legs.toml", TWO_LEGS), survey_text("legs.toml", TWO_LEGS)
     assert check(imported).verdict == "holds"
@@ -188,3 +151,20 @@ def test_a_planted_fault_is_seen(planted: object, kind: str) -> None:
     imported = load(path)
     wrong = replace(imported, layout=planted(imported.layout))  # type: ignore[operator]
     assert kind in Driver.of(survey_file(path), wrong).drive().kinds()
+
+
+SAID = {
+    "no track.toml": [("on b", "P")],
+    "diamond.json": [("out", "stop", "south")],
+    "against.toml": [("main", "T")],
+}
+"""What is wrong with a crafted layout, by its elements."""
+
+
+@pytest.mark.parametrize("name", CRAFTED)
+def test_a_crafted_layout_is_seen_as_a_plain_walk_sees_it(name: str) -> None:
+    file = File(name, CRAFTED[name])
+    assert file.before is not None
+    assert file.unlike == []
+    at_import = [v.elements for v in file.before.violations]
+    assert at_import == SAID.get(name, [])
