@@ -113,11 +113,12 @@ def a_healthy_line_reaches_the_tail(
     The line runs through every coupling, so losing a car breaks it; accelerations of both ends and the spacing of
     the antennas are watched as well (T3, T13, P5).
     """
-    return (
-        not (line.answers and line.is_intact and line.fits)
-        or system.track.facing.get(run.train) == cab
-        or is_last(site, system, run, car)
-    )
+    return system.track.facing.get(run.train) == cab or only_the_last_speaks(line, is_last(site, system, run, car))
+
+
+def only_the_last_speaks(line: ThroughLine, is_last: bool) -> bool:
+    """Where line, split and spacing all say whole, the antenna that speaks for the tail is the last one (T3, T13)."""
+    return not (line.answers and line.is_intact and line.fits) or is_last
 
 
 def a_head_runs_no_farther_than_its_brake_lets_it(

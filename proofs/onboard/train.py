@@ -53,6 +53,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
 from models.world.assumptions import a_missed_tag_is_overdue_before_the_tail_comes as overdue_before_the_tail
+from models.world.assumptions import only_the_last_speaks
 from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window
 from proofs.onboard.train_parts import (
     a_train_that_keeps_is_no_faster_than_the_limit,
@@ -247,10 +248,10 @@ def a_whole_train_is_never_accused(site: Train, system: Whole) -> bool:
 
 def a_tail_that_counts_is_the_trains_last(site: Train, system: Whole) -> bool:
     """The line fits only if the tail's antenna was as far behind as preset, and the train has not rolled back (T2)."""
-    line = computer.through_line(site.limits, system.computer, True)
+    line = replace(computer.through_line(site.limits, system.computer, True), is_intact=True)
     off_nm = system.trailing.tail_nm - NM_A_MM * system.computer.spacing.preset_mm
-    return not line.fits or (
-        not system.computer.known.movement.reversed and not world_of_antennas.is_off(track(site), off_nm)
+    return only_the_last_speaks(
+        line, not system.computer.known.movement.reversed and not world_of_antennas.is_off(track(site), off_nm)
     )
 
 
