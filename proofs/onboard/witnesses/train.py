@@ -429,8 +429,8 @@ def a_brake_is_asked_for_nothing_before_it_has_responded() -> None:
     new = replace(runs, watched=replace(runs.watched, cycles=BRAKE.response_cycles - 1))
     assert a_brake_that_has_responded_keeps_its_bound(SITE, runs, False, 10_000_000)
     assert a_brake_that_has_responded_keeps_its_bound(SITE, new, True, 10_000_000)
-    assert a_brake_that_has_responded_keeps_its_bound(SITE, runs, True, 9_930_000)
-    assert not a_brake_that_has_responded_keeps_its_bound(SITE, runs, True, 9_930_001)
+    assert a_brake_that_has_responded_keeps_its_bound(SITE, runs, True, 9_931_400)
+    assert not a_brake_that_has_responded_keeps_its_bound(SITE, runs, True, 9_931_401)
 
 
 def a_wheel_that_slips_or_is_not_read_shows_what_it_likes() -> None:
