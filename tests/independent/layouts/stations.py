@@ -70,7 +70,8 @@ def _places(length: int, chance: random.Random) -> list[float]:
     if chance.random() < 0.3:
         return []
     places = {round(chance.uniform(3.5, length - 3.5), 3) for _ in range(chance.choice((1, 1, 2)))}
-    return sorted({chance.choice((place, place, 3.5, length - 3.5)) for place in places})
+    found = sorted({chance.choice((place, place, 3.5, length - 3.5)) for place in places})
+    return found if len(found) < 2 or found[1] - found[0] >= 7 else found[:1]
 
 
 def _routes(data: dict[str, Any], chance: random.Random) -> list[dict[str, Any]]:
