@@ -307,6 +307,13 @@ def a_tail_over_a_missed_tag_is_known_too_widely(site: Train, system: Whole) -> 
     return not system.astern or not computer.finds_a_missed_tag(site.limits, system.computer)
 
 
+def the_brake_holds_the_wanted_end_or_the_one_before(site: Train, system: Whole) -> bool:
+    """Wherever the head is: another end than the wanted one is that of before, with the brake applied (T4, T12)."""
+    brake = system.computer.brake
+    is_wanted = system.approach.wanted and brake.end_mm == system.approach.wanted_mm
+    return is_wanted or (brake.withheld and brake.end_mm == system.asked.end_mm)
+
+
 def a_whole_train_is_preset_as_written(site: Train, system: Whole) -> bool:
     """Staff presets no other distance of the antennas than is written of the train (T3)."""
     return not system.trailing.whole or system.trailing.spacing.preset_mm == site.limits.antennas_mm
@@ -439,6 +446,7 @@ INVARIANTS = (
     what_no_end_has_freed_stands,
     a_narrow_range_finds_what_the_head_missed,
     a_tail_over_a_missed_tag_is_known_too_widely,
+    the_brake_holds_the_wanted_end_or_the_one_before,
     a_whole_train_is_preset_as_written,
     the_brake_responds_once_it_was_commanded_for_long_enough,
     no_fix_was_false,
