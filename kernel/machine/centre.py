@@ -164,7 +164,7 @@ class Due:
 
 
 def due(layout: Layout, centre: Centre) -> Due:
-    """Give what a tick does now."""
+    """Give what a tick does now (T4, T8)."""
     held = frozenset(run for _, holders in centre.claimed.items() for run in holders)
     missing = recovery.train_missing(layout, centre)
     return Due(

@@ -14,8 +14,10 @@ from models.world.truth import (
     came_round,
     is_genuine,
     is_last,
+    is_overdue_first,
     its_front_leads,
     keeps_before,
+    only_the_last_speaks,
     reads_both_first,
     says_it_is_held,
     says_it_stands_between,
@@ -97,12 +99,9 @@ def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run,
     )
 
 
-def a_missed_tag_is_overdue_before_the_tail_comes(is_unread: bool, line: ThroughLine) -> bool:
-    """A tag that the head has missed is overdue by running distance before what the tail reads there counts.
-
-    ``is_unread``: it has passed one without reading it, which is not overdue yet.
-    """
-    return not is_unread or not line.fits
+def a_missed_tag_is_overdue_before_the_tail_comes(system: System, train: Train, line: ThroughLine) -> bool:
+    """A tag that the head has missed is overdue by running distance before what the tail reads there counts."""
+    return is_overdue_first(train in system.track.unread, line)
 
 
 def a_healthy_line_reaches_the_tail(
@@ -114,11 +113,6 @@ def a_healthy_line_reaches_the_tail(
     the antennas are watched as well (T3, T13, P5).
     """
     return system.track.facing.get(run.train) == cab or only_the_last_speaks(line, is_last(site, system, run, car))
-
-
-def only_the_last_speaks(line: ThroughLine, is_last: bool) -> bool:
-    """Where line, split and spacing all say whole, the antenna that speaks for the tail is the last one (T3, T13)."""
-    return not (line.answers and line.is_intact and line.fits) or is_last
 
 
 def a_head_runs_no_farther_than_its_brake_lets_it(

@@ -143,7 +143,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
         return system
     if not a_healthy_line_reaches_the_tail(site, system, run, car, cab, line):
         return system
-    if not a_missed_tag_is_overdue_before_the_tail_comes(run.train in system.track.unread, line):
+    if not a_missed_tag_is_overdue_before_the_tail_comes(system, run.train, line):
         return system
     if not a_pair_passed_in_order_proves_the_exit(site, system, run, car, read):
         return system

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kernel.maps import Map
 from kernel.names import Block, Car, Point, Read, Run, Tag, Train
-from kernel.standstill import Standstill
+from kernel.standstill import Standstill, ThroughLine
 from kernel.terminal import Terminal
 from kernel.unit import Unit
 from models.world.state import Site, System
@@ -165,3 +165,13 @@ def came_round(site: Site, system: System, car: Car, block: Block, left: Tag, en
         and its_front_leads(site, system, run)
         and not the_head_went_on(site, system, run, block, left, entered)
     )
+
+
+def is_overdue_first(is_unread: bool, line: ThroughLine) -> bool:
+    """Where a tag that the head has passed unread is not overdue yet, the line does not fit (T2, T5)."""
+    return not is_unread or not line.fits
+
+
+def only_the_last_speaks(line: ThroughLine, is_last: bool) -> bool:
+    """Where line, split and spacing all say whole, the antenna that speaks for the tail is the last one (T3, T13)."""
+    return not (line.answers and line.is_intact and line.fits) or is_last

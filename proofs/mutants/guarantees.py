@@ -1,6 +1,6 @@
 """Each guarantee by which the theory of a joint goes on: true in its place, and any other invariant in its place.
 
-A theory that puts machines together (``train``) or speaks between them (``joint``, ``occupancy``) discharges what each
+A theory that puts machines together (``train``) or speaks between them (``joint``) discharges what each
 assumes by what the others have guaranteed a step before: by invariants that its proof scripts name.  Such a use is
 needed if the step breaks the claim without it, and right if no other invariant of the theory does as well.  A
 counterexample must show it, one that CPython confirms; a guarantee without which the claim is proved is to be dropped
@@ -26,7 +26,7 @@ from proofs.theories import THEORIES, row_of, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.transitions import event_types
 
-COMPOSED = ("train", "joint", "occupancy")
+COMPOSED = ("train", "joint")
 """The theories in which one machine's guarantee is another's assumption."""
 SPENDING = 3_000_000
 """What Z3 may spend on one question, in its own units; ``unknown`` refutes nothing."""

@@ -41,7 +41,6 @@ from models.onboard.train_nature import (
     line,
     profile,
     stretch,
-    tail_comes_over,
     the_antennas_lie_farther_apart_than_the_window_is_long,
     the_brakes_bounds_fit,
     the_odometrys_bounds_fit,
@@ -52,22 +51,25 @@ from models.onboard.train_nature import (
     way_nm,
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
-from models.world.assumptions import a_missed_tag_is_overdue_before_the_tail_comes as overdue_before_the_tail
-from models.world.assumptions import only_the_last_speaks
+from models.world.truth import is_overdue_first, only_the_last_speaks
 from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window
 from proofs.onboard.train_parts import (
+    a_narrow_range_finds_what_the_head_missed,
+    a_tail_over_a_missed_tag_is_known_too_widely,
     a_train_that_keeps_is_no_faster_than_the_limit,
     a_trusted_wheel_has_not_slipped,
     a_trusted_wheel_is_known_as_it_was_shown,
     a_wheel_that_agrees_keeps_pace,
     a_whole_train_has_passed_what_its_tail_read,
     a_whole_train_is_near_its_preset,
+    a_whole_train_is_preset_as_written,
     anchor_contained_front,
     it_gets_no_farther_before_the_response,
     it_gets_no_faster_before_the_response,
     no_restriction_ends_before_the_rear_has_passed,
     range_contains_front,
     speed_range_contains_speed,
+    the_brake_holds_the_wanted_end_or_the_one_before,
     the_gradient_estimate_is_no_steeper_than_the_line,
     the_heads_last_eight_are_remembered,
     the_response_ends,
@@ -79,6 +81,7 @@ from proofs.onboard.train_parts import (
     what_is_caught_is_broken,
     what_is_not_preset_is_broken,
     what_is_remembered_was_read,
+    what_no_end_has_freed_stands,
     what_the_head_is_on_is_known,
 )
 from proofs.theory import Theory, by_name
@@ -213,7 +216,7 @@ def a_missed_tag_is_overdue_before_the_tail_comes(site: Train, system: Whole) ->
 
     Unless the train runs at more than twice the speed of its line.
     """
-    return overdue_before_the_tail(system.astern, computer.through_line(site.limits, system.computer, True))
+    return is_overdue_first(system.astern, computer.through_line(site.limits, system.computer, True))
 
 
 def no_tag_still_ahead_is_called_missing(site: Train, system: Whole) -> bool:
@@ -286,47 +289,6 @@ def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole)
     return not window.expected or (
         window.least_mm == window.most_mm == away_mm - system.computer.from_mm
         and computer.awaits(site.limits, system.computer, system.awaited_mm)
-    )
-
-
-def a_narrow_range_finds_what_the_head_missed(site: Train, system: Whole) -> bool:
-    """A cycle that begins with a narrow range calls an awaited tag overdue before the tail comes over it (T2, T5)."""
-    motion, window = system.computer.known.motion, system.computer.known.window
-    return (
-        not system.runs
-        or motion.loss != Loss.NONE
-        or motion.front_most_mm - motion.front_least_mm > site.limits.window.tail_width_mm
-        or not window.expected
-        or window.passed
-        or not tail_comes_over(site, system)
-    )
-
-
-def a_tail_over_a_missed_tag_is_known_too_widely(site: Train, system: Whole) -> bool:
-    """The tail is over a tag that was not overdue only where the range was too wide when the cycle began (T2, T5)."""
-    return not system.astern or not computer.finds_a_missed_tag(site.limits, system.computer)
-
-
-def the_brake_holds_the_wanted_end_or_the_one_before(site: Train, system: Whole) -> bool:
-    """Wherever the head is: another end than the wanted one is that of before, with the brake applied (T4, T12)."""
-    brake = system.computer.brake
-    is_wanted = system.approach.wanted and brake.end_mm == system.approach.wanted_mm
-    return is_wanted or (brake.withheld and brake.end_mm == system.asked.end_mm)
-
-
-def a_whole_train_is_preset_as_written(site: Train, system: Whole) -> bool:
-    """Staff presets no other distance of the antennas than is written of the train (T3)."""
-    return not system.trailing.whole or system.trailing.spacing.preset_mm == site.limits.antennas_mm
-
-
-def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
-    """A train whose brake no end has freed since it was located is held by it, and runs forward no more (T8, T12)."""
-    return not system.held or (
-        system.speed_um_s <= 0
-        and system.computer.brake.withheld
-        and system.computer.brake.applied
-        and system.watched.cycles >= site.limits.train.brake.response_cycles
-        and (not system.runs or system.front_nm <= system.from_nm)
     )
 
 

@@ -1,7 +1,9 @@
-"""What odometry, brake control and watch, antennas and speed limit rest on, of the one train that all of them see."""
+"""What the claims of the one train rest on: of its parts, as each is proved alone, and of the train itself."""
 
 from __future__ import annotations
 
+from kernel.onboard import computer
+from kernel.onboard.odometry import Loss
 from models.onboard.train_nature import (
     Train,
     Whole,
@@ -11,6 +13,7 @@ from models.onboard.train_nature import (
     passage,
     profile,
     running,
+    tail_comes_over,
     track,
     watched,
     watched_over,
@@ -136,3 +139,44 @@ def no_restriction_ends_before_the_rear_has_passed(site: Train, system: Whole) -
 def what_the_head_is_on_is_known(site: Train, system: Whole) -> bool:
     """In a curve, or on a turnout, the limit says so (T12)."""
     return speed_limit.what_the_head_is_on_is_known(profile(site), passage(system, system.front_nm))
+
+
+def a_narrow_range_finds_what_the_head_missed(site: Train, system: Whole) -> bool:
+    """A cycle that begins with a narrow range calls an awaited tag overdue before the tail comes over it (T2, T5)."""
+    motion, window = system.computer.known.motion, system.computer.known.window
+    return (
+        not system.runs
+        or motion.loss != Loss.NONE
+        or motion.front_most_mm - motion.front_least_mm > site.limits.window.tail_width_mm
+        or not window.expected
+        or window.passed
+        or not tail_comes_over(site, system)
+    )
+
+
+def a_tail_over_a_missed_tag_is_known_too_widely(site: Train, system: Whole) -> bool:
+    """The tail is over a tag that was not overdue only where the range was too wide when the cycle began (T2, T5)."""
+    return not system.astern or not computer.finds_a_missed_tag(site.limits, system.computer)
+
+
+def the_brake_holds_the_wanted_end_or_the_one_before(site: Train, system: Whole) -> bool:
+    """Wherever the head is: another end than the wanted one is that of before, with the brake applied (T4, T12)."""
+    brake = system.computer.brake
+    is_wanted = system.approach.wanted and brake.end_mm == system.approach.wanted_mm
+    return is_wanted or (brake.withheld and brake.end_mm == system.asked.end_mm)
+
+
+def a_whole_train_is_preset_as_written(site: Train, system: Whole) -> bool:
+    """Staff presets no other distance of the antennas than is written of the train (T3)."""
+    return not system.trailing.whole or system.trailing.spacing.preset_mm == site.limits.antennas_mm
+
+
+def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
+    """A train whose brake no end has freed since it was located is held by it, and runs forward no more (T8, T12)."""
+    return not system.held or (
+        system.speed_um_s <= 0
+        and system.computer.brake.withheld
+        and system.computer.brake.applied
+        and system.watched.cycles >= site.limits.train.brake.response_cycles
+        and (not system.runs or system.front_nm <= system.from_nm)
+    )

@@ -121,7 +121,7 @@ def test_a_changed_kernel_is_never_run_with_stale_code(tmp_path: Path) -> None:
     source = path.read_text("utf-8")
     for old, new, again in (
         ("return -(-value // by)", "return 7 * value // by", ["divided_up", "next_limit_mm_s", "note_cycle"]),
-        ("CYCLE_MS = 100", "CYCLE_MS = 900", ["next_limit_mm_s", "note_cycle"]),
+        ("LONGEST_CYCLE_MS = 102", "LONGEST_CYCLE_MS = 902", ["next_limit_mm_s", "note_cycle"]),
     ):
         assert source.count(old) == 1
         path.write_text(source.replace(old, new), "utf-8")
