@@ -34,7 +34,7 @@ from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
 from kernel.onboard.tag_window import NONE_AWAITED
-from kernel.onboard.way import Way, is_known, is_within_width
+from kernel.onboard.way import Way
 from kernel.standstill import Standstill, ThroughLine, is_braked
 
 
@@ -234,8 +234,8 @@ def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLi
 def finds_a_missed_tag(limits: Limits, computer: Computer) -> bool:
     """Tell whether a tag that the head had missed would have been overdue when the newest cycle began (T2, T5)."""
     before = computer.before
-    way = Way(known=odometry.is_located(before), least_mm=before.front_least_mm, most_mm=before.front_most_mm)
-    return is_known(way) and is_within_width(way, limits.window.tail_width_mm)
+    width_mm = before.front_most_mm - before.front_least_mm
+    return odometry.is_located(before) and width_mm <= limits.window.tail_width_mm
 
 
 # ---- what is told

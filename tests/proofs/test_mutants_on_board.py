@@ -21,7 +21,7 @@ from proofs.theory import Theory
 
 KILLED = [
     "kernel.onboard.odometry.note_cycle: and-operand agrees(",
-    "kernel.onboard.odometry.agrees: sign",
+    "kernel.onboard.odometry.way_error_mm: sign",
     "kernel.onboard.odometry.roll: term error_mm",
     "kernel.onboard.odometry.glide: limit smaller(motion.speed_least_mm_s",
     "kernel.onboard.odometry.located: update",
@@ -84,7 +84,7 @@ def dropped(function: Any, kind: str) -> list[str]:
 def test_limits_terms_signs_and_roundings_are_dropped() -> None:
     assert "smaller(motion.speed_least_mm_s, slowest_mm_s) (slowest_mm_s)" in dropped(odometry.glide, "limit")
     assert any("(no most)" in text for text in dropped(odometry.next_gradient_mm_s2, "limit"))
-    assert dropped(odometry.agrees, "sign")
+    assert dropped(odometry.way_error_mm, "sign")
     assert dropped(odometry.glide, "rounding")
     assert "error_mm" in dropped(odometry.roll, "term")
     assert dropped(odometry.tachometer_speaks, "part")
