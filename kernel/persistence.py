@@ -53,3 +53,12 @@ TERMINAL: Mapping[str, tuple[Memory, str]] = {
     "unlocked": (Memory.LASTING, ""),
 }
 """The point terminal: the lock is mechanical and stays as it is; the lock id is lost."""
+
+CROSSING: Mapping[str, tuple[Memory, str]] = {
+    "asks": (Memory.LOST, "{}"),
+    "silent_cycles": (Memory.LOST, "{track: settings.silence_cycles + 1 for track in tracks}"),
+    "unaccounted": (Memory.LOST, "{track: True for track in tracks}"),
+    "warns": (Memory.LOST, "True"),
+    "warned_cycles": (Memory.LOST, "settings.bell_cycles"),
+}
+"""The crossing: it warns, and its arms go down without waiting for the bell, until each track is accounted for."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kernel.centre import Centre
+from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -49,4 +50,15 @@ def restart_terminal(terminal: Terminal, life: TerminalLife) -> Terminal:
         holds=None,
         wanted=None,
         unlocked=terminal.unlocked,
+    )
+
+
+def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack]) -> Crossing:
+    """Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5)."""
+    return Crossing(
+        asks={},
+        silent_cycles={track: settings.silence_cycles + 1 for track in tracks},
+        unaccounted={track: True for track in tracks},
+        warns=True,
+        warned_cycles=settings.bell_cycles,
     )

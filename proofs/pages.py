@@ -12,6 +12,7 @@ from pathlib import Path
 
 from kernel import persistence
 from kernel.centre import Centre
+from kernel.crossing.crossing import Crossing
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
@@ -64,6 +65,12 @@ def persistence_page() -> str:
         ("The centre", Centre, persistence.CENTRE, "Nothing but two counters survives; every block and point is lost."),
         ("The on-board unit", Unit, persistence.UNIT, "Without orders it has no authority, so it stands."),
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
+        (
+            "The level crossing",
+            Crossing,
+            persistence.CROSSING,
+            "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty.",
+        ),
     ):
         said = described(state)
         lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from kernel import persistence
 from kernel.centre import Centre
+from kernel.crossing.crossing import Crossing
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
@@ -17,6 +18,7 @@ HEAD = '''"""What each restart leaves.  Written by ``python -m proofs.restarts``
 from __future__ import annotations
 
 from kernel.centre import Centre
+from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -70,6 +72,14 @@ def source() -> str:
             "terminal: Terminal, life: TerminalLife",
             "Begin a new life: the lock stays as it is, the lock id is gone (T8, T10).",
             persistence.TERMINAL,
+        ),
+        restart_source(
+            "restart_crossing",
+            "crossing",
+            Crossing,
+            "settings: Settings, tracks: frozenset[CrossingTrack]",
+            "Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5).",
+            persistence.CROSSING,
         ),
     ]
     return "\n\n".join(parts)

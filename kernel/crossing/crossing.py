@@ -72,11 +72,13 @@ class Crossing:
 
     ``asks``: each train that it knows of, and whether that has asked for the warning.
     ``silent_cycles``: for how long each start point's terminal has told nothing.
+    ``unaccounted``: each track, and whether nobody has seen it empty since the last restart; such a track warns.
     ``warns``: lamps and bells.  ``warned_cycles``: how long this warning has lasted.
     """
 
     asks: Map[Train, bool]
     silent_cycles: Map[CrossingTrack, int]
+    unaccounted: Map[CrossingTrack, bool]
     warns: bool
     warned_cycles: int
 
@@ -147,8 +149,14 @@ def note_struck(crossing: Crossing, train: Train) -> Crossing:
 
 
 def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
-    """A terminal is heard; every strike that it had not told of comes first (X3, T14)."""
-    return replace(crossing, silent_cycles=crossing.silent_cycles | {track: 0})
+    """A terminal is heard; every strike that it had not told of comes first (X3, T14).
+
+    One whose track the settings leave out has a track that nobody has accounted for (ours).
+    """
+    heard = replace(crossing, silent_cycles=crossing.silent_cycles | {track: 0})
+    if track in crossing.unaccounted:
+        return heard
+    return replace(heard, unaccounted=crossing.unaccounted | {track: True})
 
 
 def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
@@ -164,13 +172,26 @@ def note_released(crossing: Crossing, gone: Train) -> Crossing:
     return replace(crossing, asks={train: asks for train, asks in crossing.asks.items() if train != gone})
 
 
+def note_empty(crossing: Crossing, track: CrossingTrack) -> Crossing:
+    """A person on site has seen, since the restart, that a track is empty from its start points to the road (X3, ours).
+
+    Nothing else accounts for it: who stands in the approach strikes no start point, and is not heard.
+    """
+    return replace(crossing, unaccounted=crossing.unaccounted | {track: False})
+
+
 # ---- what the crossing does
 
 
 def must_warn(settings: Settings, crossing: Crossing) -> bool:
-    """Tell whether a train asks for the warning, or a terminal is silent: silence means warn (X2, X3, T14)."""
-    return any(asks for _train, asks in crossing.asks.items()) or any(
-        silent > settings.silence_cycles for _track, silent in crossing.silent_cycles.items()
+    """Tell whether a train asks for the warning, or a terminal is silent: silence means warn (X2, X3, T14).
+
+    So does a track that nobody has accounted for: whom a restart has forgotten may still be there (ours).
+    """
+    return (
+        any(asks for _train, asks in crossing.asks.items())
+        or any(silent > settings.silence_cycles for _track, silent in crossing.silent_cycles.items())
+        or any(unaccounted for _track, unaccounted in crossing.unaccounted.items())
     )
 
 

@@ -12,6 +12,7 @@ CLAIMS: Mapping[str, str] = {
     "lifted_between": "an arrival too soon after an opening at which its train was known (X4)",
     "opened_before_rear": "a warning ended while a train that was warned of was not past (X4)",
     "unwarned_silence": "a start point's terminal was silent for too long without a warning (T14)",
+    "opened_unseen": "seconds with the road open and a track that nobody had seen empty since power failed (X3)",
 }
 ASSUMPTIONS: Mapping[str, str] = {
     "ranging_broken": "`the_ranging_bounds_the_train`: a train was nearer or faster than its ranging said",
@@ -19,6 +20,7 @@ ASSUMPTIONS: Mapping[str, str] = {
     "gain_broken": "`the_train_gains_no_more`, `the_train_keeps_to_the_line_speed`",
     "strike_broken": "`the_terminal_tells_every_strike_first`: one was missed, or put down to another train",
     "rear_broken": "`a_whole_train_told_gone_is_gone`",
+    "account_broken": "`a_person_accounts_for_a_track_seen_empty`: a train was there",
     "arms_broken": "`the_arms_come_down_in_time`",
     "start_broken": "`who_arrives_has_passed_the_start_point`, and it lies far enough",
 }
@@ -28,9 +30,12 @@ MONITORS: Mapping[str, str] = {
     "silences": "warnings for a start point's silent terminal (T14)",
     "conventional": "trains under conventional control (X3)",
     "released": "trains that a person released (X4)",
+    "forgotten": "trains between start point and road when power failed (X3)",
+    "accounted": "tracks that a person accounted for after power had failed (X3)",
 }
 PRICES: Mapping[str, str] = {
     "closed_s": "seconds for which the crossing warned",
+    "unseen_s": "of them with a track that nobody had seen empty since power failed",
     "old_closed_s": "seconds for which the old crossing would have",
     "beyond_s": "seconds of warning before arrivals beyond the warning time, all trains",
     "old_beyond_s": "the same of the old crossing",

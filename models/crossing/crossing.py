@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
 from kernel.maps import Map
+from kernel.restarts import restart_crossing
 from models.measures import greater
 
 
@@ -32,6 +33,7 @@ class Body:
     ``was_struck``: history: a terminal told of it, which was not in contact.
     ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it.
     ``was_known``: history: the crossing knew of it when it last let the arms up.
+    ``forgotten``: history: it was inside when the crossing restarted, and no terminal tells of it again.
     """
 
     track: CrossingTrack
@@ -40,6 +42,7 @@ class Body:
     was_struck: bool
     has_asked: bool
     was_known: bool
+    forgotten: bool
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,11 @@ class Level:
     ``in_service``: its settings have been checked.
     ``bodies``: all trains that are on their way.  ``crossing``: the machine.
     ``told``: history: whom it was told of, by contact or strike, and not yet that they are gone.
+    ``accounted``: history: tracks that a person has seen to be empty since the last restart.
+    ``restarted``: history: it has restarted, and its warning has not ended since.
+    ``stranger``: history: at its last decision it had heard a terminal of a track that nobody accounted for.
     ``decided``: it has decided for the cycle that begins.
+    ``warned_cycles``: history: for how long lamps and bells have gone, through restarts.
     ``lowered_cycles``: for how long its arms have been lowered or held down.
     ``are_down``, ``down_cycles``: they are down, and for how many whole cycles.
     ``opened_cycles``: since a warning last ended.
@@ -76,7 +83,11 @@ class Level:
     bodies: Map[Train, Body]
     told: frozenset[Train]
     crossing: Crossing
+    accounted: frozenset[CrossingTrack]
+    restarted: bool
+    stranger: bool
     decided: bool
+    warned_cycles: int
     lowered_cycles: int
     are_down: bool
     down_cycles: int
@@ -121,9 +132,14 @@ def nobody_arrives_before_he_can(system: Level, train: Train) -> bool:
 def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -> bool:
     """Who has passed a start point without contact is told of when its terminal is next heard, at the latest (X3).
 
-    A strike is put down to a train in contact only if that has made it.
+    A strike is put down to a train in contact only if that has made it.  Strikes from before a restart are not told
+    again.
     """
-    return all(train in system.told for train, body in system.bodies.items() if body.track == track and body.inside)
+    return all(
+        train in system.told or body.forgotten
+        for train, body in system.bodies.items()
+        if body.track == track and body.inside
+    )
 
 
 def a_decision_begins_each_cycle(system: Level) -> bool:
@@ -146,14 +162,48 @@ def a_person_releases_what_is_gone(system: Level, gone: Train) -> bool:
     return gone not in system.bodies
 
 
+def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack) -> bool:
+    """Who accounts for a track has seen it empty since the restart: nobody is left who was on it then (X3)."""
+    return all(not body.forgotten for _train, body in system.bodies.items() if body.track == track)
+
+
 # ---- transitions
 
 
 def put_into_service(site: Road, system: Level) -> Level:
-    """The settings of a crossing are checked, and refused if they are not lawful (X5)."""
+    """The settings of a crossing are checked, and refused if they are not lawful; then it starts (X5)."""
     if not machine.are_lawful(site.settings):
         return system
-    return replace(system, in_service=True)
+    return restarted(site, replace(system, in_service=True))
+
+
+def restart(site: Road, system: Level) -> Level:
+    """Its power fails and is back: all that it was told is lost (X3).
+
+    Without power lamps, bells and arms do what the start state asks for; so while power is away it restarts in each
+    cycle.
+    """
+    if not system.in_service:
+        return system
+    return restarted(site, system)
+
+
+def restarted(site: Road, system: Level) -> Level:
+    """What a start leaves: whoever is inside is forgotten, and whoever is not may be told of again (X3)."""
+    return replace(
+        system,
+        bodies={
+            train: replace(body, was_struck=False, has_asked=body.has_asked and body.inside, forgotten=body.inside)
+            for train, body in system.bodies.items()
+        },
+        told=frozenset(),
+        crossing=restart_crossing(site.settings, site.tracks),
+        accounted=frozenset(),
+        restarted=True,
+        stranger=False,
+        decided=False,
+        unheard_cycles={track: cycles for track, cycles in system.unheard_cycles.items() if track in site.tracks},
+    )
 
 
 # ---- trains
@@ -165,7 +215,15 @@ def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cyc
         return system
     if not a_train_comes_as_new(system, train):
         return system
-    body = Body(track, inside=False, left_cycles=left_cycles, was_struck=False, has_asked=False, was_known=False)
+    body = Body(
+        track,
+        inside=False,
+        left_cycles=left_cycles,
+        was_struck=False,
+        has_asked=False,
+        was_known=False,
+        forgotten=False,
+    )
     return replace(system, bodies=system.bodies | {train: body})
 
 
@@ -183,7 +241,7 @@ def arrive(site: Road, system: Level, train: Train) -> Level:
     if not who_arrives_has_passed_the_start_point(system, train) or not nobody_arrives_before_he_can(system, train):
         return system
     body = system.bodies[train]
-    last = Arrived(True, system.crossing.warned_cycles, system.down_cycles, body.was_known, system.opened_cycles)
+    last = Arrived(True, system.warned_cycles, system.down_cycles, body.was_known, system.opened_cycles)
     return replace(system, last=last)
 
 
@@ -243,6 +301,13 @@ def release(site: Road, system: Level, gone: Train) -> Level:
     return replace(system, told=system.told - {gone}, crossing=machine.note_released(system.crossing, gone))
 
 
+def account(site: Road, system: Level, track: CrossingTrack) -> Level:
+    """A person on site has seen a track to be empty (X3)."""
+    if not a_person_accounts_for_a_track_seen_empty(system, track):
+        return system
+    return replace(system, accounted=system.accounted | {track}, crossing=machine.note_empty(system.crossing, track))
+
+
 # ---- cycles
 
 
@@ -275,7 +340,10 @@ def decide(site: Road, system: Level, dues: Map[Train, Due]) -> Level:
             for train, body in system.bodies.items()
         },
         crossing=crossing,
+        restarted=system.restarted and crossing.warns,
+        stranger=any(track not in system.accounted for track, _cycles in system.unheard_cycles.items()),
         decided=True,
+        warned_cycles=system.warned_cycles if crossing.warns else 0,
         opened_cycles=0 if opens else system.opened_cycles,
     )
 
@@ -292,6 +360,7 @@ def run_a_cycle(site: Road, system: Level, are_down: bool) -> Level:
         bodies={train: replace(body, left_cycles=body.left_cycles - 1) for train, body in system.bodies.items()},
         crossing=machine.aged(system.crossing),
         decided=False,
+        warned_cycles=system.warned_cycles + 1 if system.crossing.warns else 0,
         lowered_cycles=lowered_cycles,
         are_down=are_down,
         down_cycles=system.down_cycles + 1 if system.are_down and are_down else 0,

@@ -31,7 +31,13 @@ FAULTS = (
           "the_arms_come_down_in_time"),
     Fault("strong", "a train gained more than any should", 0.0, 0, 0, "m", 300, 1_100, "ours: a locomotive alone",
           "the_train_gains_no_more"),
+    # ---- power: a day's other draws are the same with these and without
+    Fault("power", "power failed at the crossing", 0.2, 1, 900, "s", 60, 900, "practice: lightning, a battery"),
+    Fault("unlooked", "power failed, and nobody looked at the tracks", 0.0, 1, 60, "-", 0, 0, "ours: a hurried person",
+          "a_person_accounts_for_a_track_seen_empty"),
 )  # fmt: skip
-"""In the order of the simulation's windows."""
+"""In the order of the simulation's windows.  ``power`` is as large as a person takes to come once it is back."""
+
+OF_POWER = ("power", "unlooked")
 
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

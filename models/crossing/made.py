@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from kernel.crossing import arrival, crossing
 from kernel.crossing.arrival import Followed, Ranging
-from kernel.crossing.crossing import Crossing, Due, Train
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
 from kernel.maps import Map
+from kernel.restarts import restart_crossing
 from models.compiled import compile_machines, packed
+from models.crossing.sites import SETTINGS
+from models.crossing.traffic import TRACKS
 
 MADE = compile_machines([arrival, crossing])
 NOTHING = packed(Ranging(False, 0, 0, 0))
 UNKNOWN = packed(Followed(0, 0, 10**6, 0, 0, False))
 """Of a train of which there is no ranging."""
-OPEN = Crossing(asks={}, silent_cycles={}, warns=False, warned_cycles=0)
+OPEN = Crossing(asks={}, silent_cycles={}, unaccounted={}, warns=False, warned_cycles=0)
 """A crossing before anything is told."""
+START = restart_crossing(SETTINGS, frozenset(map(CrossingTrack, range(TRACKS))))  # type: ignore[arg-type]
+"""A crossing whose power has come back."""
 NO_DUES = packed({}, Map[Train, Due])

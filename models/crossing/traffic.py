@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from models.crossing.faults import FAULTS, KIND
+from models.crossing.faults import FAULTS, KIND, OF_POWER
 from models.crossing.sites import HOURS, PEAK, Trial
 
 Ints = npt.NDArray[np.int64]
@@ -60,9 +60,9 @@ class Day(NamedTuple):
     arms_cycles: int
 
 
-def generator(seed: int, day: int) -> np.random.Generator:
-    """The generator of one day, the same whatever other days are made."""
-    return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(day,))))
+def generator(seed: int, *of: int) -> np.random.Generator:
+    """The generator of one day, or of a part of it, the same whatever other days are made."""
+    return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=of)))
 
 
 def drawn(seed: int, day: int, trial: Trial, beyond: tuple[str, ...] = (), quiet: bool = False) -> Day:
@@ -72,7 +72,7 @@ def drawn(seed: int, day: int, trial: Trial, beyond: tuple[str, ...] = (), quiet
         KeyError: ``beyond`` names no fault.
     """
     source = generator(seed, day)
-    windows = faults(source, beyond, quiet)
+    windows = faults(source, generator(seed, day, 1), beyond, quiet)
     track, at_s = timetable(source, trial)
     count = len(at_s)
     trains = np.zeros(count, TRAIN)
@@ -113,11 +113,11 @@ def timetable(source: np.random.Generator, trial: Trial) -> tuple[Ints, Ints]:
     return track_of[order], at_s[order]
 
 
-def faults(source: np.random.Generator, beyond: tuple[str, ...], quiet: bool) -> Records:
-    """Give each fault's window."""
+def faults(source: np.random.Generator, of_power: np.random.Generator, beyond: tuple[str, ...], quiet: bool) -> Records:
+    """Give each fault's window; those of power have chances of their own."""
     for name in beyond:
         KIND[name]
-    chances = source.random((len(FAULTS), 5))
+    chances = np.concatenate([source.random((len(FAULTS) - len(OF_POWER), 5)), of_power.random((len(OF_POWER), 5))])
     windows = np.zeros(len(FAULTS), WINDOW)
     for window, fault, (happens, long, when, large, where) in zip(windows, FAULTS, chances, strict=True):
         window["begin_s"] = window["end_s"] = NEVER

@@ -13,30 +13,34 @@ import numpy as np
 from models.compiled import compiled, packed
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
-from models.crossing.made import MADE, NO_DUES, OPEN, UNKNOWN
+from models.crossing.made import MADE, NO_DUES, OPEN, START, UNKNOWN
 from models.crossing.motion import COMES_UM, GOES_M, TURNS_BACK, allowed, arrives_by_likely_reckoning, move, signal_m
-from models.crossing.radio import KEPT, RADIO_OUT, is_on, ranging
+from models.crossing.radio import KEPT, is_on, ranging
 from models.crossing.sites import SETTINGS, Trial
+from models.crossing.staff import OTHER_NAME, account, forget, has_no_power, prove_rear, stays_s
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 SET = packed(SETTINGS)
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 note_contact, note_struck, note_heard = MADE.crossing.note_contact, MADE.crossing.note_struck, MADE.crossing.note_heard
-note_gone, note_released = MADE.crossing.note_gone, MADE.crossing.note_released
+note_empty = MADE.crossing.note_empty
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
 Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
-LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENCE = (
+LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENCE, OPENED_UNSEEN = (
     NUMBER[name]
-    for name in ("late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence")
+    for name in (
+        "late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence", "opened_unseen"
+    )
+)  # fmt: skip
+GAIN_BROKEN, STRIKE_BROKEN, ARMS_BROKEN, START_BROKEN = (
+    NUMBER[name] for name in ("gain_broken", "strike_broken", "arms_broken", "start_broken")
 )
-GAIN_BROKEN, STRIKE_BROKEN, REAR_BROKEN, ARMS_BROKEN, START_BROKEN = (
-    NUMBER[name] for name in ("gain_broken", "strike_broken", "rear_broken", "arms_broken", "start_broken")
+LOST, CONTRADICTED, SILENCES, CONVENTIONAL = (
+    NUMBER[name] for name in ("lost", "contradicted", "silences", "conventional")
 )
-LOST, CONTRADICTED, SILENCES, CONVENTIONAL, RELEASED = (
-    NUMBER[name] for name in ("lost", "contradicted", "silences", "conventional", "released")
-)
+UNSEEN_CLOSED = NUMBER["unseen_s"]
 CLOSED, OLD_CLOSED, BEYOND, OLD_BEYOND, NEEDLESS, HELD, OLD_SHORT = (
     NUMBER[name]
     for name in ("closed_s", "old_closed_s", "beyond_s", "old_beyond_s", "needless", "held", "old_short_openings")
@@ -45,14 +49,8 @@ LIKELY_LATE = NUMBER["likely_late"]
 TRAINS, ARRIVALS, IN_CONTACT, WARNINGS, RANGINGS, SECONDS_COUNT = (
     NUMBER[name] for name in ("trains", "arrivals", "in_contact", "warnings", "rangings", "seconds")
 )
-TERMINAL, END_TAGS, END_DETECTOR = KIND["terminal"], KIND["end_tags"], KIND["end_detector"]
-UNSTRUCK, PARTS, SLOW_ARMS = KIND["unstruck"], KIND["parts"], KIND["slow_arms"]
+TERMINAL, UNSTRUCK, SLOW_ARMS = KIND["terminal"], KIND["unstruck"], KIND["slow_arms"]
 LEAST_DOWN_S = 15
-OTHER_NAME = 1_000_000
-"""A strike that no ranging explains gets a name of its own: the train's number and this."""
-END_TAG_UM = 15_000_000
-END_DETECTOR_UM = 25_000_000
-"""The rear is past the road here (ours: a road of two lanes)."""
 CLEAR_UM = 600_000_000
 """A train comes onto the line when the one before is so far."""
 DRAIN_S = 1_200
@@ -94,6 +92,7 @@ class Moment(NamedTuple):
     """The crossing's state beside the machine: arms, openings, and the old crossing."""
 
     crossing: Any
+    warned: int
     lowered: int
     down: int
     opened: int
@@ -149,7 +148,7 @@ def run_of(day: Day) -> Records:
 def watched(trial: Trial, day: Day, out: Any, decides: Any = decide, settings: Any = SET) -> Records:
     """Watch a day; counts go into ``out``.  ``decides``, ``settings``: the machine's own, where tests plant faults."""
     run = run_of(day)
-    live(day, run, line_of(trial), decides, settings, packed(OPEN), NO_DUES, out)
+    live(day, run, line_of(trial), decides, settings, packed(OPEN), packed(START), NO_DUES, out)
     return run
 
 
@@ -298,43 +297,6 @@ def likely(run: Any, line: Any, train: int, kind: int, told: Any) -> Any:
 
 
 @compiled
-def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
-    """Tell whether a train's rear is past the road, or it has turned back beyond its start point (X4)."""
-    kind = day.trains[train].local
-    if run[train].way_um + line.length_um[kind] <= -END_TAG_UM:
-        return True
-    return run[train].pace_um < 0 and run[train].way_um > line.start_um[kind] + 20_000_000
-
-
-@compiled
-def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
-    """Tell that a train's rear is out of the approach: by end tag, end detector, start tag, or a person (X4, T14)."""
-    if run[train].gone == 1 or not is_out(day, run, line, train):
-        return crossing
-    if run[train].out_s < 0:
-        run[train].out_s = now
-        return crossing
-    rear_um, told_s = run[train].way_um + line.length_um[day.trains[train].local], run[train].out_s
-    by_tag = run[train].contact == 1 and not is_on(day, END_TAGS, told_s) and not day.on[RADIO_OUT]
-    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, told_s)
-    is_known = run[train].contact == 1 or run[train].struck_s >= 0
-    if is_known and not by_tag and not by_detector and now < told_s + day.trains[train].person_s:
-        return crossing
-    run[train].gone, run[train].contact = 1, 0
-    out[REAR_BROKEN] += stays_s(day, run, train) > 0
-    if by_tag or by_detector:
-        return note_gone(note_gone(crossing, train, True), OTHER_NAME + train, True)
-    out[RELEASED] += is_known
-    return note_released(note_released(crossing, train), OTHER_NAME + train)
-
-
-@compiled
-def stays_s(day: Any, run: Any, train: int) -> Any:
-    """Give how long a part of a train stays behind."""
-    return int(day.faults[PARTS].size) if run[train].out_s >= 0 and is_on(day, PARTS, run[train].out_s) else 0
-
-
-@compiled
 def tell(
     day: Any, run: Any, line: Any, window: Any, track: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
 ) -> Any:
@@ -390,7 +352,7 @@ def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: 
         out[IN_CONTACT] += run[train].contact == 1 and run[train].lost == 0
         out[CONVENTIONAL] += run[train].contact == 0
         out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < SET.start_cycles
-        out[LATE_WARNING] += moment.crossing.warned_cycles <= SET.warning_cycles
+        out[LATE_WARNING] += moment.warned <= SET.warning_cycles
         out[SHORT_CLOSURE] += moment.down < LEAST_DOWN_S
         least_cycles = SET.warning_cycles + SET.reopening_cycles
         out[LIFTED_BETWEEN] += run[train].was_known == 1 and moment.opened <= least_cycles
@@ -417,13 +379,18 @@ def old_crossing(run: Any, window: Any, moment: Any, out: Any) -> Any:
 
 
 @compiled
-def judge_decision(run: Any, before: Any, moment: Any, window: Any, unheard: Any, now: int, out: Any) -> Any:
+def judge_decision(
+    run: Any, before: Any, moment: Any, window: Any, unheard: Any, unseen: Any, now: int, out: Any
+) -> Any:
     """Hold a decision against what is claimed, and count warnings and what kept them (X3, X4)."""
     crossing, silent = moment.crossing, False
     for track in range(TRACKS):
         silent = silent or unheard[track] > SET.silence_cycles
     out[UNWARNED_SILENCE] += silent and not crossing.warns
-    must = silent
+    is_unseen = unseen.any()
+    out[OPENED_UNSEEN] += is_unseen and not crossing.warns
+    out[UNSEEN_CLOSED] += is_unseen
+    must = silent or is_unseen
     for _, asks in crossing.asks:
         must = must or asks
     out[SILENCES] += crossing.warns and not before.warns and silent
@@ -432,12 +399,13 @@ def judge_decision(run: Any, before: Any, moment: Any, window: Any, unheard: Any
     if before.warns and not crossing.warns:
         out[NEEDLESS] += moment.arrivals == 0
         note_opening(run, crossing, window)
-        return Moment(crossing, moment.lowered, moment.down, 0, 0, False, moment.old_on, moment.old_off_s)
+        return Moment(crossing, 0, moment.lowered, moment.down, 0, 0, False, moment.old_on, moment.old_off_s)
     held = crossing.warns and not must
     out[HELD] += held and not moment.held
     return Moment(
-        crossing, moment.lowered, moment.down, moment.opened, moment.arrivals, held, moment.old_on, moment.old_off_s
-    )
+        crossing, moment.warned, moment.lowered, moment.down, moment.opened, moment.arrivals, held, moment.old_on,
+        moment.old_off_s,
+    )  # fmt: skip
 
 
 @compiled
@@ -450,24 +418,26 @@ def end_cycle(day: Any, moment: Any, now: int, out: Any) -> Any:
     out[CLOSED] += moment.crossing.warns
     down = moment.down + 1 if are_down else 0
     return Moment(
-        aged(moment.crossing), lowered, down, moment.opened + 1, moment.arrivals, moment.held, moment.old_on,
-        moment.old_off_s,
+        aged(moment.crossing), moment.warned + 1 if moment.crossing.warns else 0, lowered, down, moment.opened + 1,
+        moment.arrivals, moment.held, moment.old_on, moment.old_off_s,
     )  # fmt: skip
 
 
 @compiled
-def live(day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: Any, dues: Any, out: Any) -> None:
-    """Let a day pass."""
+def live(
+    day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: Any, start: Any, dues: Any, out: Any
+) -> None:
+    """Let a day pass; it begins with both tracks accounted for."""
     window, ends = np.zeros((TRACKS, 2), np.int64), np.zeros(TRACKS, np.int64)
-    unheard = np.zeros(TRACKS, np.int64)
+    unheard, unseen = np.zeros(TRACKS, np.int64), np.zeros(TRACKS, np.int64)
     for train in range(len(day.trains)):
         ends[day.trains[train].track :] += 1
     for track in range(TRACKS):
         window[track, :] = ends[track - 1] if track else 0
-        crossing = note_heard(crossing, track)
+        crossing = note_heard(note_empty(crossing, track), track)
     out[TRAINS] += len(day.trains)
     out[SECONDS_COUNT] += SECONDS
-    moment = Moment(crossing, 0, 0, 10**6, 0, False, False, NEVER)
+    moment = Moment(crossing, 0, 0, 0, 10**6, 0, False, False, NEVER)
     for now in range(SECONDS + DRAIN_S):
         crossing, before = moment.crossing, moment.crossing
         dues.clear()
@@ -478,12 +448,17 @@ def live(day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: A
             crossing = tell(day, run, line, window, track, now, crossing, dues, settings, out)
             is_silent = day.on[TERMINAL] and day.faults[TERMINAL].track_of == track
             unheard[track] = unheard[track] + 1 if is_silent else 0
+        if has_no_power(day):
+            forget(day, run, window, now, out)
+            dues.clear()
+            crossing, unseen[:] = start, 1
+        crossing = account(day, run, window, unseen, now, crossing, out)
         crossing = decides(settings, crossing, dues)
         told = Moment(
-            crossing, moment.lowered, moment.down, moment.opened, moment.arrivals, moment.held, moment.old_on,
-            moment.old_off_s,
+            crossing, moment.warned, moment.lowered, moment.down, moment.opened, moment.arrivals, moment.held,
+            moment.old_on, moment.old_off_s,
         )  # fmt: skip
-        moment = end_cycle(day, judge_decision(run, before, told, window, unheard, now, out), now, out)
+        moment = end_cycle(day, judge_decision(run, before, told, window, unheard, unseen, now, out), now, out)
         arrivals = 0
         for track in range(TRACKS):
             run_trains(day, run, line, window, track, out)
@@ -491,6 +466,6 @@ def live(day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: A
         old_on, off_s = old_crossing(run, window, moment, out)
         out[ARRIVALS] += arrivals
         moment = Moment(
-            moment.crossing, moment.lowered, moment.down, moment.opened, moment.arrivals + arrivals, moment.held,
-            old_on, off_s,
+            moment.crossing, moment.warned, moment.lowered, moment.down, moment.opened, moment.arrivals + arrivals,
+            moment.held, old_on, off_s,
         )  # fmt: skip

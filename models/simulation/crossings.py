@@ -65,9 +65,10 @@ class Crossings:
         self._by_party = {state.party: state for state in self.states.values()}
 
     def _closed(self, ways: Ways) -> State:
-        """A crossing that is put into service: closed, until nobody is on the way."""
+        """A crossing in service, whose track was accounted for: closed, until nobody is on the way."""
+        track = CrossingTrack(ways.road.name)
         crossing = Crossing(
-            asks={}, silent_cycles={CrossingTrack(ways.road.name): 0}, warns=True, warned_cycles=-LONG_AGO_S
+            asks={}, silent_cycles={track: 0}, unaccounted={track: False}, warns=True, warned_cycles=-LONG_AGO_S
         )
         party = self.links.addresses.road[ways.road.name]
         return State(ways, party, crossing, ARMS_S[1], -LONG_AGO_S, LONG_AGO_S, LONG_AGO_S)

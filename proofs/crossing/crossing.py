@@ -24,6 +24,9 @@ def nothing_has_happened(site: Road, system: Level) -> bool:
         )
         and not system.crossing.warns
         and system.crossing.warned_cycles == 0
+        and system.warned_cycles == 0
+        and not system.restarted
+        and not system.stranger
         and not system.decided
         and system.lowered_cycles == 0
         and system.down_cycles == 0
@@ -38,6 +41,8 @@ def it_is_not_in_service(site: Road, system: Level) -> bool:
         and nothing_has_happened(site, system)
         and all(False for _train in system.told)
         and all(False for _train in system.crossing.asks)
+        and all(False for _track in system.accounted)
+        and all(False for _track, _unaccounted in system.crossing.unaccounted.items())
     )
 
 
@@ -87,20 +92,41 @@ def silence_warns(site: Road, system: Level) -> bool:
 
 
 def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
-    """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4)."""
+    """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4).
+
+    Through restarts, too, if it had passed its start point by then.
+    """
     return system.crossing.warns or all(not body.has_asked for _train, body in system.bodies.items())
 
 
 def arms_fall_after_the_bell(site: Road, system: Level) -> bool:
-    """Lamps and bells come first, for their time, and that is some; without a warning no arm is lowered (X5)."""
+    """Lamps and bells come first, for their time, and that is some; without a warning no arm is lowered (X5).
+
+    But in a warning in which the crossing restarts.
+    """
     has_opened = system.decided and not system.crossing.warns
     return (
         not system.in_service
         or has_opened
+        or system.restarted
         or (
-            system.lowered_cycles == greater(0, system.crossing.warned_cycles - site.settings.bell_cycles)
-            and (system.lowered_cycles == 0 or system.lowered_cycles < system.crossing.warned_cycles)
+            system.lowered_cycles == greater(0, system.warned_cycles - site.settings.bell_cycles)
+            and (system.lowered_cycles == 0 or system.lowered_cycles < system.warned_cycles)
         )
+    )
+
+
+def after_a_restart_arms_are_held_down(site: Road, system: Level) -> bool:
+    """Until its warning ends: they may be down already, with a train behind them (X3, X5)."""
+    return not system.restarted or machine.arms_are_to_be_down(site.settings, system.crossing)
+
+
+def a_track_that_nobody_accounted_for_warns(site: Road, system: Level) -> bool:
+    """From a restart on, until a person has seen each track empty; and one that settings leave out, once heard (X3)."""
+    return (
+        not system.in_service
+        or system.crossing.warns
+        or (not system.stranger and all(track in system.accounted for track in site.tracks))
     )
 
 
@@ -134,14 +160,35 @@ def in_service_the_settings_are_lawful(site: Road, system: Level) -> bool:
 
 
 def every_terminal_is_listened_to(site: Road, system: Level) -> bool:
-    """The crossing knows how long each start point's terminal has been silent (X3)."""
+    """The crossing knows how long each start point's terminal has been silent, or takes that for too long (X3)."""
     return all(
         track in system.unheard_cycles
         and track in system.crossing.silent_cycles
-        and system.unheard_cycles[track] == system.crossing.silent_cycles[track]
         and system.unheard_cycles[track] >= 0
+        and (
+            system.unheard_cycles[track] <= system.crossing.silent_cycles[track]
+            or system.crossing.silent_cycles[track] > site.settings.silence_cycles
+        )
         for track in site.tracks
     )
+
+
+def every_track_is_to_be_accounted_for(site: Road, system: Level) -> bool:
+    """Those of the settings, and others whose terminals were heard (X3)."""
+    return not system.in_service or (
+        all(track in system.crossing.unaccounted for track in site.tracks)
+        and all(track in system.crossing.unaccounted for track, _cycles in system.unheard_cycles.items())
+    )
+
+
+def only_a_person_accounts_for_a_track(site: Road, system: Level) -> bool:
+    """What the crossing takes for seen was seen since its last restart (X3)."""
+    return all(unaccounted or track in system.accounted for track, unaccounted in system.crossing.unaccounted.items())
+
+
+def who_was_forgotten_keeps_its_track_unaccounted(site: Road, system: Level) -> bool:
+    """Nobody has seen a track empty on which there is somebody from before the restart (X3)."""
+    return all(body.track not in system.accounted for _train, body in system.bodies.items() if body.forgotten)
 
 
 def every_train_is_on_a_track(site: Road, system: Level) -> bool:
@@ -150,11 +197,11 @@ def every_train_is_on_a_track(site: Road, system: Level) -> bool:
 
 
 def an_untold_train_is_far(site: Road, system: Level) -> bool:
-    """Who has passed a start point untold did so since its terminal was heard last (X3)."""
+    """Who has passed a start point untold since the restart did so since its terminal was heard last (X3)."""
     return all(
         body.left_cycles + system.unheard_cycles[body.track] >= site.settings.start_cycles
         for train, body in system.bodies.items()
-        if body.inside and train not in system.told and body.track in system.unheard_cycles
+        if body.inside and not body.forgotten and train not in system.told and body.track in system.unheard_cycles
     )
 
 
@@ -162,18 +209,18 @@ def what_is_not_warned_of_is_left(site: Road, system: Level) -> bool:
     """For each train inside, the warning and what is left last the warning time and the cycle of arrival (X2)."""
     begun_cycles = 1 if system.decided and not system.crossing.warns else 0
     return all(
-        system.crossing.warned_cycles + body.left_cycles >= site.settings.warning_cycles + 1 + begun_cycles
+        system.warned_cycles + body.left_cycles >= site.settings.warning_cycles + 1 + begun_cycles
         for _train, body in system.bodies.items()
         if body.inside
     )
 
 
 def who_was_warned_of_still_asks(site: Road, system: Level) -> bool:
-    """A train asks until its rear is proved past (X4)."""
+    """A train asks until its rear is proved past, unless a restart has forgotten it (X4)."""
     return all(
         train in system.crossing.asks and system.crossing.asks[train]
         for train, body in system.bodies.items()
-        if body.has_asked
+        if body.has_asked and not body.forgotten
     )
 
 
@@ -189,6 +236,23 @@ def who_was_known_when_it_opened_was_far(site: Road, system: Level) -> bool:
 def a_warning_has_lasted_since_it_began(site: Road, system: Level) -> bool:
     """No negative time, and none without a warning (X2)."""
     return system.crossing.warned_cycles >= 0 and (system.crossing.warns or system.crossing.warned_cycles == 0)
+
+
+def the_crossing_counts_its_warning(site: Road, system: Level) -> bool:
+    """To the cycle, if it did not restart in it (X2, X5)."""
+    return (
+        system.warned_cycles >= 0
+        and (system.crossing.warns or system.warned_cycles == 0)
+        and (system.restarted or system.crossing.warned_cycles == system.warned_cycles)
+    )
+
+
+def arms_wait_no_longer_than_for_the_bell(site: Road, system: Level) -> bool:
+    """They have been lowered for all of the warning but its beginning (X5)."""
+    has_opened = system.decided and not system.crossing.warns
+    return system.lowered_cycles >= 0 and (
+        not system.in_service or has_opened or system.lowered_cycles >= system.warned_cycles - site.settings.bell_cycles
+    )
 
 
 def lowered_arms_are_down(site: Road, system: Level) -> bool:
@@ -207,6 +271,8 @@ SAFETY = (
     silence_warns,
     warning_ends_only_with_the_rear_past,
     arms_fall_after_the_bell,
+    after_a_restart_arms_are_held_down,
+    a_track_that_nobody_accounted_for_warns,
 )
 INVARIANTS = (
     *SAFETY,
@@ -215,16 +281,22 @@ INVARIANTS = (
     before_service_nothing_happens,
     in_service_the_settings_are_lawful,
     every_terminal_is_listened_to,
+    every_track_is_to_be_accounted_for,
+    only_a_person_accounts_for_a_track,
+    who_was_forgotten_keeps_its_track_unaccounted,
     every_train_is_on_a_track,
     an_untold_train_is_far,
     what_is_not_warned_of_is_left,
     who_was_warned_of_still_asks,
     who_was_known_when_it_opened_was_far,
     a_warning_has_lasted_since_it_began,
+    the_crossing_counts_its_warning,
+    arms_wait_no_longer_than_for_the_bell,
     lowered_arms_are_down,
 )
 STEPS = (
     world.put_into_service,
+    world.restart,
     world.decide,
     world.run_a_cycle,
     world.arrive,
@@ -236,6 +308,7 @@ STEPS = (
     world.hear_terminal,
     world.tell_gone,
     world.release,
+    world.account,
 )
 
 THEORY = Theory(

@@ -29,6 +29,7 @@ COLUMN_OF = {
     "parts": "rear_broken",
     "slow_arms": "arms_broken",
     "strong": "gain_broken",
+    "unlooked": "account_broken",
 }
 
 
@@ -98,7 +99,9 @@ def careless(settings: Any, crossing: Any, dues: Any) -> Any:
     for place, (name, _) in enumerate(crossing.asks):
         asks[place] = (name, False)
         told.append((name, 0))
-    return decide(settings, Made(asks, crossing.silent_cycles, crossing.warns, crossing.warned_cycles), told)
+    return decide(
+        settings, Made(asks, crossing.silent_cycles, crossing.unaccounted, crossing.warns, crossing.warned_cycles), told
+    )
 
 
 def test_a_machine_that_forgets_is_seen() -> None:
@@ -148,7 +151,8 @@ def test_cpython_and_compiled_decide_alike() -> None:
         asks = {Train(number): bool(source.integers(2)) for number in range(source.integers(4))}  # type: ignore[arg-type]
         silent = {number: int(source.integers(5)) for number in range(2)}
         warns = bool(source.integers(2))
-        crossing = Crossing(asks, silent, warns, int(source.integers(100)) if warns else 0)  # type: ignore[arg-type]
+        unaccounted = {number: bool(source.integers(8) == 0) for number in range(2)}
+        crossing = Crossing(asks, silent, unaccounted, warns, int(source.integers(100)) if warns else 0)  # type: ignore[arg-type]
         dues = {train: Due(int(source.integers(3))) for train in asks if source.random() < 0.8}
         told = NO_DUES.copy()
         for train, due in dues.items():

@@ -2,119 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings
 from models.crossing import crossing as world
-from models.crossing.crossing import Arrived, Body, Level, Road
-from proofs.crossing.crossing import THEORY
-from proofs.onboard.witnesses.play import Play
+from proofs.crossing.witnesses import restarts
+from proofs.crossing.witnesses.crossing_day import DOWN, ONE, SETTINGS, THREE, TWO, UP, Day
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
 FAR, NEAR, NOW = Due.FAR, Due.NEAR, Due.NOW
-UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
-ONE, TWO, THREE = Train("1"), Train("2"), Train("3")
-SETTINGS = Settings(
-    cycle_ms=1_000,
-    warning_cycles=40,
-    bell_cycles=5,
-    lowering_cycles=10,
-    least_down_cycles=20,
-    lifting_cycles=6,
-    reopening_cycles=20,
-    silence_cycles=2,
-    start_cycles=44,
-)
-"""A cycle of a second; 15 s to barriers down and then 25 s: the standard, and 5 s more."""
-SITE = Road(SETTINGS, frozenset({UP, DOWN}))
-
-
-def new() -> Level:
-    """A crossing that has just been built."""
-    unheard = {UP: 0, DOWN: 0}
-    return Level(
-        in_service=False,
-        bodies={},
-        told=frozenset(),
-        crossing=Crossing(asks={}, silent_cycles=unheard, warns=False, warned_cycles=0),
-        decided=False,
-        lowered_cycles=0,
-        are_down=False,
-        down_cycles=0,
-        opened_cycles=0,
-        unheard_cycles=unheard,
-        last=Arrived(False, 0, 0, False, 0),
-    )
-
-
-class Day(Play[Road, Level]):
-    """A crossing in service."""
-
-    def __init__(self, settings: Settings = SETTINGS) -> None:
-        """Begin."""
-        super().__init__(THEORY, Road(settings, SITE.tracks), new())
-        self.step("put_into_service")
-        assert self.system.in_service == machine.are_lawful(settings)
-
-    def come(self, train: Train, track: CrossingTrack = UP, *, contact: bool = True) -> None:
-        """A train comes, in contact if not told otherwise."""
-        self.step("come", train=train, track=track, left_cycles=0)
-        assert self.system.bodies[train] == Body(track, False, 0, False, False, False)
-        if contact:
-            self.step("make_contact", train=train)
-            assert self.system.crossing.asks[train] is False
-
-    def strike(self, train: Train) -> None:
-        """A train passes its start point."""
-        body = self.system.bodies[train]
-        self.step("pass_start_point", train=train)
-        left_cycles = max(body.left_cycles, self.site.settings.start_cycles)
-        assert self.system.bodies[train] == replace(body, inside=True, left_cycles=left_cycles)
-
-    def cycle(
-        self, *dues: tuple[Train, Due], heard: tuple[CrossingTrack, ...] = (UP, DOWN), down: bool | None = None
-    ) -> None:
-        """Terminals are heard, the crossing decides, and a cycle passes; arms come down in time, and rise at once."""
-        for track in heard:
-            self.step("hear_terminal", track=track)
-            assert self.system.crossing.silent_cycles[track] == self.system.unheard_cycles[track] == 0
-        assert self.step("decide", dues=dict(dues)).decided
-        if down is None:
-            lowers = machine.arms_are_to_be_down(self.site.settings, self.system.crossing)
-            down = lowers and self.system.lowered_cycles + 1 >= self.site.settings.lowering_cycles
-        run = self.step("run_a_cycle", are_down=down)
-        assert (run.decided, run.are_down) == (False, down)
-
-    def warns(self) -> bool:
-        """Whether it does."""
-        return self.system.crossing.warns
-
-    def arrive(self, train: Train) -> Arrived:
-        """A head is met at the crossing."""
-        crossing, body = self.system.crossing, self.system.bodies[train]
-        self.step("arrive", train=train)
-        assert self.system.last == Arrived(
-            True, crossing.warned_cycles, self.system.down_cycles, body.was_known, self.system.opened_cycles
-        )
-        return self.system.last
-
-    def pass_by(self, train: Train) -> None:
-        """Its rear is past, and proved so."""
-        self.step("leave", gone=train)
-        assert train not in self.system.bodies
-        self.step("tell_gone", gone=train, is_whole=True)
-        assert train not in self.system.crossing.asks
-
-    def until_it_can_arrive(self, train: Train, *dues: tuple[Train, Due]) -> int:
-        """Let cycles pass until a train can be there; give how many."""
-        cycles = 0
-        while self.system.bodies[train].left_cycles > 0:
-            self.cycle(*dues)
-            cycles += 1
-        return cycles
-
 
 # ---- trains in contact, and without
 
@@ -375,6 +271,7 @@ def settings_are_checked() -> None:
         start = day.system
         assert day.step("come", train=ONE, track=UP, left_cycles=0) == start
         assert day.step("decide", dues={}) == start
+        assert day.step("restart") == start
 
 
 def a_train_is_far_by_the_longer_time() -> None:
@@ -398,7 +295,7 @@ def every_number_fits_into_64_bits() -> None:
     """Cycles of a day, of a millisecond (X5)."""
     settings = with_ints(Checked, SETTINGS)
     most = Checked(10**8)
-    crossing = Crossing(asks={ONE: True}, silent_cycles={UP: most}, warns=True, warned_cycles=most)
+    crossing = Crossing(asks={ONE: True}, silent_cycles={UP: most}, unaccounted={}, warns=True, warned_cycles=most)
     crossing = machine.aged(machine.decide(settings, crossing, {}))
     assert (crossing.warned_cycles, crossing.silent_cycles[UP]) == (10**8 + 1, 10**8 + 1)
     assert machine.are_lawful(settings)
@@ -468,4 +365,5 @@ WITNESSES = (
     a_train_is_far_by_the_longer_time,
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,
+    *restarts.WITNESSES,
 )

@@ -1,0 +1,113 @@
+"""What people on site and detectors tell a crossing: rears out of the approach, and tracks that are empty (X3, X4).
+
+And what a failure of power takes from it: the crossing begins anew in each second without power, the ground unit too.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from models.compiled import compiled
+from models.crossing.columns import NUMBER
+from models.crossing.faults import KIND
+from models.crossing.made import MADE
+from models.crossing.radio import RADIO_OUT, is_on
+from models.crossing.traffic import NEVER, TRACKS
+
+note_gone, note_released, note_empty = (MADE.crossing.note_gone, MADE.crossing.note_released, MADE.crossing.note_empty)
+REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED = (
+    NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted")
+)
+END_TAGS, END_DETECTOR, PARTS = KIND["end_tags"], KIND["end_detector"], KIND["parts"]
+POWER, UNLOOKED = KIND["power"], KIND["unlooked"]
+OTHER_NAME = 1_000_000
+"""A strike that no ranging explains gets a name of its own: the train's number and this."""
+END_TAG_UM = 15_000_000
+END_DETECTOR_UM = 25_000_000
+"""The rear is past the road here (ours: a road of two lanes)."""
+
+
+# ---- rears
+
+
+@compiled
+def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
+    """Tell whether a train's rear is past the road, or it has turned back beyond its start point (X4)."""
+    kind = day.trains[train].local
+    if run[train].way_um + line.length_um[kind] <= -END_TAG_UM:
+        return True
+    return run[train].pace_um < 0 and run[train].way_um > line.start_um[kind] + 20_000_000
+
+
+@compiled
+def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
+    """Tell that a train's rear is out of the approach: by end tag, end detector, start tag, or a person (X4, T14)."""
+    if run[train].gone == 1 or not is_out(day, run, line, train):
+        return crossing
+    if run[train].out_s < 0:
+        run[train].out_s = now
+        return crossing
+    rear_um, told_s = run[train].way_um + line.length_um[day.trains[train].local], run[train].out_s
+    by_tag = run[train].contact == 1 and not is_on(day, END_TAGS, told_s) and not day.on[RADIO_OUT]
+    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, told_s)
+    is_known = run[train].contact == 1 or run[train].struck_s >= 0
+    if is_known and not by_tag and not by_detector and now < told_s + day.trains[train].person_s:
+        return crossing
+    run[train].gone, run[train].contact = 1, 0
+    out[REAR_BROKEN] += stays_s(day, run, train) > 0
+    if by_tag or by_detector:
+        return note_gone(note_gone(crossing, train, True), OTHER_NAME + train, True)
+    out[RELEASED] += is_known
+    return note_released(note_released(crossing, train), OTHER_NAME + train)
+
+
+@compiled
+def stays_s(day: Any, run: Any, train: int) -> Any:
+    """Give how long a part of a train stays behind."""
+    return int(day.faults[PARTS].size) if run[train].out_s >= 0 and is_on(day, PARTS, run[train].out_s) else 0
+
+
+# ---- power, and who looks at the tracks after it
+
+
+@compiled
+def has_no_power(day: Any) -> Any:
+    """Tell whether the crossing has no power now."""
+    return day.on[POWER] or day.on[UNLOOKED]
+
+
+@compiled
+def is_inside(day: Any, run: Any, train: int, now: int) -> Any:
+    """Tell whether a train, or a part of it, is between its start point and where its rear is past the road."""
+    is_there = run[train].out_s < 0 or now < run[train].out_s + stays_s(day, run, train)
+    return run[train].struck_s >= 0 and is_there
+
+
+@compiled
+def forget(day: Any, run: Any, window: Any, now: int, out: Any) -> None:
+    """Take from the ground unit whom it follows, and from terminals what they had to tell (X3)."""
+    begins = day.faults[POWER].begin_s == now or day.faults[UNLOOKED].begin_s == now
+    for track in range(TRACKS):
+        for train in range(window[track, 0], window[track, 1]):
+            run[train].contact, run[train].warns, run[train].name = 0, 0, NEVER
+            if run[train].struck_s < 0:
+                run[train].asked_s = NEVER
+            out[FORGOTTEN] += begins and is_inside(day, run, train, now)
+
+
+@compiled
+def account(day: Any, run: Any, window: Any, unseen: Any, now: int, crossing: Any, out: Any) -> Any:
+    """Let a person who has come account for each track that he sees to be empty; or for one unseen, which none may."""
+    for track in range(TRACKS):
+        is_empty = True
+        for train in range(window[track, 0], window[track, 1]):
+            is_empty = is_empty and not is_inside(day, run, train, now)
+        power, unlooked = day.faults[POWER], day.faults[UNLOOKED]
+        looks = power.begin_s >= 0 and now >= power.end_s + int(power.size) and is_empty
+        says = unlooked.begin_s >= 0 and now >= unlooked.end_s
+        if unseen[track] and (looks or says):
+            crossing = note_empty(crossing, track)
+            out[ACCOUNTED] += 1
+            out[ACCOUNT_BROKEN] += not is_empty
+            unseen[track] = 0
+    return crossing

@@ -1,0 +1,187 @@
+"""A crossing that starts, and whose power fails with trains before it (X3, X5)."""
+
+from __future__ import annotations
+
+from kernel.crossing.crossing import CrossingTrack, Due
+from proofs.crossing.witnesses.crossing_day import DOWN, ONE, SITE, THREE, TWO, UP, Day
+
+FAR, NOW = Due.FAR, Due.NOW
+SIDING = CrossingTrack("siding")
+
+
+def a_start_keeps_the_road_closed() -> None:
+    """Terminals are heard, and nobody comes; a person must have seen each track (X3)."""
+    day = Day(opened=False)
+    assert (day.warns(), day.system.restarted, day.system.warned_cycles) == (True, True, 0)
+    for _ in range(100):
+        day.cycle()
+    assert (day.warns(), day.system.down_cycles, day.system.warned_cycles) == (True, 90, 100)
+    day.account(UP)
+    day.cycle()
+    assert day.warns()
+    day.account(DOWN)
+    assert day.warns()
+    day.cycle()
+    assert (day.warns(), day.system.restarted, day.system.stranger) == (False, False, False)
+    assert day.system.warned_cycles == 0
+
+
+def a_start_is_closed_until_terminals_are_heard() -> None:
+    """Whoever accounts for tracks does not hear terminals for the crossing (X3, T14)."""
+    day = Day(opened=False)
+    day.account(UP, DOWN)
+    for _ in range(3):
+        day.cycle(heard=(UP,))
+        assert day.warns()
+    day.cycle()
+    assert not day.warns()
+
+
+def who_was_forgotten_finds_the_arms_down() -> None:
+    """It had struck; power fails, terminals are heard again, and it arrives after the time that it always had (X3)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    for _ in range(20):
+        day.cycle()
+    down_cycles = day.system.down_cycles
+    day.step("restart")
+    assert (dict(day.system.crossing.asks), day.system.told) == ({}, frozenset())
+    body = day.system.bodies[ONE]
+    assert (body.forgotten, body.was_struck, body.has_asked) == (True, False, True)
+    assert day.system.unheard_cycles == {UP: 1, DOWN: 1}
+    day.cycle()
+    assert day.system.down_cycles == down_cycles + 1
+    before = day.system
+    assert day.step("account", track=UP) == before
+    day.account(DOWN)
+    assert day.until_it_can_arrive(ONE) == 23
+    arrived = day.arrive(ONE)
+    assert (arrived.warned_cycles, arrived.down_cycles) == (44, 29)
+    day.step("leave", gone=ONE)
+    day.account(UP)
+    day.cycle()
+    assert not day.warns()
+
+
+def who_passed_its_start_point_without_power_finds_the_arms_down() -> None:
+    """Power is away for a minute: the crossing restarts in each cycle, and arms fall without the bell (X3, X5)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.step("restart")
+    assert (day.warns(), day.system.lowered_cycles, day.system.down_cycles) == (True, 0, 0)
+    day.strike(ONE)
+    for cycles in range(1, 60):
+        day.cycle(heard=())
+        assert day.system.lowered_cycles == cycles
+        assert day.system.are_down == (cycles >= 10)
+        day.step("restart")
+    arrived = day.arrive(ONE)
+    assert (arrived.warned_cycles, arrived.down_cycles) == (59, 49)
+
+
+def what_was_seen_before_a_restart_counts_no_more() -> None:
+    """Power fails twice, the second time with a train in the approach that nobody has seen (X3)."""
+    day = Day(opened=False)
+    day.account(UP, DOWN)
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("restart")
+    assert day.system.accounted == frozenset()
+    for _ in range(10):
+        day.cycle()
+        assert day.warns()
+
+
+def who_is_in_contact_is_told_of_anew() -> None:
+    """And asks for the warning as ever; that a person has seen the other track ends nothing (X2, X4)."""
+    day = Day()
+    day.come(ONE)
+    day.come(TWO, DOWN)
+    day.strike(ONE)
+    day.cycle((ONE, NOW), (TWO, NOW))
+    day.step("restart")
+    assert (day.system.bodies[ONE].has_asked, day.system.bodies[TWO].has_asked) == (True, False)
+    day.step("make_contact", train=ONE)
+    day.step("make_contact", train=TWO)
+    day.account(DOWN)
+    day.cycle((ONE, FAR), (TWO, FAR))
+    assert day.warns()
+    day.pass_by(ONE)
+    day.account(UP)
+    day.cycle((TWO, FAR))
+    assert not day.warns()
+    day.come(THREE)
+    day.strike(TWO)
+    day.cycle((TWO, NOW), (THREE, FAR))
+    assert (day.warns(), day.system.restarted) == (True, False)
+    day.until_it_can_arrive(TWO, (TWO, NOW), (THREE, FAR))
+    assert day.arrive(TWO).warned_cycles == 61
+
+
+def a_strike_is_told_after_the_restart_too() -> None:
+    """Of a train that struck while a person looked at the track, and had seen it empty (X3)."""
+    day = Day(opened=False)
+    day.cycle()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    before = day.system
+    assert day.step("hear_terminal", track=UP) == before
+    day.step("hear_strike", train=ONE)
+    day.account(UP, DOWN)
+    day.cycle()
+    assert day.warns()
+    day.until_it_can_arrive(ONE)
+    assert day.arrive(ONE).warned_cycles == 45
+    day.pass_by(ONE)
+    day.cycle()
+    assert not day.warns()
+
+
+def a_track_that_settings_leave_out_warns() -> None:
+    """Once its terminal is heard; a restart forgets it, until it is heard again (X3)."""
+    day = Day()
+    day.step("hear_terminal", track=SIDING)
+    assert day.system.crossing.unaccounted == {UP: False, DOWN: False, SIDING: True}
+    day.step("hear_terminal", track=UP)
+    day.cycle()
+    assert (day.warns(), day.system.stranger) == (True, True)
+    day.step("restart")
+    assert (set(day.system.unheard_cycles), day.system.stranger) == (set(SITE.tracks), False)
+    day.account(UP, DOWN)
+    day.step("hear_terminal", track=SIDING)
+    day.cycle()
+    assert (day.warns(), day.system.stranger) == (True, True)
+    day.account(SIDING)
+    day.cycle()
+    assert (day.warns(), day.system.stranger) == (False, False)
+
+
+def a_restart_in_a_warning_is_over_with_it() -> None:
+    """The next one begins with lamps and bells alone (X5)."""
+    day = Day(opened=False)
+    day.account(UP, DOWN)
+    day.cycle()
+    day.come(ONE)
+    for cycles in range(1, 8):
+        day.cycle((ONE, NOW))
+        assert day.system.lowered_cycles == max(0, cycles - 5)
+    day.step("decide", dues={ONE: NOW})
+    day.step("restart")
+    assert (day.system.decided, day.system.lowered_cycles, day.system.warned_cycles) == (False, 2, 7)
+    day.cycle()
+    assert (day.system.lowered_cycles, day.system.warned_cycles) == (3, 8)
+
+
+WITNESSES = (
+    a_start_keeps_the_road_closed,
+    a_start_is_closed_until_terminals_are_heard,
+    who_was_forgotten_finds_the_arms_down,
+    who_passed_its_start_point_without_power_finds_the_arms_down,
+    what_was_seen_before_a_restart_counts_no_more,
+    who_is_in_contact_is_told_of_anew,
+    a_strike_is_told_after_the_restart_too,
+    a_track_that_settings_leave_out_warns,
+    a_restart_in_a_warning_is_over_with_it,
+)
