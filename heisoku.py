@@ -6,12 +6,16 @@ Findings go to standard output; progress and complaints to standard error.
 
 from __future__ import annotations
 
+if __name__ == "__main__":
+    from heisoku_start import main as start
+
+    start()
+
 import os
 import sys
 import traceback
 from collections.abc import Sequence
 from enum import StrEnum
-from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -27,18 +31,22 @@ from models.commands import (
     Jobs,
     Json,
     Seed,
+    Version,
     bad_input_refused,
     complain,
     console,
+    metres,
     pattern,
     print_line,
     progress,
+    record_alone,
     refuse,
     writable,
 )
 from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.layouts.export.command import export
 from models.layouts.measures import CLEARANCE_MM
+from models.streams import outlet
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
 from proofs.records import commit, versions, write_json, write_whole
@@ -85,6 +93,12 @@ class Day(StrEnum):
 Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 JUnit = Annotated[Path | None, typer.Option("--junit", metavar="F", help="Write JUnit XML there.", show_default=False)]
+
+
+@app.callback()
+def options(version: Version = False) -> None:
+    """Take what is said before a command."""
+    record_alone(None)
 
 
 @app.command()
@@ -433,17 +447,6 @@ def replay(
     raise typer.Exit(found.report(console(), html, json))
 
 
-def metres(option: str, text: str) -> int:
-    """A distance given in metres, with or without the unit, in mm."""
-    try:
-        distance_mm = round(1_000 * float(text.strip().removesuffix("m")))
-    except (ValueError, OverflowError):
-        distance_mm = -1
-    if distance_mm < 0:
-        refuse(f"{option} {text}: is no distance; give metres, as in '20 m'")
-    return distance_mm
-
-
 def print_check(out: Console, path: Path, result: CheckResult) -> None:
     """One layout: its verdict, every violation with the elements that cause it, what it rests on, every remark."""
     from models.layouts.checker import rest_line
@@ -461,10 +464,13 @@ def print_check(out: Console, path: Path, result: CheckResult) -> None:
 
 def main() -> None:
     """Run the command line; whatever happens, the exit code is one of the four."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(errors="replace")
-    sys.exit(run(sys.argv[1:]))
+    out, _ = outlet(sys.stdout), outlet(sys.stderr)
+    code = run(sys.argv[1:])
+    sys.stdout.flush()
+    if out is not None and out.lost is not None:
+        complain(f"heisoku: standard output: {out.lost.strerror}; what was found is not told whole")
+        code = UNDECIDED
+    sys.exit(code)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -474,8 +480,8 @@ def run(arguments: Sequence[str]) -> int:
     except typer.TyperException as usage:
         complain(f"heisoku: {usage.format_message().rstrip('.')}; see heisoku --help")
         return BAD_INPUT
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        complain(f"heisoku: {error.filename or 'a file'}: {error.strerror or error}; nothing is decided")
         return UNDECIDED
     except Exception as fault:
         if os.environ.get("HEISOKU_TRACEBACK"):
@@ -486,7 +492,3 @@ def run(arguments: Sequence[str]) -> int:
         complain("heisoku: interrupted; nothing is decided")
         return UNDECIDED
     return int(code or HOLDS)
-
-
-if __name__ == "__main__":
-    main()

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-CASE = Path(__file__).resolve().parent.parent / "SAFETY_CASE.md"
+from models.shipped import shipped
+
+CASE = shipped("SAFETY_CASE.md")
 NAMED = re.compile(r"`([^`]+)`")
 NUMBERED = re.compile(r"\b[CHL]\d+\b")
 LABEL = re.compile(r"\b[TPXGA]\d+\b")

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from models.days.systems import NAMES as SYSTEMS
 from models.reproduce import PAPERS
+from models.shipped import shipped
 from proofs.theories import THEORIES
 from proofs.theory import Theory
-
-ROOT = Path(__file__).resolve().parent.parent
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ def catalogue() -> Mapping[str, Evidence]:
         ),
         *(
             Evidence(f"check:{path.name}", f"{path.name} satisfies every axiom", "make check", "check.json")
-            for path in sorted((ROOT / "layouts").glob("*.toml"))
+            for path in sorted(shipped("layouts").glob("*.toml"))
         ),
         Evidence("ride", "machines on board against the truth of simulated trains", "make ride", "ride.json"),
         Evidence("beyond", "the same with faults beyond their declared ranges", "make beyond", "beyond.json"),

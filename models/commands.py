@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 import re
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import metadata
 from pathlib import Path
 from typing import Annotated, NoReturn, TextIO
 
@@ -14,15 +17,48 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from models.exit_codes import BAD_INPUT
+from models.exit_codes import BAD_INPUT, HOLDS
+from models.streams import STANDARD_OUTPUT
 
 COLUMNS_OF_A_FILE = 120
 """Columns to write where the output is not a terminal."""
+SECONDS_A_LINE = 10.0
+"""So often a line of progress is told where standard error is not a terminal."""
 
-Json = Annotated[Path | None, typer.Option("--json", metavar="F", help="Write the record there.", show_default=False)]
+
+_record_is_told = [False]
+"""Whether this command's record goes to standard output."""
+
+
+def record_alone(json: Path | None) -> Path | None:
+    """Remember whether the record goes to standard output; said of every command before it begins."""
+    _record_is_told[0] = json == STANDARD_OUTPUT
+    return json
+
+
+Json = Annotated[
+    Path | None,
+    typer.Option(
+        "--json",
+        metavar="F",
+        callback=record_alone,
+        help="Write the record there; - is standard output.",
+        show_default=False,
+    ),
+]
 Jobs = Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")]
 Seed = Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")]
 EVERY_CORE = os.cpu_count() or 1
+
+
+def tell_version(is_asked: bool) -> None:
+    """Tell the version, and end."""
+    if is_asked:
+        tell(f"heisoku {metadata.version('heisoku')}")
+        raise typer.Exit(HOLDS)
+
+
+Version = Annotated[bool, typer.Option("--version", callback=tell_version, is_eager=True, help="Tell the version.")]
 
 
 def printable(text: str) -> str:
@@ -31,9 +67,13 @@ def printable(text: str) -> str:
 
 
 def console(file: TextIO | None = None) -> Console:
-    """Standard output, or another stream; 120 columns wide where it is not a terminal."""
-    stream = file or sys.stdout
-    return Console(file=stream, width=None if stream.isatty() else COLUMNS_OF_A_FILE)
+    """Standard output, or another stream; 120 columns wide where it is not a terminal.  No text of ours is markup.
+
+    Where the record goes to standard output, findings go to standard error, and the record stands alone.
+    """
+    stream = file or (sys.stderr if _record_is_told[0] else sys.stdout)
+    width = None if stream.isatty() else COLUMNS_OF_A_FILE
+    return Console(file=stream, width=width, markup=False, emoji=False, highlight=False)
 
 
 def print_line(out: Console, line: str) -> None:
@@ -76,32 +116,73 @@ def pattern(only: str | None) -> re.Pattern[str]:
         refuse(f"--only {only}: not a pattern ({error}); give a part of a name")
 
 
+def metres(option: str, text: str) -> int:
+    """A distance given in metres, with or without the unit, in mm."""
+    try:
+        distance_mm = round(1_000 * float(text.strip().removesuffix("m")))
+    except (ValueError, OverflowError):
+        distance_mm = -1
+    if distance_mm < 0:
+        refuse(f"{option} {text}: is no distance; give metres, as in '20 m'")
+    return distance_mm
+
+
 def writable(*paths: Path | None) -> None:
     """Find out before the work, not after it, that a record cannot be written."""
     for path in paths:
-        if path is None:
+        if path is None or path == STANDARD_OUTPUT:
             continue
+        if path.exists() and not path.is_file() and not path.is_dir():
+            if not os.access(path, os.W_OK):
+                refuse(f"{path}: cannot be written; name another file")
+            continue
+        place = path.resolve()
         try:
-            path.parent.mkdir(parents=True, exist_ok=True)
+            place.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             refuse(f"{path}: cannot make the folder ({error.strerror}); name another file")
-        if path.is_dir() or not os.access(path.parent, os.W_OK):
+        if place.is_dir() or not os.access(place.parent, os.W_OK):
             refuse(f"{path}: cannot be written; name another file")
 
 
 @contextmanager
 def progress(what: str) -> Iterator[Callable[[int, int, str], None]]:
-    """Give a function (done, total, name) that moves a bar on standard error; none unless it is a terminal."""
+    """Give a function (done, total, name) that moves a bar on standard error; off a terminal a line now and then."""
+    if not sys.stderr.isatty():
+        with _in_lines(what) as step:
+            yield step
+        return
     bar = Progress(
-        TextColumn(what),
+        TextColumn(what, markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeElapsedColumn(),
         TextColumn("{task.fields[name]}", markup=False),
         console=console(sys.stderr),
-        disable=not sys.stderr.isatty(),
         transient=True,
     )
     with bar:
         task = bar.add_task(what, total=None, name="")
         yield lambda done, total, name: bar.update(task, completed=done, total=total, name=name)
+
+
+@contextmanager
+def _in_lines(what: str) -> Iterator[Callable[[int, int, str], None]]:
+    """Give a function that is told how far the work is, and tell it in a line every ten seconds."""
+    came, ended = ["begun"], threading.Event()
+
+    def step(done: int, total: int, name: str) -> None:
+        came[0] = f"{done:,} of {total:,} {name}".rstrip()
+
+    def tell_now_and_then() -> None:
+        began = time.monotonic()
+        while not ended.wait(SECONDS_A_LINE):
+            complain(f"{what}: {came[0]}, after {time.monotonic() - began:.0f} s")
+
+    teller = threading.Thread(target=tell_now_and_then, daemon=True)
+    teller.start()
+    try:
+        yield step
+    finally:
+        ended.set()
+        teller.join()

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from multiprocessing import get_context, parent_process
+from multiprocessing import active_children, parent_process
+from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import TypeVar
 
 Work = TypeVar("Work")
@@ -15,17 +17,49 @@ Found = TypeVar("Found")
 
 
 @contextmanager
+def uninterrupted() -> Iterator[None]:
+    """A process started in here is not ended by the terminal's interruption: whoever started it ends it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class Uninterrupted(SpawnProcess):
+    """A process that an interruption never reaches: a solver would take it for its own, and answer *unknown*."""
+
+    def start(self) -> None:
+        """Begin."""
+        with uninterrupted():
+            super().start()
+
+
+class Spawned(SpawnContext):
+    """How processes are made: none is forked, none interrupted."""
+
+    Process = Uninterrupted
+
+
+@contextmanager
 def processes(jobs: int, *, one_each: bool = False) -> Iterator[ProcessPoolExecutor]:
     """Give so many processes; what has not begun when they are left is not begun.
+
+    Left by an error, an interruption above all, what is under way is ended at once: it is no answer any more.
 
     ``one_each``: each piece of work has a process of its own.  None is forked: a forked one would share what the
     solvers hold, and could wait for it for ever.
     """
     most = 1 if one_each else None
-    spawned = get_context("spawn")
-    pool = ProcessPoolExecutor(jobs, spawned, initializer=_end_with_parent, max_tasks_per_child=most)
+    others = {child.pid for child in active_children()}
+    pool = ProcessPoolExecutor(jobs, Spawned(), initializer=_end_with_parent, max_tasks_per_child=most)
     try:
         yield pool
+    except BaseException:
+        for child in active_children():
+            if child.pid not in others:
+                child.kill()
+        raise
     finally:
         pool.shutdown(cancel_futures=True)
 

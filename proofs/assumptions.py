@@ -16,6 +16,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from models.shipped import shipped
 from models.world import assumptions
 from proofs import usage
 from proofs.catalogue import AXIOMS, INTERLOCKING, PREMISES, STEPS
@@ -27,7 +28,7 @@ from proofs.theory import START, Theory
 
 ROOT = Path(__file__).resolve().parent.parent
 DATA = tuple(sorted(ROOT.glob("models/*/assumptions.toml")))
-PAGE = ROOT / "docs" / "assumptions.md"
+PAGE = shipped("docs/assumptions.md")
 
 WRITTEN = (
     "Written by `python -m proofs.assumptions` from `models/*/assumptions.toml`,"

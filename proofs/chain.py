@@ -11,12 +11,14 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
 from rich.text import Text
 from rich.tree import Tree
 
+from models.shipped import is_installed
 from proofs import assumptions, usage
 from proofs.catalogue import INTERLOCKING
 from proofs.joints import BY_NAME, SAME_FUNCTION, discharged
@@ -27,7 +29,7 @@ from proofs.records import Report, commit, overall
 from proofs.theories import THEORIES, row_of, theory_of
 from proofs.theory import Theory
 
-CORES = assumptions.ROOT / "out" / "cores.json"
+CORES = (Path() if is_installed() else assumptions.ROOT) / "out" / "cores.json"
 """What ``python -m proofs.cores --json out/cores.json`` leaves; of another commit it tells nothing."""
 THEOREM = ("occupancy", "train")
 """The theories whose claims are the theorem: of all trains on the line, and of each alone, both in millimetres."""

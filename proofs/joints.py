@@ -12,9 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
 
-PAGE = Path(__file__).resolve().parent.parent / "docs" / "contracts.md"
+from models.shipped import shipped
+
+PAGE = shipped("docs/contracts.md")
 HEAD = ("| link | guaranteed by | assumed in | what watches it at run time |", "|---|---|---|---|")
 TABLE = re.compile(r"(<!-- joints: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 BY_NAME = "by name"

@@ -9,6 +9,7 @@ import json
 import os
 import platform
 import subprocess
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import metadata
@@ -16,6 +17,8 @@ from pathlib import Path
 from typing import Literal, NotRequired, TypedDict
 
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
+from models.shipped import is_installed
+from models.streams import STANDARD_OUTPUT
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
@@ -148,7 +151,12 @@ def versions() -> dict[str, str]:
 
 
 def commit() -> str | None:
-    """The commit that the source is at, with ``+`` behind it if files differ from it; None if unknown."""
+    """The commit that the source is at, with ``+`` behind it if files differ from it; None if unknown.
+
+    An installed copy has none: a repository that it happens to lie in is not its own.
+    """
+    if is_installed():
+        return None
     here = Path(__file__).resolve().parent
     try:
         head, changes = (
@@ -161,16 +169,34 @@ def commit() -> str | None:
 
 
 def write_json(path: Path, record: Mapping[str, object]) -> None:
-    """Write a record, whole or not at all, so that no reader ever finds half of one."""
-    write_whole(path, (json.dumps(record, ensure_ascii=False, indent=1) + "\n").encode())
+    """Write a record, whole or not at all, so that no reader ever finds half of one; to ``-``, standard output."""
+    content = json.dumps(record, ensure_ascii=False, indent=1) + "\n"
+    if path == STANDARD_OUTPUT:
+        sys.stdout.write(content)
+        sys.stdout.flush()
+    else:
+        write_whole(path, content.encode())
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file beside its place and move it there, making its folder where that is missing."""
+    """Write a file beside its place and move it there, making its folder where that is missing.
+
+    What is no file, a pipe or a device, is written into, not replaced; a link stays, and what it names is written.
+
+    Raises:
+        OSError: it cannot be written; what stood there before stands there still.
+    """
+    if path.exists() and not path.is_file():
+        with path.open("wb") as open_end:
+            open_end.write(content)
+        return
+    path = path.resolve()
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         beside.write_bytes(content)
         beside.replace(path)
+    except OSError as error:
+        raise OSError(error.errno, f"cannot be written ({error.strerror})", str(path)) from error
     finally:
         beside.unlink(missing_ok=True)

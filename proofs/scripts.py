@@ -7,6 +7,7 @@ holds at the start).  ``python -m proofs.search`` finds a script; the prover onl
 
 from __future__ import annotations
 
+import errno
 import tomllib
 from collections.abc import Mapping
 from functools import cache
@@ -25,12 +26,22 @@ def file_of(row: str) -> Path:
 
 @cache
 def script(row: str) -> Mapping[str, list[str]]:
-    """Read the script of one row."""
+    """Read the script of one row.
+
+    Raises:
+        FileNotFoundError: there is none.  Taken for a script without hypotheses it would refute what is proved.
+    """
     path = file_of(row)
-    if not path.exists():
-        return {}
+    if not path.is_file():
+        line = f"no proof script of {row}, so nothing is asked; install heisoku again, or python -m proofs.search {row}"
+        raise FileNotFoundError(errno.ENOENT, line, str(path))
     with path.open("rb") as file:
         return {name: list(hypotheses) for name, hypotheses in tomllib.load(file).items()}
+
+
+def known(row: str) -> Mapping[str, list[str]]:
+    """Give what the search has found for a row so far; nothing for a row that is new."""
+    return script(row) if file_of(row).is_file() else {}
 
 
 def default(row: str, column: str) -> list[str]:

@@ -59,7 +59,7 @@ def find(transition: str, invariant: str) -> list[str] | None:
         if names is None:
             names = core(part, sorted({*orders, invariant}), NARROW // 4)
         if names is None:
-            old = scripts.script(transition).get(invariant)
+            old = scripts.known(transition).get(invariant)
             names = core(part, [*old, *orders], NARROW) if old is not None else None
         for seed in range(4):
             if names is None:
@@ -83,7 +83,7 @@ def main(pattern: str = "") -> int:
     for transition, found in spread(find_row, [task for task in tasks if task[1]], 2):
         known = {
             invariant: names
-            for invariant, names in scripts.script(transition).items()
+            for invariant, names in scripts.known(transition).items()
             if invariant in columns(transition)
         }
         for invariant, names in found.items():

@@ -71,6 +71,8 @@ def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
 
 def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
     solver.set("rlimit", BUDGET["z3"])
+    # An interruption is this program's: taken by the solver it would be lost, and come out as an answer.
+    solver.set("ctrl_c", False)
     solver.set("random_seed", seed)
     before = _counted(solver)
     verdict = solver.check()

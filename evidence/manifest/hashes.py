@@ -9,9 +9,11 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from models.shipped import is_installed
 from proofs.records import commit, versions
 
 ROOT = Path(__file__).resolve().parent.parent.parent
+ROOMS = ("kernel", "models", "proofs", "fuzz", "evidence")
 NAME = "manifest.json"
 FORMAT = "heisoku manifest 1"
 NOT_RECORDS = frozenset({NAME, "lock", "mutants.json", "test.log"})
@@ -63,9 +65,13 @@ def hash_of(path: Path) -> str:
 
 
 def sources(root: Path = ROOT) -> str:
-    """A hash of every file of the sources: those that git knows or would take; without git, all but what is made."""
+    """A hash of every file of the sources: those that git knows or would take; without git, all but what is made.
+
+    In an installed copy: every file of the packages, which stand among those of others.
+    """
+    named = [] if root == ROOT and is_installed() else _named_by_git(root)
     whole = hashlib.sha256()
-    for name in sorted(_named_by_git(root) or _found(root)):
+    for name in sorted(named or _found(root)):
         path = root / name
         content = path.read_bytes() if path.is_file() else b""
         whole.update(f"{name}\0{len(content)}\0".encode() + content)
@@ -83,9 +89,11 @@ def _named_by_git(root: Path) -> list[str]:
 
 def _found(root: Path) -> list[str]:
     ignored = {"out", "build", "__pycache__"}
+    ours = [root / room for room in ROOMS] if root == ROOT and is_installed() else [root]
     return [
         path.relative_to(root).as_posix()
-        for path in root.rglob("*")
+        for place in ours
+        for path in place.rglob("*")
         if path.is_file()
         and not any(part in ignored or part.startswith(".") for part in path.relative_to(root).parts)
         and path.suffix != ".pyc"

@@ -9,7 +9,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from evidence.manifest.hashes import ROOT
 from fuzz.failures.command import Replayed, replay_file
 from models.days.campaign import outcome as outcome_of
 from models.days.kept import KeptDays
@@ -22,6 +21,7 @@ from models.reproduce.tables import Reproduction
 from models.rides import report
 from models.rides.campaign import ride_all
 from models.rides.tally import outcome
+from models.shipped import shipped
 from proofs import run, scripts
 from proofs.certificates.checking import certified
 from proofs.mutants.plays import ERRORS, witnesses
@@ -67,9 +67,8 @@ def play(theory: str, name: str) -> Result:
 
 def check(told: Mapping[str, Any]) -> Result:
     """Check a layout."""
-    path = Path(told["file"])
     try:
-        imported = load(path if path.is_absolute() else ROOT / path)
+        imported = load(shipped(told["file"]))
     except BadInput as bad:
         return Result(told["verdict"] == "bad input", str(bad))
     given = {key: told[key] for key in ("clearance_mm", "strict") if key in told}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
-from models.commands import refuse, tell, writable
+from models.commands import console, refuse, tell, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from proofs.records import write_whole
 
@@ -78,7 +78,7 @@ def _write(target: Path, page: str) -> None:
         write_whole(target, page.encode())
         return
     try:
-        with Console(stderr=True).status(f"printing {target}"):
+        with console(sys.stderr).status(f"printing {target}"):
             write_whole(target, printed(page))
     except CannotPrint as error:
         refuse(f"{target}: {error}; or write the report as .html")

@@ -26,6 +26,7 @@ from evidence.report.saying import Said, vocabulary
 from evidence.report.strips import Strip, strips
 from evidence.report.tracing import PROOFS, Proved, Requirement, proofs_of, requirements
 from evidence.report.words import titled_rows
+from models.shipped import shipped
 from proofs import assumptions
 from proofs.assumptions import Assumption
 from proofs.chain import Chain, chain
@@ -233,7 +234,7 @@ class Book:
     def glossary(self) -> Mapping[str, list[list[str]]]:
         """The glossary, by its sections."""
         found: dict[str, list[list[str]]] = {}
-        page = (ROOT / "docs" / "glossary.md").read_text("utf-8")
+        page = shipped("docs/glossary.md").read_text("utf-8")
         for title, cells in titled_rows(page.splitlines(), 4):
             found.setdefault(title, []).append(cells)
         return found

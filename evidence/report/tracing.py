@@ -9,12 +9,12 @@ from functools import cache
 from typing import Any
 
 from evidence.case import Case
-from evidence.manifest.hashes import ROOT
 from evidence.records.reading import Kept
 from evidence.records.showing import Came, cells_of
 from evidence.report.places import Place, place_of
 from evidence.report.saying import Said, said
 from evidence.report.words import first_sentence, rows_of
+from models.shipped import shipped
 from proofs import pages, scripts
 from proofs.lints import requirements_in
 from proofs.mutants.plays import witnesses
@@ -143,7 +143,7 @@ def requirements(case: Case) -> list[Requirement]:
     steps = {row_of(theory, name): step for theory in THEORIES.values() for name, step in theory.steps.items()}
     traced, played = pages.trace(), all_witnesses()
     found = []
-    for label, text, origin in rows_of((ROOT / "docs" / "requirements.md").read_text("utf-8"), 3):
+    for label, text, origin in rows_of(shipped("docs/requirements.md").read_text("utf-8"), 3):
         named = traced.get(label, {})
         found.append(
             Requirement(

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import signal
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing import connection, get_context
 from multiprocessing.connection import Connection
@@ -18,6 +16,7 @@ from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.worker import Answer, Work, serve
 from fuzz.targets.target import Batch
 from models.exit_codes import UNDECIDED
+from models.processes import uninterrupted
 
 TRIES = {HUNG: 2, FAILED: 2, DIED: 3}
 """How often a batch may end so before that is what it came to; a process may be killed by someone else."""
@@ -130,7 +129,7 @@ class Pool:
         context = get_context("spawn")
         ours, theirs = context.Pipe()
         process = context.Process(target=serve, args=(theirs, self._work, self._batch_seconds), daemon=True)
-        with _uninterrupted():
+        with uninterrupted():
             process.start()
         theirs.close()
         self._workers.append(_Worker(process, ours, time.monotonic() + START_SECONDS))
@@ -190,13 +189,3 @@ class Pool:
         line = f"{line}, {TRIES[how]} times; it is left out"
         self._say(line)
         return [Outcome(batch, None, how, line)]
-
-
-@contextmanager
-def _uninterrupted() -> Iterator[None]:
-    """A process started in here is not ended by the terminal's interruption: whoever started it ends it."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

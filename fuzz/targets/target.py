@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from models.shipped import shipped
+
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = (".py", ".toml")
 
@@ -81,9 +83,10 @@ def digest_of_sources(*folders: str) -> str:
     """
     found = hashlib.sha256()
     for folder in folders:
-        place = ROOT / folder
+        place = ROOT / folder if (ROOT / folder).exists() else shipped(folder)
         files = [place] if place.is_file() else sorted(path for path in place.rglob("*") if path.suffix in SOURCES)
         assert files, f"{folder}: no sources"
         for path in files:
-            found.update(f"{path.relative_to(ROOT)}\0".encode() + hashlib.sha256(path.read_bytes()).digest())
+            name = Path(folder, path.relative_to(place))
+            found.update(f"{name}\0".encode() + hashlib.sha256(path.read_bytes()).digest())
     return found.hexdigest()

@@ -23,7 +23,8 @@ from fuzz.machines.jolts import jolted_walk, thinned
 from fuzz.machines.places import TINY, place_on
 from fuzz.machines.watched import Broken
 from fuzz.planted.draw import name_of, planted
-from fuzz.targets.target import ROOT, Batch, Result, digest_of_sources
+from fuzz.targets.target import Batch, Result, digest_of_sources
+from models.shipped import shipped
 from proofs.catalogue import INTERLOCKING
 from proofs.mutated import Sources
 from proofs.theories import THEORIES
@@ -35,7 +36,7 @@ COSTLY = {INTERLOCKING.name: 0.08}
 JOLTED, THINNED, QUESTIONED = 0.2, 0.2, 0.3
 """Shares of the interlocking's walks: jolted into states that no run leads to; on layouts that say less; with every
 transition asked of what nobody expects."""
-LAYOUTS = (TINY, *sorted((ROOT / "layouts").glob("*.toml")))
+LAYOUTS = (TINY, *sorted(shipped("layouts").glob("*.toml")))
 NAMES = tuple(THEORIES)
 STEPS = tuple((theory, step) for theory, each in THEORIES.items() for step in each.steps)
 PLACES = {each: at for at, each in enumerate(STEPS)}

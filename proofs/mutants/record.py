@@ -9,10 +9,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from models.shipped import is_installed
 from proofs.records import write_json
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-FILE = ROOT / "out" / "mutants.json"
+FILE = (Path() if is_installed() else ROOT) / "out" / "mutants.json"
+"""In an installed copy the current folder's: nobody looks for it among installed packages, nor may write there."""
 COMMON = ("proofs/lift", "proofs/mutants")
 INTERLOCKED = ("models/world", "proofs/invariants", "proofs/witnesses")
 """What a verdict depends on, beside the files at the top of kernel, models and proofs: when any of it changes,

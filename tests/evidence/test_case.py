@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from evidence.case import CASE, Case, CaseError, read_case
-from evidence.catalogue import ROOT, catalogue
+from evidence.catalogue import catalogue
+from models.shipped import shipped
 from proofs.assumptions import read
 from proofs.theories import THEORIES
 
-REQUIREMENTS = ROOT / "docs" / "requirements.md"
+REQUIREMENTS = shipped("docs/requirements.md")
 LABELLED = re.compile(r"^\| ([TPXGA]\d+) \|", re.MULTILINE)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
-from models.commands import bad_input_refused, refuse, tell
+from models.commands import bad_input_refused, console, refuse, tell
 from models.exit_codes import DOES_NOT_HOLD
 
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
@@ -39,20 +39,27 @@ def export(layout: Layout, output: Folder, file: Files = None) -> None:
     if output.exists() and not output.is_dir():
         refuse(f"{output}: is no folder; name another")
     try:
-        with bad_input_refused(), Console(stderr=True).status("exporting"):
+        with bad_input_refused(), console(sys.stderr).status("exporting"):
             imported = load(layout)
             result = check(imported)
             files = [each for each in written(imported, result) if not file or each.name in file]
             output.mkdir(parents=True, exist_ok=True)
-            for name in NAMES:
+            asked = [name for name in NAMES if not file or name in file]
+            for name in asked:
                 (output / name).unlink(missing_ok=True)
             for each in files:
                 if each.content is not None:
                     (output / each.name).write_bytes(each.content)
     except OSError as error:
         refuse(f"{output}: cannot be written ({error.strerror}); name another folder")
+    there = [each for each in files if each.content is not None and _is_there(output / each.name, each.content)]
     for each in files:
         tell(f"{output / each.name}: {'' if each.content is not None else 'not written: '}{each.says}")
-    count = sum(each.content is not None for each in files)
-    tell(f"{layout}: {count} files written, {len(files) - count} not; the layout {result.verdict}")
-    raise typer.Exit(result.exit_code if count == len(files) and files else DOES_NOT_HOLD)
+    count = len(there)
+    tell(f"{layout}: {count} files written, {len(asked) - count} not; the layout {result.verdict}")
+    raise typer.Exit(result.exit_code if {each.name for each in there} == set(asked) else DOES_NOT_HOLD)
+
+
+def _is_there(path: Path, content: bytes) -> bool:
+    """Whether a file holds what was written into it."""
+    return path.is_file() and path.read_bytes() == content
