@@ -12,7 +12,7 @@ from models.simulator.play import site_of
 from tests.simulation.lines import imported
 
 STOPPED, OTHER = Train("T01"), Train("T02")
-OVER_THE_DIAMOND = frozenset(map(Block, ("B:A0+A1", "diamond", "stand 1")))
+OVER_A1 = frozenset(map(Block, ("B:A0+A1", "stand 1")))
 
 
 def foresight() -> Foresight:
@@ -23,13 +23,13 @@ def foresight() -> Foresight:
 
 @pytest.mark.parametrize(
     ("ways_on", "gets_there"),
-    [({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from diamond"}, True), (set(), False)],
+    [({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from B:A0+A1"}, True), (set(), False)],
 )
 def test_only_the_ways_that_a_train_can_run_count(ways_on: set[str], gets_there: bool) -> None:
-    """From the diamond it is near to stand 3, on the line that the train is not on; past stand 2 it cannot."""
+    """Past stand 2 it cannot; routes lead from under it to stand 3 over stand 4 too, if it can run them."""
     goal = Block("stand 3")
     board = {
-        STOPPED: Standing(OVER_THE_DIAMOND, None, frozenset(map(Route, ways_on))),
+        STOPPED: Standing(OVER_A1, None, frozenset(map(Route, ways_on))),
         OTHER: Standing(frozenset({Block("stand 2")}), None),
     }
     assert foresight().lets_begin(board, STOPPED, goal) is gets_there
@@ -38,9 +38,9 @@ def test_only_the_ways_that_a_train_can_run_count(ways_on: set[str], gets_there:
 def test_a_board_is_not_taken_for_one_on_which_the_train_has_other_ways() -> None:
     """What a board came to is remembered."""
     seen, goal = foresight(), Block("stand 3")
-    for ways_on, gets_there in (({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from diamond"}, True)):
+    for ways_on, gets_there in (({"1 to 2"}, False), ({"1 to 2", "1 back to 4 from B:A0+A1"}, True)):
         board = {
-            STOPPED: Standing(OVER_THE_DIAMOND, None, frozenset(map(Route, ways_on))),
+            STOPPED: Standing(OVER_A1, None, frozenset(map(Route, ways_on))),
             OTHER: Standing(frozenset({Block("stand 2")}), None),
         }
         assert seen.lets_begin(board, STOPPED, goal) is gets_there
@@ -48,6 +48,6 @@ def test_a_board_is_not_taken_for_one_on_which_the_train_has_other_ways() -> Non
 
 def test_of_the_ways_on_the_shortest_comes_first() -> None:
     ways = foresight().ways
-    on = [Route("1 to 2"), Route("1 back to 4 from diamond")]
+    on = [Route("1 to 2"), Route("1 back to 4 from B:A0+A1")]
     assert ways.shortest_first(on, Block("stand 4")) == list(reversed(on))
     assert ways.shortest_first(on, Block("stand 2")) == on
