@@ -72,7 +72,9 @@ def test_without_faults_a_road_is_closed_for_trains_alone_and_not_much_longer_th
     for state in sim.crossings.states.values():
         closings = state.closures(sim.now_s)
         assert state.passed >= 2
-        assert 0 < len(closings) <= state.passed
+        lasts = state.closed_s is not None
+        assert 0 < len(state.closings) <= state.passed
+        assert not lasts or any(seen.under or math.isfinite(seen.ahead_mm) for seen in state.seen.values())
         assert sum(to_s - from_s for from_s, to_s in closings) < sim.now_s / 3
         assert state.least_s is not None
         assert SETTINGS.warning_cycles <= state.least_s <= SETTINGS.warning_cycles + 10
