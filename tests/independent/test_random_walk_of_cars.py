@@ -137,9 +137,11 @@ def stand(network: Network, route: Route, track: RawTrack) -> tuple[Place, int]:
 
 
 def fits(way: Way, held: Mapping[str, str]) -> bool:
-    """Whether a train could have come this way with these points held."""
-    trailing = [passing for passing in way.passed if not passing.facing]
-    return all(held.get(passing.junction, passing.position) == passing.position for passing in trailing)
+    """Whether a train could stand on this way with these points held.
+
+    A slip has two positions for whichever leg a train comes by, and is faced from all of them.
+    """
+    return all(held.get(passing.junction, passing.position) == passing.position for passing in way.passed)
 
 
 def test_cars_stay_within_routes_of_made_up_networks() -> None:
