@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from kernel.names import Block, Car, Stage
 from kernel.refusal import Refusal
+from models.simulator.senses import WHOLE
 from models.world.formations import formation
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
@@ -127,6 +128,24 @@ def a_tag_missed_by_the_head_is_overdue_before_the_tail_comes(steps: Steps) -> S
     rest(scenario, out)
     scenario.refuses("start_rolling", run=out)
     scenario.must(head_cab(scenario, out) == scenario.system.units[T1].leading, "the unit still knows its ends")
+    return scenario
+
+
+def a_tail_whose_line_does_not_fit_reads_over_a_missed_tag(steps: Steps) -> Scenario:
+    """Before a tag that the head missed is overdue the tail reads it, which counts for nothing (T2, T5)."""
+    scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
+    out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
+    roll(scenario, out)
+    first, _ = pair(scenario.site.layout, NORTH, MIDDLE)
+    scenario.does("head_misses", {"track": {"unread": came(T1)}}, train=T1, tag=first)
+    for car in (A1, A2):
+        enters(scenario, out, car, NORTH, MIDDLE)
+    unit = scenario.system.units[T1]
+    wide = {**tail_read(scenario, out, first), "line": replace(WHOLE, fits=False)}
+    scenario.does("tail_reads", {"track": {"passed": came((T1, first))}}, **wide)
+    scenario.must(scenario.system.units[T1] == unit, "the unit takes nothing from it")
+    scenario.does("window_passes", train=T1)
+    scenario.must(scenario.system.units[T1].loop_open, "the tag is overdue")
     return scenario
 
 
