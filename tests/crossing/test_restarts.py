@@ -130,8 +130,8 @@ class World:
         assert not self.crossing.warns
 
 
-def coming(track: CrossingTrack = TRACKS[0], way_m: int = START_M + 1, **more: int) -> Vehicle:
-    return Vehicle(Train("one"), track, way_m, MOST_M_S, **more)
+def coming(track: CrossingTrack = TRACKS[0], stands_m: int = -1, stands_s: int = 0) -> Vehicle:
+    return Vehicle(Train("one"), track, START_M + 1, MOST_M_S, stands_m, stands_s)
 
 
 # ---- attacks

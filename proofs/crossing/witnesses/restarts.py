@@ -47,7 +47,7 @@ def who_was_forgotten_finds_the_arms_down() -> None:
         day.cycle()
     down_cycles = day.system.down_cycles
     day.step("restart")
-    assert (dict(day.system.crossing.asks), day.system.told) == ({}, frozenset())
+    assert (dict(day.system.crossing.asks.items()), day.system.told) == ({}, frozenset())
     body = day.system.bodies[ONE]
     assert (body.forgotten, body.was_struck, body.has_asked) == (True, False, True)
     assert day.system.unheard_cycles == {UP: 1, DOWN: 1}
