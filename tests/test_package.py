@@ -164,9 +164,9 @@ def test_the_installed_program_proves_the_same_texts(installed: Path, tmp_path: 
 
 
 @pytest.mark.slow
-def test_the_installed_program_simulates_exports_and_reports(installed: Path, tmp_path: Path) -> None:
+def test_the_installed_program_simulates_and_exports(installed: Path, tmp_path: Path) -> None:
     layout = str(installed / "models" / "shipped" / "layouts" / "passing_station.toml")
-    page, out = tmp_path / "line.html", tmp_path / "report.html"
+    page = tmp_path / "line.html"
     for words in (
         ("simulate", layout, "--hours", "0.01", "--html", str(page)),
         ("export", layout, "-o", str(tmp_path / "export")),
@@ -176,7 +176,3 @@ def test_the_installed_program_simulates_exports_and_reports(installed: Path, tm
         assert told.returncode == 0, told.stderr
     assert page.stat().st_size > 10_000
     assert len(list((tmp_path / "export").iterdir())) == 9
-    (tmp_path / "records").mkdir()
-    told = run(installed, "report", "--records", str(tmp_path / "records"), "-o", str(out))
-    assert told.returncode == 0, told.stderr
-    assert out.stat().st_size > 100_000
