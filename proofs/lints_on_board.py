@@ -40,6 +40,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
         "told": "a history of what the handset itself was told, and nothing else",
     },
     "train": {"awaited_mm": "where a list has the tag that the orders told of, and nothing of where it lies"},
+    "crossing": {"tracks": "which tracks lead over the road is how the crossing is set up; it says nothing of trains"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }
 """Fields by theory that a machine may be told although they are no machine's; why.

@@ -183,7 +183,7 @@ def restart(site: Road, system: Level) -> Level:
     Without power lamps, bells and arms do what the start state asks for; so while power is away it restarts in each
     cycle.
     """
-    if not system.in_service:
+    if not nobody_comes_before_the_check(system):
         return system
     return restarted(site, system)
 

@@ -233,11 +233,6 @@ def who_was_known_when_it_opened_was_far(site: Road, system: Level) -> bool:
     )
 
 
-def a_warning_has_lasted_since_it_began(site: Road, system: Level) -> bool:
-    """No negative time, and none without a warning (X2)."""
-    return system.crossing.warned_cycles >= 0 and (system.crossing.warns or system.crossing.warned_cycles == 0)
-
-
 def the_crossing_counts_its_warning(site: Road, system: Level) -> bool:
     """To the cycle, if it did not restart in it (X2, X5)."""
     return (
@@ -289,7 +284,6 @@ INVARIANTS = (
     what_is_not_warned_of_is_left,
     who_was_warned_of_still_asks,
     who_was_known_when_it_opened_was_far,
-    a_warning_has_lasted_since_it_began,
     the_crossing_counts_its_warning,
     arms_wait_no_longer_than_for_the_bell,
     lowered_arms_are_down,
