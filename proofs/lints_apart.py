@@ -65,6 +65,8 @@ READINGS: Mapping[str, str] = {
     "alarm_tone.hear_list.servers_well": "what the servers say of themselves",
     "alarm_tone.look_at_the_battery.battery_well": "what the gauge of the battery says",
     "dispatching.arrive.stands": "what the tram's own machine found, as `stopping` proves it",
+    "display.take_place.is_located": "whether the receiver gives a place",
+    "display.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
     "dispatching.take_place.is_located": "whether the receiver gives a place",
     "dispatching.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
     "crossing.decide.dues": "what the crossing's own reckoning says of each train, as `due` proves it",

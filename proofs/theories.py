@@ -31,7 +31,7 @@ from proofs.onboard import (
     train_length,
 )
 from proofs.theory import READING, START, Theory
-from proofs.tram import cycle, dispatching, stopping
+from proofs.tram import cycle, dispatching, display, stopping
 
 IN_ORDER: tuple[Theory, ...] = (
     INTERLOCKING,
@@ -56,6 +56,7 @@ IN_ORDER: tuple[Theory, ...] = (
     alarm_tone.THEORY,
     arrival.THEORY,
     dispatching.THEORY,
+    display.THEORY,
     stopping.THEORY,
     cycle.THEORY,
     due.THEORY,

@@ -58,9 +58,12 @@ def older(limits: DispatchLimits, display: Display, elapsed_ms: int) -> Display:
 
 
 def taken(limits: DispatchLimits, display: Display, order: Order) -> Display:
-    """Take an order that is for this tram: only where it stands, for that stop, newer than the last, not old (G6)."""
+    """Take an order that is for this tram: only where it stands, for that stop, newer than the last, not old (G6).
+
+    Nor one of the future: it would not lapse in time, and every later one would be older than it.
+    """
     if not display.stands or order.stop != display.stop or order.made_ms <= display.made_ms:
         return display
-    if display.now_ms - order.made_ms > limits.order_ms:
+    if not display.now_ms - limits.order_ms <= order.made_ms <= display.now_ms:
         return display
     return replace(display, holds=order.holds, recovers=order.recovers, made_ms=order.made_ms)

@@ -18,7 +18,7 @@ from kernel.tram.display import Display, begun, located, taken
 from kernel.tram.display import older as shown_older
 from kernel.tram.stopping import Fix, StopLimits, Stopping, note_fix
 from models.tram.dispatching import Body
-from proofs.tram.witnesses import cycle, dispatching, stopping
+from proofs.tram.witnesses import cycle, dispatching, display, stopping
 from proofs.tram.witnesses.cycle import Polling
 from proofs.tram.witnesses.line import LIMITS, Day
 from proofs.tram.witnesses.stopping import Along
@@ -28,7 +28,7 @@ ANY = st.one_of(st.integers(-HUGE, HUGE), st.integers(-30, 30))
 FLAG = st.booleans()
 
 
-@pytest.mark.parametrize("witness", [*dispatching.WITNESSES, *stopping.WITNESSES, *cycle.WITNESSES])
+@pytest.mark.parametrize("witness", [*dispatching.WITNESSES, *display.WITNESSES, *stopping.WITNESSES, *cycle.WITNESSES])
 def test_witness(witness: Callable[[], None]) -> None:
     assert witness.__doc__
     witness()
@@ -147,7 +147,8 @@ def test_nothing_but_an_order_lets_recover(
     for after in (located(display, placed, stop, stands), shown_older(LIMITS, display, elapsed_ms)):
         assert display.holds or not after.holds
         assert display.recovers or not after.recovers
-    if order.stop != display.stop or not display.stands or order.made_ms <= display.made_ms:
+    is_of_the_future = order.made_ms > display.now_ms
+    if order.stop != display.stop or not display.stands or order.made_ms <= display.made_ms or is_of_the_future:
         assert taken(LIMITS, display, order) == display
     lost = located(display, False, stop, stands)
     assert lost == Display(display.now_ms, False, stop, False, False, False, display.made_ms)
