@@ -115,5 +115,5 @@ def made_again(figure: Figure) -> Result:
         return figure.make()
     except BadInput as bad:
         return Result(False, str(bad))
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, FileNotFoundError) as error:
         return Result(False, f"cannot be made from its record: {error!r}")

@@ -41,8 +41,8 @@ FOUND_WITHIN = 60_000
 FOUND_FROM_THE_FIRST = 12_000_000
 """The rarest fault, evidence across changes of ends, comes about once in some two million steps of its habit."""
 FAULTS: list[tuple[type[Calls], str, int, str | None]] = [
-    (EvidenceAhead, "ring", 28, None),
-    (EvidenceAcrossTurns, "line", 11060, "to and fro"),
+    (EvidenceAhead, "ring", 116, None),
+    (EvidenceAcrossTurns, "line", 11501, "to and fro"),
     (BrakeNotHeld, "terminus", 1, None),
     (RunSetAhead, "ring", 1008, None),
     (NothingCompared, "crossover", 455, None),
