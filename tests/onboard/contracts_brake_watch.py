@@ -16,18 +16,18 @@ def an_accusation_stays(speed_mm_s: int, cycles: int, applied: bool) -> None:
 
 
 def motors_may_gain_as_much_as_written(gained_mm_s: int, applied: bool) -> None:
-    """And no more, while the brake has not responded (T12)."""
+    """And no more, while the brake has not responded: 1,200 mm/s² in the longest cycle, 102 ms (T12)."""
     assert -20_000 <= gained_mm_s <= 20_000
     speed_mm_s = 20_000 + gained_mm_s
-    assert note_cycle(BOUNDS, watching(20_000), applied, True, speed_mm_s, speed_mm_s).broken == (gained_mm_s > 120)
+    assert note_cycle(BOUNDS, watching(20_000), applied, True, speed_mm_s, speed_mm_s).broken == (gained_mm_s > 123)
 
 
 def the_brake_must_slow_as_guaranteed(slowed_mm_s: int) -> None:
-    """Once it has responded (T12)."""
+    """Once it has responded: 700 mm/s² in the shortest cycle, 98 ms (T12)."""
     assert -20_000 <= slowed_mm_s <= 20_000
     speed_mm_s = 20_000 - slowed_mm_s
     after = note_cycle(BOUNDS, BrakeWatch(20_000, 15, False), True, True, speed_mm_s, speed_mm_s)
-    assert after.broken == (slowed_mm_s < 70)
+    assert after.broken == (slowed_mm_s < 68)
     assert after.cycles == 15
 
 
@@ -36,7 +36,7 @@ def the_limit_is_no_more_than_measured(least_mm_s: int, most_mm_s: int, applied:
     assert -1_000_000 <= least_mm_s <= most_mm_s <= 1_000_000
     after = note_cycle(BOUNDS, watching(20_000), applied, True, least_mm_s, most_mm_s)
     assert 0 <= after.limit_mm_s <= max(0, most_mm_s)
-    assert after.limit_mm_s <= 20_120
+    assert after.limit_mm_s <= 20_123
 
 
 def a_released_brake_responds_anew(cycles: int, known: bool) -> None:
@@ -50,4 +50,4 @@ def an_unknown_speed_accuses_nobody(least_mm_s: int, most_mm_s: int, applied: bo
     assert -1_000_000 <= least_mm_s <= most_mm_s <= 1_000_000
     after = note_cycle(BOUNDS, watching(20_000), applied, False, least_mm_s, most_mm_s)
     assert not after.broken
-    assert after.limit_mm_s == 20_120
+    assert after.limit_mm_s == 20_123
