@@ -7,11 +7,10 @@ the radio's time a line can spare.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import fields as fields_of
 from typing import Any
 
-from kernel.centre import Grant
 from kernel.link import Party
 from kernel.machine.messages import (
     Challenge,
@@ -32,7 +31,6 @@ from kernel.machine.messages import (
     ToCentre,
     ToUnit,
 )
-from kernel.maps import Map
 from kernel.names import Run, Stage, Train
 from kernel.standstill import Standstill, ThroughLine, is_held
 from models.simulation.links import CENTRE, Links
@@ -106,8 +104,6 @@ class Talk:
         self.sensed = sensed
         self.asked_for = asked_for
         self._offered, self._echoed = Joined(), Joined()
-        self._sorted_out: Map[Run, Grant] = {}
-        self._by_train: dict[Train, list[tuple[Run, Grant]]] = {}
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
 
     # ---- saying
@@ -141,15 +137,6 @@ class Talk:
             self.links.say(me, peer, kind, **fields)
 
     # ---- hearing
-
-    def _runs_of(self, train: Train) -> Sequence[tuple[Run, Grant]]:
-        """The runs that the centre has of a train; sorted out once for all trains, until it has others."""
-        runs = self.play.system.centre.runs
-        if runs is not self._sorted_out:
-            self._sorted_out, self._by_train = runs, {}
-            for run, grant in runs.items():
-                self._by_train.setdefault(run.train, []).append((run, grant))
-        return self._by_train.get(train, ())
 
     def hears(self, me: Party, peer: Party, kind: str, fields: Fields) -> None:
         """A machine acts on what its link has delivered; what that changes is answered at once.
@@ -218,7 +205,7 @@ class Talk:
     def standing_run(self, train: Train) -> Run | None:
         """The run under which the centre holds a train that has told, in its present life, where it stands."""
         life = self.play.system.units[train].life
-        for run, grant in self._runs_of(train):
-            if run.life == life and grant.stage == Stage.STANDING:
+        for run, grant in self.play.system.centre.runs.items():
+            if run.train == train and run.life == life and grant.stage == Stage.STANDING:
                 return run
         return None

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from kernel.centre import Centre
 from kernel.layout import Layout, TagRecords
-from kernel.names import Block, Car, Epoch, Point, Position, Serial, TerminalLife, Train, UnitLife
-from kernel.restarts import restart_centre, restart_terminal, restart_unit
+from kernel.machine import centre, point_terminal, unit
+from kernel.names import Block, Car, Point, Position, Train, UnitLife
 from kernel.tag_list import TagPlan
 from kernel.tag_list_text import what_they_say
-from kernel.terminal import Terminal
-from kernel.unit import NO_ORDERS, Unit
 from models.ground import Ground
 from models.world.state import Formation, Radio, Site, System, Track
-
-FIRST_EPOCH = Epoch(1)
 
 
 def site_as_told(layout: Layout, records: TagRecords, ground: Ground, formation: Formation) -> Site:
@@ -57,36 +52,10 @@ def silent_radio() -> Radio:
 
 def start(site: Site, at: Mapping[Car, frozenset[Block]], lies: Mapping[Point, Position]) -> System:
     """Give the state in which every machine has just started, with cars and points as they are."""
-    unit = Unit(
-        life=UnitLife(0),
-        answered=None,
-        standing_in=frozenset(),
-        isolated_in=None,
-        orders=NO_ORDERS,
-        loop_open=False,
-        leading=None,
-        head_tag=None,
-        tail_read=None,
-        occupied=frozenset(),
-    )
-    terminal = Terminal(life=TerminalLife(0), holds=None, wanted=None, unlocked=False)
-    centre = Centre(
-        epoch=Epoch(0),
-        newest=Serial(0),
-        accounted={},
-        runs={},
-        claimed={},
-        locked={},
-        lost_blocks=site.layout.blocks,
-        lost_points=site.layout.points,
-        terminal_life={},
-        supervised=frozenset(),
-        statements={},
-    )
     return System(
-        centre=restart_centre(site.layout, centre, FIRST_EPOCH),
-        units={Train(train): restart_unit(unit, UnitLife(1)) for train in site.layout.fleet},
-        terminals={Point(point): restart_terminal(terminal, TerminalLife(1)) for point in site.layout.points},
+        centre=centre.start(site.layout, centre.NEVER_STARTED),
+        units={Train(train): unit.start(UnitLife(0)) for train in site.layout.fleet},
+        terminals={Point(point): point_terminal.start(point_terminal.NEVER_STARTED) for point in site.layout.points},
         radio=silent_radio(),
         track=Track(
             at=dict(at),

@@ -17,18 +17,8 @@ from hypothesis import strategies as st
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Settings, Train
 from kernel.restarts import restart_crossing
+from models.crossing.sites import SETTINGS
 
-SETTINGS = Settings(
-    cycle_ms=1_000,
-    warning_cycles=35,
-    bell_cycles=5,
-    lowering_cycles=10,
-    least_down_cycles=20,
-    lifting_cycles=6,
-    reopening_cycles=20,
-    silence_cycles=2,
-    start_cycles=39,
-)
 TRACKS = (CrossingTrack("up"), CrossingTrack("down"))
 MOST_M_S = 28
 START_M = MOST_M_S * (SETTINGS.start_cycles + 1)
