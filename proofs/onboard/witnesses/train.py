@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import braking, computer, odometry, split
-from kernel.onboard.odometry import Readings
+from kernel.onboard.odometry import Loss, Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.speed_limit import SpeedLimit
@@ -115,6 +115,16 @@ def a_tag_listed_elsewhere_says_nothing() -> None:
     unlisted = replace(limit, in_curve=True, at_turnout=True)
     assert told == replace(before, known=replace(before.known, limit=unlisted)), "and anything may lie from it on"
     assert computer.read_by_head(LIMITS, before, 1, tag_mm, PLAIN) != before
+
+
+def a_fix_that_contradicts_leaves_the_track_unknown() -> None:
+    """A tag in its window whose place is none that the front may have: its kind ends no restriction (P7, T8, T12)."""
+    before = approaching(START_MM + 100_000).system.computer
+    beyond_mm = before.known.motion.front_most_mm - LIMITS.tags.antenna_mm + 1_500
+    told = computer.read_by_head(LIMITS, before, 1, beyond_mm, PLAIN)
+    assert told.known.motion.loss is Loss.CONTRADICTED
+    assert told.known.limit.in_curve
+    assert told.known.limit.at_turnout
 
 
 def a_tail_that_follows_as_preset_counts() -> None:
@@ -452,6 +462,7 @@ WITNESSES = (
     a_tag_listed_elsewhere_says_nothing,
     the_track_is_what_the_tags_say_for_the_whole_train,
     a_tag_that_hides_a_curve_is_none_of_this_world,
+    a_fix_that_contradicts_leaves_the_track_unknown,
     a_tail_that_follows_as_preset_counts,
     a_tail_that_is_shaken_brakes_the_train,
     a_train_that_rolls_back_is_braked,
