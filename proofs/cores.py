@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import ast
 import re
-import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,6 +20,7 @@ from unittest.mock import patch
 
 import z3
 
+from models.commands import progress
 from models.exit_codes import HOLDS, UNDECIDED
 from models.processes import spread
 from proofs import scripts
@@ -196,10 +196,10 @@ def found(only: str, jobs: int) -> list[Row]:
         chosen = tuple(each for each in theory_of(row)[0].invariants if re.search(only, f"{row} {each}"))
         todo += [(row, chosen)] * bool(chosen)
     rows: list[Row] = []
-    for each in spread(row_of_cores, todo, jobs):
-        rows.append(each)
-        if sys.stderr.isatty():
-            print(f"{len(rows)}/{len(todo)} {each.transition}", file=sys.stderr, flush=True)
+    with progress("cores") as step:
+        for each in spread(row_of_cores, todo, jobs):
+            rows.append(each)
+            step(len(rows), len(todo), each.transition)
     return rows
 
 

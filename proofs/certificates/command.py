@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import sys
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, refuse, writable
+from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from proofs.records import commit, versions, write_json
 
@@ -54,10 +53,10 @@ def certify(
         chosen = set(random.Random(DRAWN_FROM).sample(asked, min(sample, len(asked))))
         asked = [each for each in asked if each in chosen]
     began, refused, found = time.perf_counter(), controls(), list["Certified"]()
-    for one in spread(certified, asked, jobs):
-        found.append(one)
-        if sys.stderr.isatty():
-            print(f"{len(found)}/{len(asked)} {one.answer:14} {one.row} × {one.column}"[:120], file=sys.stderr)
+    with progress("certified") as step:
+        for one in spread(certified, asked, jobs):
+            found.append(one)
+            step(len(found), len(asked), f"{one.answer}: {one.row} × {one.column}"[:100])
     checker = external()
     told = record(found, there_are, refused, checker and checker[0], time.perf_counter() - began)
     if json:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
-from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, refuse, writable
+from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from proofs.records import commit, versions, write_json
 
@@ -60,23 +59,26 @@ def mutate(
         refuse(f"--only {only}: no {what} is named so; heisoku mutate --help")
     began = time.perf_counter()
 
-    def progress(done: int, of: int, name: str, verdict: Mapping[str, Any]) -> None:
-        if sys.stderr.isatty():
-            print(f"{done}/{of} {verdict['outcome']:14} {name[:90]}", file=sys.stderr)
-
     about = {"only": only, "sample": sample, "versions": versions(), "commit": commit()}
     if joints:
-        tried = between.record(names, jobs, progress)
+        with progress("tried") as step:
+            tried = between.record(names, jobs, telling(step))
         if json:
             write_json(json, {**tried, **about})
         between.print_record(console(), tried)
         raise typer.Exit(between.exit_code(tried))
-    verdicts = try_all(names, jobs, Trials(), progress)
+    with progress("tried") as step:
+        verdicts = try_all(names, jobs, Trials(), telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, **about})
     print_record(console(), found)
     raise typer.Exit(exit_code(found))
+
+
+def telling(step: Callable[[int, int, str], None]) -> Callable[[int, int, str, Mapping[str, Any]], None]:
+    """Give what tells progress of each trial with its outcome."""
+    return lambda done, of, name, verdict: step(done, of, f"{verdict['outcome']}: {name}"[:100])
 
 
 def exit_code(found: Mapping[str, Any]) -> int:
