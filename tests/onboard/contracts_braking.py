@@ -48,7 +48,7 @@ def a_farther_end_is_taken(end_mm: int, front_mm: int, speed_mm_s: int) -> None:
 
 
 def a_nearer_end_is_taken_or_brakes(end_mm: int) -> None:
-    """At a standstill: 17 cycles' way at what 16 may gain, 3.396 m, and the brake's from 1.958 m/s, 2.854 m (T9, T12)."""
+    """From rest: 17 cycles' way at what 16 may gain, 3.396 m, and the brake's from 1.958 m/s, 2.854 m (T9, T12)."""
     assert end_mm < 1_000_000
     after = take_end(BOUNDS, OFF, 0, 0, end_mm)
     assert after == (Brake(False, end_mm) if end_mm >= 6_250 else Brake(True, 1_000_000, withheld=True))
