@@ -14,6 +14,7 @@ class Refusal(Enum):
     TRAIN_NOT_ACCOUNTED_FOR = "the train has not told, in this life, where it stands"
     START_NOT_SECURED = "the run that the train stands under is not set"
     START_NOT_HELD = "the start block is not held for this train"
+    START_IS_RUN_THROUGH = "an earlier run of the train leads out of the start block the same way, and still holds it"
     BLOCK_HELD_FOR_ANOTHER = "a block is held for another train"
     BLOCK_LOST = "a block of the route has not been recovered since the restart"
     FOULING_BLOCK_HELD = "a block that fouls one of these is held for another train"

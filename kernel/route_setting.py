@@ -9,6 +9,7 @@ from kernel.claims import held_refusal
 from kernel.layout import Layout
 from kernel.names import Point, Position, Run, Stage, TagList, TerminalLife
 from kernel.refusal import Refusal
+from kernel.tag_list import NO_TAGS
 
 
 def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refusal | None:
@@ -28,7 +29,25 @@ def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refu
         return Refusal.START_WANTED_BACK
     if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
         return Refusal.START_NOT_HELD
-    return conflict(layout, centre, run)
+    against = conflict(layout, centre, run)
+    if against is None and is_run_through(layout, centre, run):
+        return Refusal.START_IS_RUN_THROUGH
+    return against
+
+
+def is_run_through(layout: Layout, centre: Centre, run: Run) -> bool:
+    """Tell whether a run that holds the start block of ``run`` leads out of it over the same two tags (T5, T9).
+
+    On a ring that is this lap's run, and ``run`` the next one's.  The tags at the end of the start block are read
+    once a lap: with both runs set nobody could say which of them begins there.
+    """
+    first = layout.first_tag.get(run.route)
+    if first is None:
+        return True
+    return any(
+        layout.tag_after.get(other.route, NO_TAGS).get(first) == layout.tag_after.get(run.route, NO_TAGS).get(first)
+        for other in centre.claimed.get(layout.start[run.route], NO_RUNS)
+    )
 
 
 def is_wanted_back(layout: Layout, centre: Centre, run: Run) -> bool:

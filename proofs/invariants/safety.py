@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.authority import may_proceed
 from kernel.names import Cause, Stage
+from kernel.tag_list import NO_TAGS
 from models.world.state import Site, System
 from models.world.truth import (
     goes_by_the_centres_list,
@@ -51,6 +52,20 @@ def no_conflicting_routes(site: Site, system: System) -> bool:
         for run in system.centre.claimed[block]
         for beside in site.layout.fouls.get(block, frozenset())
         for other in system.centre.claimed.get(beside, frozenset())
+    )
+
+
+def no_run_is_set_a_lap_ahead(site: Site, system: System) -> bool:
+    """Where a run starts no earlier one that still holds that block leads out over the same two tags (T5, T9)."""
+    return all(
+        run.route in site.layout.first_tag
+        and site.layout.tag_after.get(other.route, NO_TAGS).get(site.layout.first_tag[run.route])
+        != site.layout.tag_after.get(run.route, NO_TAGS).get(site.layout.first_tag[run.route])
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        if run.route in site.layout.routes and site.layout.start[run.route] == block
+        for other in system.centre.claimed[block]
+        if other.serial < run.serial
     )
 
 

@@ -141,17 +141,28 @@ def no_permit_for_a_run_that_is_wanted_back(steps: Steps) -> Scenario:
 def a_run_that_has_begun_is_kept_whatever_the_odometer_says(steps: Steps) -> Scenario:
     """The tags at the end of the start block are a second check: a begun run is not given back (T9).
 
-    The train comes in under another run of the same route, so that the brake says nothing of this one.
+    The head has passed both and rolled back, so that the brake says that it keeps out of what follows.
     """
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
-    again = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, run)
     setting.recall(scenario, run)
     scenario.does("recall", run=run)
-    running.roll(scenario, again)
-    running.head_passes(scenario, again, WEST, THROAT)
+    running.head_passes(scenario, run, WEST, THROAT)
+    running.leaves(scenario, running.in_order(scenario, run)[0], THROAT)
+    running.rest(scenario, run)
     scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
-    scenario.refuses("start_rolling", run=run)
+    return scenario
+
+
+def a_run_is_given_back_though_another_way_out_is_set(steps: Steps) -> Scenario:
+    """Only what starts in what a run covers leads on from it: the way out at the other end does not (T9)."""
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    run = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+    setting.recall(scenario, run)
+    scenario.does("recall", run=run)
+    setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
+    setting.give_back(scenario, run)
     return scenario
 
 

@@ -11,7 +11,7 @@ from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, TagList, Te
 from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
-from kernel.route_setting import conflict
+from kernel.route_setting import conflict, is_run_through
 from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists, TagPlan
 from kernel.tail_evidence import has_been_in
@@ -34,7 +34,8 @@ def request_by_runs_known(layout: Layout, centre: Centre, run: Run, base: Run) -
         return Refusal.START_NOT_SECURED
     if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
         return Refusal.START_NOT_HELD
-    return conflict(layout, centre, run)
+    against = conflict(layout, centre, run)
+    return Refusal.START_IS_RUN_THROUGH if against is None and is_run_through(layout, centre, run) else against
 
 
 def terminal_keeps_its_life(terminal: Terminal, life: TerminalLife) -> Terminal:

@@ -31,6 +31,11 @@ OVER_IT = (
     "lists.tag_after.get(order.tag_list, NO_TAGS).get(over.left.tag) == over.entered.tag"
 )
 """The guard by which a head has gone on only over the boundary that the tail gets over, and in that direction."""
+LAP_AHEAD = (
+    "kernel.route_setting.request_refusal: guard if against is None and is_run_through(layout, centre, run): "
+    "Refusal.START_IS_RUN_THROUGH"
+)
+"""The guard by which no run is set over tags that an earlier one leads over, whose block it still holds."""
 
 TURNED_ASTRIDE = Fault(
     "the tail's last read is good after two changes of ends",
@@ -46,9 +51,10 @@ LAP_BEFORE = Fault(
     "a pair of reads may be of two passages",
     "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
     "head_reads",
-    dropped=(STILL_GOOD, OVER_IT),
+    dropped=(STILL_GOOD, OVER_IT, LAP_AHEAD),
 )
-"""Two guards: such a pair is also of a way back over the boundary, and no head went on that way."""
+"""Three guards: such a pair is also of a way back over the boundary, and no head went on that way; and no second lap is
+set before the tail has left the first."""
 BLOCK_AHEAD = Fault(
     "a block ahead counts as left",
     "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",

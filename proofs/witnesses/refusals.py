@@ -41,7 +41,7 @@ FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 
 
 def a_request_is_refused_with_its_reason(steps: Steps) -> Scenario:
-    """An unknown route, an old number, a start that is not secured or not held, a point wanted otherwise (T9)."""
+    """An unknown route, an old number, a start not secured, not held or run through, a point wanted otherwise (T9)."""
     scenario, runs = recovered(steps, {**FACING_EAST, B1: frozenset({EAST})})
     base, run = runs[T1], next_run(scenario, T1, WEST_TO_ONE)
     unknown = run._replace(route=Route("to nowhere"))
@@ -61,6 +61,8 @@ def a_request_is_refused_with_its_reason(steps: Steps) -> Scenario:
     scenario.refuses("request", Refusal.START_NOT_SECURED, run=ahead, base=held)
     otherwise = next_run(scenario, T1, WEST_TO_TWO)
     scenario.refuses("request", Refusal.POINT_LOCKED_OTHERWISE, run=otherwise, base=base)
+    again = next_run(scenario, T1, WEST_TO_ONE)
+    scenario.refuses("request", Refusal.START_IS_RUN_THROUGH, run=again, base=base)
     return scenario
 
 

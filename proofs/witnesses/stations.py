@@ -133,6 +133,14 @@ direction = "forward"
 to = "Y2"
 """
 
+PASSED_IN_PARTS = PASSING_PLACE.replace(
+    """points = { P1 = "normal", P2 = "normal" }
+release_at = ["D"]""",
+    """points = { P1 = "normal", P2 = "normal" }
+release_at = ["B1", "C1", "D"]""",
+)
+"""The same, its way through released block by block."""
+
 TERMINUS = """
 # line end --[line]--A--[throat: K]--S1--[platform 1]--]
 #                          +--S2--[platform 2]--]
@@ -401,6 +409,7 @@ MIDDLE_TO_NORTH = Route("middle to north")
 INTO_THE_LOOP, OUT_OF_THE_LOOP, CROSS = Route("in"), Route("out"), Route("cross")
 LEADS: Mapping[str, Route] = {
     PASSING_PLACE: WEST_TO_ONE,
+    PASSED_IN_PARTS: WEST_TO_ONE,
     TERMINUS: ARRIVE_1,
     RING: ROUND,
     EIGHT: ROUND,
