@@ -45,10 +45,10 @@ FAULTS: list[tuple[type[Calls], str, int, str | None]] = [
     (EvidenceAcrossTurns, "line", 11501, "to and fro"),
     (BrakeNotHeld, "terminus", 1, None),
     (RunSetAhead, "ring", 1008, None),
-    (NothingCompared, "crossover", 455, None),
+    (NothingCompared, "crossover", 1000, None),
     (LifeConfirmed, "line", 6, None),
     (AnswersUnbraked, "line", 9, None),
-    (UnlockedUndetected, "station", 322, None),
+    (UnlockedUndetected, "station", 1168, None),
 ]
 """A fault, a layout that shows it, a seed near to where it does, and how the line is run there, if not in any way."""
 HERE = Path(__file__).parent
