@@ -10,6 +10,7 @@
 # make ride     trains with faulty sensors through the machines on board; RIDES=112000 for the record
 # make beyond   the same with one fault after the other beyond its declared range
 # make malformed  ten thousand malformed layout files; FILES=1000 for fewer
+# make interruptions   500 commands interrupted, ended, their pipes closed, their disks full; RUNS=100 for fewer
 # make papers   the papers' figures beside ours, with pictures
 # make test     ruff, mypy, pytest; make slow: tests that take longer, of which these have samples
 # make bench    print the measured figures
@@ -38,13 +39,14 @@ MUTANTS ?= 100
 CERTIFICATES ?= 150
 BEYOND ?= 128
 FILES  ?= 10000
+RUNS   ?= 500
 BATCHES ?= 8
 # So many simulated hours in all, on these layouts.
 HOURS ?= 240
 LINES ?= $(foreach seed,1 2 3,out/networks/$(seed).toml)
 
 .DELETE_ON_ERROR:
-.PHONY: help assure record prove certify certificates check ride days fuzz lines beyond papers mutate mutants joints cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help interruptions assure record prove certify certificates check ride days fuzz lines beyond papers mutate mutants joints cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -125,6 +127,9 @@ mutate: setup
 malformed: setup
 	$(BIN)/python -m tests.layouts.malformed --files $(FILES) --keep out/malformed
 
+interruptions: setup
+	$(BIN)/python -m tests.interruptions --runs $(RUNS)
+
 mutants: setup
 	@mkdir -p out
 	$(BIN)/heisoku mutate --json out/mutate.json
@@ -179,8 +184,9 @@ bench: setup
 # A second opinion on the lifter: contracts checked on the real bytecode.
 crosshair: $(VENV)/.crosshair $(VENV)/.project
 	@mkdir -p out
+	@$(BIN)/python -m evidence.records.stamping make crosshair > out/crosshair.txt
 	$(BIN)/crosshair check --analysis_kind=asserts --report_all --per_condition_timeout=60 $(CONTRACTS) \
-		> out/crosshair.txt || { cat out/crosshair.txt; exit 1; }
+		>> out/crosshair.txt || { cat out/crosshair.txt; exit 1; }
 	@cat out/crosshair.txt
 
 # ---- set-up, once: a stamp for each step

@@ -46,10 +46,10 @@ from models.commands import (
 from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.layouts.export.command import export
 from models.layouts.measures import CLEARANCE_MM
-from models.streams import outlet
+from models.streams import outlet, write_whole
 from proofs.certificates.command import certify
 from proofs.mutants.command import mutate
-from proofs.records import commit, versions, write_json, write_whole
+from proofs.records import about, write_json
 
 if TYPE_CHECKING:
     from models.layouts import CheckResult, Imported
@@ -205,7 +205,7 @@ def check(
         out, f"{len(found) - unread} layouts, {checked} instances of axioms checked{aside}: {WORDS[worst]}{resting}"
     )
     if json:
-        record = {"verdict": WORDS[worst], "layouts": entries, "versions": versions(), "commit": commit()}
+        record = {"verdict": WORDS[worst], "layouts": entries, **about()}
         write_json(json, record)
     raise typer.Exit(worst)
 
@@ -284,7 +284,7 @@ def reproduce(
             write_whole(output / f"{picture.name}.png", png(picture))
         print_line(out, f"{output}: {len(found.pictures)} pictures and the tables")
     if json:
-        write_json(json, {**found.record(), "runs": runs, "versions": versions(), "commit": commit()})
+        write_json(json, {**found.record(), "runs": runs, **about()})
     counts = ", ".join(f"{count:,} {what}" for what, count in found.counts.items())
     print_line(out, f"{counts}: {found.verdict}")
     raise typer.Exit(HOLDS if found.verdict == WORDS[HOLDS] else DOES_NOT_HOLD)
@@ -335,7 +335,7 @@ def ride(
     else:
         print_outcome(out, found[""])
     if json:
-        write_json(json, {**record(seed, found), "versions": versions(), "commit": commit()})
+        write_json(json, {**record(seed, found), **about()})
     holds = all(one.holds(bool(fault)) for fault, one in found.items())
     ridden = sum(one.rides for one in found.values())
     print_line(out, f"{ridden:,} rides with seed {seed}: {WORDS[HOLDS if holds else DOES_NOT_HOLD]}")
@@ -391,7 +391,7 @@ def days(
     if asked:
         print_beyond(out, whose, came)
     if json:
-        write_json(json, {**record(seed, found, came), "versions": versions(), "commit": commit()})
+        write_json(json, {**record(seed, found, came), **about()})
     holds = found.holds and all(one.unexplained == 0 for one in came.values())
     verdict = HOLDS if holds else DOES_NOT_HOLD
     print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {WORDS[verdict]}")

@@ -33,6 +33,11 @@ class Outlet(FileIO):
             return memoryview(content).nbytes
 
 
+def is_told_at_once(stream: TextIOWrapper) -> bool:
+    """Whether a line is written when it ends, and not with many others: of complaints, and where Python is told so."""
+    return stream is sys.stderr or stream.line_buffering or stream.write_through
+
+
 def outlet(stream: TextIO) -> Outlet | None:
     """The same stream through an outlet, in place of a stream of Python's; none where it is no stream of the system."""
     if not isinstance(stream, TextIOWrapper):
@@ -40,10 +45,34 @@ def outlet(stream: TextIO) -> Outlet | None:
     stream.flush()
     raw = Outlet(stream.fileno(), "wb", closefd=False)
     text = TextIOWrapper(
-        BufferedWriter(raw), encoding=stream.encoding, errors="replace", line_buffering=stream.line_buffering
+        BufferedWriter(raw), encoding=stream.encoding, errors="replace", line_buffering=is_told_at_once(stream)
     )
     if stream is sys.stdout:
         sys.stdout = text
     else:
         sys.stderr = text
     return raw
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file beside its place and move it there, making its folder where that is missing.
+
+    What is no file, a pipe or a device, is written into, not replaced; a link stays, and what it names is written.
+
+    Raises:
+        OSError: it cannot be written; what stood there before stands there still.
+    """
+    if path.exists() and not path.is_file():
+        with path.open("wb") as open_end:
+            open_end.write(content)
+        return
+    path = path.resolve()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        beside.write_bytes(content)
+        beside.replace(path)
+    except OSError as error:
+        raise OSError(error.errno, f"cannot be written ({error.strerror})", str(path)) from error
+    finally:
+        beside.unlink(missing_ok=True)

@@ -26,7 +26,7 @@ from models.processes import spread
 from proofs import scripts
 from proofs.lift import expressions, statements
 from proofs.lift.frames import Frame
-from proofs.records import commit, versions, write_json
+from proofs.records import about, write_json
 from proofs.run import bench
 from proofs.search import NARROW, core
 from proofs.theories import ROWS, is_transition, theory_of
@@ -222,8 +222,7 @@ def main() -> int:
             "unnamed": sum(row.unnamed for row in rows),
             "minimal": False,
             "seconds": round(time.perf_counter() - began, 1),
-            "versions": versions(),
-            "commit": commit(),
+            **about(),
         }
         write_json(given.json, record)
     parts = sum(each["parts"] for each in cores)

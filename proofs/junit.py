@@ -10,7 +10,8 @@ from pathlib import Path
 
 from lxml import etree
 
-from proofs.records import Obligation, Report, theory_of, write_whole
+from models.streams import write_whole
+from proofs.records import Obligation, Report, theory_of
 
 
 def junit_xml(report: Report) -> bytes:

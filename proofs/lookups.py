@@ -58,5 +58,4 @@ def parts(bench: Workbench, name: str, hypotheses: list[str] | None) -> list[Par
     if name in bench.theory.steps or name in bench.theory.invariants or name in bench.theory.promises:
         available |= bench.invariants
     chosen = available if hypotheses is None else {each: available[each] for each in hypotheses}
-    claims = lookups(bench, name)
-    return [Part({**bench.always(), **bench.split(chosen)}, [], claim) for claim in claims]
+    return bench.asked(chosen, [([], claim) for claim in lookups(bench, name)])

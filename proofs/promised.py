@@ -17,8 +17,7 @@ def parts(bench: Workbench, transition: str, name: str, hypotheses: list[str] | 
     promise = bench.theory.promises[name]
     available = {**bench.assumed, **bench.invariants}
     chosen = available if hypotheses is None else {each: available[each] for each in hypotheses}
-    said = {**bench.always(), **bench.split(chosen)}
-    return [Part(said, given, goal) for given, goal in _asked(bench, promise, transition)]
+    return bench.asked(chosen, _asked(bench, promise, transition))
 
 
 def _asked(bench: Workbench, promise: Promise, transition: str) -> Iterator[tuple[list[Any], Any]]:

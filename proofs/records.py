@@ -5,24 +5,47 @@ A record is what the evidence report and the matrix read; neither sees a solver.
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import json
-import os
 import platform
 import subprocess
 import sys
+import sysconfig
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
+from functools import cache
 from importlib import metadata
 from pathlib import Path
 from typing import Literal, NotRequired, TypedDict
 
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from models.shipped import is_installed
-from models.streams import STANDARD_OUTPUT
+from models.streams import STANDARD_OUTPUT, write_whole
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
 EXIT_CODE: Mapping[Verdict, int] = {"proved": HOLDS, "refuted": DOES_NOT_HOLD, "undecided": UNDECIDED}
+
+
+SOLVERS = ("z3-solver", "cvc5")
+"""The packages of the solvers."""
+
+
+class About(TypedDict):
+    """What every record says of how it was made.
+
+    ``commit``: null outside a git checkout; ``command``: as it was given; ``solvers``: a hash of all files of each
+    solver's package; ``platform``: as packages are built for it; ``made_at``: when, in UTC.
+    """
+
+    commit: str | None
+    command: str
+    versions: dict[str, str]
+    solvers: dict[str, str]
+    platform: str
+    made_at: str
 
 
 class Source(TypedDict):
@@ -37,13 +60,15 @@ class Obligation(TypedDict):
 
     ``transition`` is ``init`` for the initial state; a theory beside the interlocking has its name in
     front, ``odometry.init``.  ``theory`` is written to the file.  ``hypotheses`` names the invariants that were
-    assumed of the state before.  ``rlimit`` is the budget, ``rlimit_spent`` what was used, both in
+    assumed of the state before, ``axioms`` what holds of the symbols in it, whatever they stand for
+    (:meth:`proofs.workbench.Workbench.always`).  ``rlimit`` is the budget, ``rlimit_spent`` what was used, both in
     the solver's own units.  ``smt2_sha256`` is the hash of the SMT-LIB text that was solved.
     """
 
     transition: str
     invariant: str
     hypotheses: list[str]
+    axioms: list[str]
     verdict: Verdict
     solver: str
     solver_version: str
@@ -71,8 +96,8 @@ class CanarySeen(TypedDict):
     noticed: bool
 
 
-class Record(TypedDict):
-    """One proof run, as it is written to ``out/prove.json``; ``commit`` is null outside a git checkout."""
+class Record(About):
+    """One proof run, as it is written to ``out/prove.json``."""
 
     verdict: Verdict
     obligations: list[Obligation]
@@ -80,8 +105,6 @@ class Record(TypedDict):
     wall_seconds: float
     canaries: list[CanarySeen]
     offences: list[str]
-    versions: dict[str, str]
-    commit: str | None
 
 
 @dataclass(frozen=True)
@@ -119,8 +142,7 @@ class Report:
             "wall_seconds": round(self.wall_seconds, 3),
             "canaries": [*self.canaries],
             "offences": [*self.offences],
-            "versions": versions(),
-            "commit": commit(),
+            **about(),
         }
 
 
@@ -150,6 +172,53 @@ def versions() -> dict[str, str]:
     return found
 
 
+@cache
+def solvers_hashed() -> dict[str, str]:
+    """A hash of each solver as it is installed: of all its files, by their names and content."""
+    found = {}
+    for name in SOLVERS:
+        whole = hashlib.sha256()
+        for file in sorted(_files_of(name), key=str):
+            path = Path(str(file.locate()))
+            content = path.read_bytes() if path.is_file() else b""
+            whole.update(f"{file}\0{len(content)}\0".encode() + content)
+        found[name] = whole.hexdigest()
+    return found
+
+
+def solvers_altered() -> list[str]:
+    """Name the files of the solvers that are not as their packages' own lists say, or are not there."""
+    altered = []
+    for name in SOLVERS:
+        for file in _files_of(name):
+            path = Path(str(file.locate()))
+            told = file.hash.value if file.hash else ""
+            digest = hashlib.sha256(path.read_bytes()).digest() if path.is_file() else b""
+            if base64.urlsafe_b64encode(digest).rstrip(b"=").decode() != told:
+                altered.append(str(file))
+    return sorted(altered)
+
+
+def _files_of(name: str) -> list[metadata.PackagePath]:
+    """The files of a package whose hash its list tells: all but what was made at its installation or since."""
+    try:
+        return [file for file in metadata.files(name) or () if file.hash is not None]
+    except metadata.PackageNotFoundError:
+        return []
+
+
+def about() -> About:
+    """What every record says of how it was made."""
+    return {
+        "commit": commit(),
+        "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        "versions": versions(),
+        "solvers": solvers_hashed(),
+        "platform": sysconfig.get_platform(),
+        "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
 def commit() -> str | None:
     """The commit that the source is at, with ``+`` behind it if files differ from it; None if unknown.
 
@@ -176,27 +245,3 @@ def write_json(path: Path, record: Mapping[str, object]) -> None:
         sys.stdout.flush()
     else:
         write_whole(path, content.encode())
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file beside its place and move it there, making its folder where that is missing.
-
-    What is no file, a pipe or a device, is written into, not replaced; a link stays, and what it names is written.
-
-    Raises:
-        OSError: it cannot be written; what stood there before stands there still.
-    """
-    if path.exists() and not path.is_file():
-        with path.open("wb") as open_end:
-            open_end.write(content)
-        return
-    path = path.resolve()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        beside.write_bytes(content)
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, f"cannot be written ({error.strerror})", str(path)) from error
-    finally:
-        beside.unlink(missing_ok=True)

@@ -13,8 +13,9 @@ from functools import cache
 from pathlib import Path
 
 from models.processes import spread
+from models.streams import write_whole
 from proofs import canaries, lints_apart, lookups, promised, scripts, smtlib, solvers
-from proofs.records import CanarySeen, Obligation, Report, Source, Verdict, write_whole
+from proofs.records import CanarySeen, Obligation, Report, Source, Verdict
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
 from proofs.workbench import Part, Workbench
@@ -86,6 +87,12 @@ def digest_of(asked: list[Part]) -> str:
     return hashlib.sha256(text_of(asked)).hexdigest()
 
 
+def axioms_of(row: str, column: str, asked: list[Part]) -> list[str]:
+    """Name what is assumed beside the hypotheses: what always holds of the symbols in an obligation."""
+    named = {name for part in asked for name in part.hypotheses}
+    return sorted(named - set(scripts.hypotheses(row, column)))
+
+
 def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], digest: str) -> Obligation:
     """Ask one solver for every part of one obligation; any answer but ``unsat`` leaves it unproved."""
     replies = [solvers.ask(solver, part, seed) for part in asked]
@@ -98,6 +105,7 @@ def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], dig
         "transition": row,
         "invariant": column,
         "hypotheses": scripts.hypotheses(row, column),
+        "axioms": axioms_of(row, column, asked),
         "verdict": verdict,
         "solver": solver,
         "solver_version": solvers.version(solver),

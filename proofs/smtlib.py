@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import z3
 
-from proofs.workbench import Part
+if TYPE_CHECKING:
+    from proofs.workbench import Part
 
-FRESH = re.compile(r"(?<![\w.!])([A-Za-z_][\w.]*)!(\d+)")
+FRESH = re.compile(r"(?<![\w.!])([A-Za-z_][\w.]*)((?:!\d+)+)")
 """A name that carries a running number: of a bound variable, or of a shared term."""
 
 
@@ -72,6 +73,11 @@ def text_of(formula: Any) -> Text:
     if key not in _TEXTS:
         _TEXTS[key] = Text(formula)
     return _TEXTS[key]
+
+
+def symbols_of(*formulas: Any) -> frozenset[tuple[str, str]]:
+    """Give the symbols that occur in formulas, each with its declaration."""
+    return frozenset(symbol for formula in formulas for symbol in text_of(formula).functions.items())
 
 
 def symbol(name: str) -> str:

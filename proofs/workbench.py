@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
 from proofs.promise import Predicate
+from proofs.smtlib import symbols_of
 from proofs.theory import START, Theory
 from proofs.transitions import event_types
 
@@ -56,7 +57,7 @@ class Workbench:
         self.before = self.scope.fresh(self.theory.system, "pre")
         self._ways: dict[str, tuple[list[Way], list[Any]]] = {}
         self._claims: dict[tuple[int, str], list[Any]] = {}
-        self._conjuncts: dict[str, Sequence[Any]] = {}
+        self._conjuncts: dict[int, tuple[Any, Sequence[Any]]] = {}
         self.seconds += time.perf_counter() - began
 
     def replacing(self, sources: Mapping[Callable[..., Any], Any]) -> Workbench:
@@ -72,7 +73,6 @@ class Workbench:
         began = time.perf_counter()
         formulas = {name: self.lifter.formula(axiom, *self.told) for name, axiom in self.theory.axioms.items()}
         formulas |= {name: self.lifter.formula(premise, self.site) for name, premise in self.theory.premises.items()}
-        formulas |= {named.name: named.formula for named in self.scope.axioms()}
         self.seconds += time.perf_counter() - began
         return formulas
 
@@ -141,28 +141,46 @@ class Workbench:
         return self._claims[key]
 
     def always(self) -> Mapping[str, Sequence[Any]]:
-        """What is always assumed: identifiers are ordered, and a missing key has nothing below it."""
+        """What always holds of the symbols used so far: identifiers are ordered, a missing key has nothing below it."""
         return {named.name: [named.formula] for named in self.scope.axioms()}
 
     def split(self, formulas: Mapping[str, Any]) -> dict[str, Sequence[Any]]:
         """Split hypotheses into conjuncts, each of them once."""
         began = time.perf_counter()
-        for name, formula in formulas.items():
-            if name not in self._conjuncts:
-                self._conjuncts[name] = conjuncts(formula)
+        for formula in formulas.values():
+            if formula.get_id() not in self._conjuncts:
+                self._conjuncts[formula.get_id()] = formula, conjuncts(formula)
         self.seconds += time.perf_counter() - began
-        return {name: self._conjuncts[name] for name in formulas}
+        return {name: self._conjuncts[formula.get_id()][1] for name, formula in formulas.items()}
+
+    def asked(self, chosen: Mapping[str, Any], questions: Iterable[tuple[list[Any], Any]]) -> list[Part]:
+        """Lay out questions, each of what is given and what is to follow, with the same hypotheses.
+
+        Of what always holds each has what speaks of its own symbols alone: what else was lifted before, and in what
+        order, leaves no trace in it.  The rest could be left out: it can be made true whatever its symbols mean there.
+        """
+        named, questions = self.split(chosen), list(questions)
+        always = [(name, formulas, symbols_of(*formulas)) for name, formulas in self.always().items()]
+        common = symbols_of(*(formula for formulas in named.values() for formula in formulas))
+        parts = []
+        for given, goal in questions:
+            here = common | symbols_of(*given, goal)
+            true = {name: formulas for name, formulas, symbols in always if symbols <= here}
+            parts.append(Part({**true, **named}, given, goal))
+        return parts
 
     def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
         """Lay out one obligation; ``None`` means every hypothesis there is."""
         available = dict(self.assumed)
         available |= self.initial if transition == START else self.invariants
         chosen = available if hypotheses is None else {name: available[name] for name in hypotheses}
-        chosen = {**self.always(), **self.split(chosen)}
         if transition == START:
-            return [Part(chosen, [], goal) for goal in self.claim(self.before, invariant)]
-        return [
-            Part(chosen, [way.condition, *way.definitions], goal)
-            for way in self.ways(transition)
-            for goal in self.claim(way.after, invariant)
-        ]
+            return self.asked(chosen, [([], goal) for goal in self.claim(self.before, invariant)])
+        return self.asked(
+            chosen,
+            [
+                ([way.condition, *way.definitions], goal)
+                for way in self.ways(transition)
+                for goal in self.claim(way.after, invariant)
+            ],
+        )

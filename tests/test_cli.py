@@ -24,6 +24,7 @@ def answer(verdict: Verdict) -> Obligation:
         "transition": "reserve",
         "invariant": "no_conflicting_routes",
         "hypotheses": [],
+        "axioms": [],
         "verdict": verdict,
         "solver": "z3",
         "solver_version": "5.4.0",

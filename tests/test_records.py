@@ -28,6 +28,7 @@ def obligation(
         "transition": transition,
         "invariant": invariant,
         "hypotheses": ["no_conflicting_routes", "claims_follow_runs"],
+        "axioms": [],
         "verdict": verdict,
         "solver": "z3",
         "solver_version": "5.4.0",

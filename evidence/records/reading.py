@@ -12,6 +12,10 @@ from typing import Any
 
 from lxml import etree
 
+ABOUT = "heisoku.about"
+"""The name of the property of a JUnit file that says how it was made."""
+HEADING = f"# {ABOUT} "
+"""What stands before the same in the first line of CrossHair's."""
 Cell = tuple[str, str]
 """An obligation by its row and column."""
 
@@ -28,13 +32,14 @@ class Answer:
 class Kept:
     """One record.
 
-    ``data``: what stands in it, of a JSON record; ``answers``: of one that lists tests or contracts.
-    ``problem``: why it cannot be used, or nothing.  ``commit``: of the source that it was made from, where it says so.
+    ``data``: what stands in it, of a JSON record; ``answers``: of one that lists tests or contracts, and
+    ``said`` how it was made.  ``problem``: why it cannot be used, or nothing.
     """
 
     name: str
     data: Mapping[str, Any] = field(default_factory=dict)
     answers: tuple[Answer, ...] = ()
+    said: Mapping[str, Any] = field(default_factory=dict)
     problem: str = ""
     sha256: str = ""
 
@@ -50,21 +55,23 @@ class Kept:
     @property
     def commit(self) -> str | None:
         """The commit that it says it is of."""
-        return commit_of(self.data)
+        told = self.about.get("commit")
+        return told if isinstance(told, str) else None
+
+    @property
+    def about(self) -> Mapping[str, Any]:
+        """What it says of how it was made; a campaign says it of each of its starts, of which the last counts."""
+        if self.said:
+            return self.said
+        starts = self.data.get("starts")
+        last = starts[-1] if isinstance(starts, list) and starts else self.data
+        return last if isinstance(last, Mapping) else {}
 
     @property
     def versions(self) -> Mapping[str, str]:
         """The versions that it says it was made with."""
-        told = self.data.get("versions")
+        told = self.about.get("versions")
         return {str(name): str(value) for name, value in told.items()} if isinstance(told, Mapping) else {}
-
-
-def commit_of(data: Mapping[str, Any]) -> str | None:
-    """The commit that a record says it is of; a campaign says it of each of its starts, of which the last counts."""
-    starts = data.get("starts")
-    last = starts[-1] if isinstance(starts, list) and starts else data
-    told = last.get("commit") if isinstance(last, Mapping) else None
-    return told if isinstance(told, str) else None
 
 
 Records = Mapping[str, Kept]
@@ -90,11 +97,14 @@ def _kept(path: Path) -> Kept:
             if not isinstance(data, dict):
                 return Kept(path.name, problem="it is no record: no object at its top", sha256=digest)
             return Kept(path.name, data=data, sha256=digest)
-        answers = _tests(content) if path.suffix == ".xml" else _contracts(content.decode())
+        if path.suffix == ".xml":
+            answers, said = _tests(content), _properties(content)
+        else:
+            answers, said = _contracts(content.decode()), heading(content.decode())
     except (ValueError, etree.XMLSyntaxError) as error:
         line = str(error).splitlines()[0] if str(error) else type(error).__name__
         return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest)
-    return Kept(path.name, answers=tuple(answers), sha256=digest)
+    return Kept(path.name, answers=tuple(answers), said=said, sha256=digest)
 
 
 def _tests(content: bytes) -> list[Answer]:
@@ -103,6 +113,25 @@ def _tests(content: bytes) -> list[Answer]:
         Answer(f"{case.get('classname', '')}::{case.get('name', '')}", _came_to(case))
         for case in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("testcase")
     ]
+
+
+def _properties(content: bytes) -> Mapping[str, Any]:
+    """What a JUnit file says of how it was made, in a property of its suite."""
+    for each in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("property"):
+        if each.get("name") == ABOUT:
+            return _object(each.get("value", ""))
+    return {}
+
+
+def heading(text: str) -> Mapping[str, Any]:
+    """The same of CrossHair's lines, in the first of them."""
+    first = text.split("\n", 1)[0]
+    return _object(first.removeprefix(HEADING)) if first.startswith(HEADING) else {}
+
+
+def _object(text: str) -> Mapping[str, Any]:
+    found = json.loads(text)
+    return found if isinstance(found, dict) else {}
 
 
 def _came_to(case: etree._Element) -> str:

@@ -11,7 +11,7 @@ import typer
 
 from models.commands import console, refuse, tell, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
-from proofs.records import write_whole
+from models.streams import write_whole
 
 if TYPE_CHECKING:
     from evidence.records.showing import Came

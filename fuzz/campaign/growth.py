@@ -68,7 +68,7 @@ def draw(path: Path, found: Mapping[str, Growth]) -> None:
 
     from matplotlib.figure import Figure
 
-    from proofs.records import write_whole
+    from models.streams import write_whole
 
     figure = Figure(figsize=INCHES, dpi=DOTS_AN_INCH, layout="constrained")
     for place, what in enumerate(("tuples", "pairs"), 1):

@@ -38,7 +38,7 @@ from models.commands import console
 from models.days.systems import NAMES
 from models.exit_codes import UNDECIDED
 from models.layouts import BadInput
-from proofs.records import commit, versions, write_json
+from proofs.records import about, write_json
 
 SECONDS_AN_HOUR = 3600
 FIRST_SEED = 1
@@ -120,7 +120,7 @@ def go_on(options: Options, targets: Sequence[Target] | None = None) -> int:
         store.agree(identity)
         plan = plan_of(options, store)
         store.keep_layouts(options.layouts)
-        store.note_start(datetime.now(UTC).isoformat(), plan.seed, {"commit": commit(), "versions": versions()})
+        store.note_start(datetime.now(UTC).isoformat(), plan.seed, about())
         if not store.canaries(plan.seed):
             store.note_canaries(plan.seed, unsought(run_on, plan.seed))
         store.write_traces()

@@ -19,7 +19,7 @@ from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.rows import Failure, Ids, Row, file_name, row_of, unpacked
 from fuzz.campaign.sketch import estimate, merged
 from fuzz.campaign.sought import Sought
-from proofs.records import write_whole
+from models.streams import write_whole
 
 BATCH = "seed = ? AND target = ? AND number = ?"
 

@@ -30,8 +30,9 @@ from fuzz.failures.trace import (
 from fuzz.failures.words import claim, comes_to, otherwise, told, verdict
 from models.exit_codes import DOES_NOT_HOLD, HOLDS
 from models.layouts import BadInput
+from models.streams import write_whole
 from proofs.catalogue import INVARIANTS
-from proofs.records import commit, versions, write_json, write_whole
+from proofs.records import about, write_json
 
 Progress = Callable[[int, int, str], object]
 
@@ -52,7 +53,7 @@ class Replayed:
             write_whole(html, page_of(self.found, self.path.name).encode())
             _line(out, f"{html}: the page; its keys are ← → Home End, and f for the failure")
         if json is not None:
-            write_json(json, {**record(self.path, self.found), "versions": versions(), "commit": commit()})
+            write_json(json, {**record(self.path, self.found), **about()})
         _line(out, verdict(self.found))
         return DOES_NOT_HOLD if self.found.reproduced else HOLDS
 
@@ -69,7 +70,7 @@ class Reridden:
         assert html is None
         print_ride(out, self.found)
         if json is not None:
-            write_json(json, {**ride_record(self.path, self.found), "versions": versions(), "commit": commit()})
+            write_json(json, {**ride_record(self.path, self.found), **about()})
         _line(out, self.found.verdict)
         return DOES_NOT_HOLD if self.found.violated else HOLDS
 
@@ -86,7 +87,7 @@ class Relinked:
         assert html is None
         print_link(out, self.found)
         if json is not None:
-            write_json(json, {**link_record(self.path, self.found), "versions": versions(), "commit": commit()})
+            write_json(json, {**link_record(self.path, self.found), **about()})
         _line(out, self.found.verdict)
         return DOES_NOT_HOLD if self.found.violated else HOLDS
 
@@ -104,7 +105,7 @@ class Rerun:
         trace = self.found.trace
         if json is not None:
             told = {"trace": str(self.path), "target": trace.target, "violated": list(self.found.violated)}
-            write_json(json, {**told, "steps": self.found.steps, "versions": versions(), "commit": commit()})
+            write_json(json, {**told, "steps": self.found.steps, **about()})
         _line(out, self.found.verdict)
         if self.found.violated and self.found.violated != trace.violated:
             _line(out, f"the trace says: {', '.join(trace.violated)} violated")
@@ -127,7 +128,7 @@ class Resimulated:
             write_whole(html, page_of(self.found.outcome).encode())
             _line(out, f"{html}: the page")
         if json is not None:
-            write_json(json, {**line_record(self.path, self.found), "versions": versions(), "commit": commit()})
+            write_json(json, {**line_record(self.path, self.found), **about()})
         _line(out, self.found.verdict)
         return DOES_NOT_HOLD if self.found.came.violated else HOLDS
 

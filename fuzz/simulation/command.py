@@ -12,7 +12,8 @@ from rich.table import Table
 
 from models.commands import Json, Seed, bad_input_refused, console, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
-from proofs.records import commit, versions, write_json, write_whole
+from models.streams import write_whole
+from proofs.records import about, write_json
 
 if TYPE_CHECKING:
     from models.simulation.beginning import Plan
@@ -115,7 +116,7 @@ def _told(plan: Plan, html: Path | None, json: Path | None) -> int:
     if html:
         write_whole(html, page_of(found).encode())
     if json:
-        write_json(json, {**found.record(), "versions": versions(), "commit": commit()})
+        write_json(json, {**found.record(), **about()})
     _print(console(), found, seconds)
     return HOLDS if found.holds else DOES_NOT_HOLD
 
@@ -133,7 +134,7 @@ def _told_each(rows: list[Row], json: Path | None) -> int:
     verdict = WORDS[HOLDS if holds else DOES_NOT_HOLD]
     if json:
         record = {"verdict": verdict, "faults": [vars(row) for row in rows]}
-        write_json(json, {**record, "versions": versions(), "commit": commit()})
+        write_json(json, {**record, **about()})
     for row in rows:
         if not row.holds:
             print_line(out, f"{row.fault}: {row.broken or 'a train does not run again, and no staff is about it'}")

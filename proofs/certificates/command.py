@@ -12,7 +12,7 @@ import typer
 
 from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
-from proofs.records import commit, versions, write_json
+from proofs.records import about, write_json
 
 if TYPE_CHECKING:
     from proofs.certificates.checking import Certified
@@ -60,7 +60,7 @@ def certify(
     checker = external()
     told = record(found, there_are, refused, checker and checker[0], time.perf_counter() - began)
     if json:
-        write_json(json, {**told, "only": only, "sample": sample, "versions": versions(), "commit": commit()})
+        write_json(json, {**told, "only": only, "sample": sample, **about()})
     out = console()
     for line in lines(told):
         print_line(out, line)

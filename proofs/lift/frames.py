@@ -210,7 +210,7 @@ class Frame:
         if type(value) is tuple:
             return Tuple(tuple(self.literal(item, node) for item in value))
         if type(value) is frozenset:
-            items = tuple(self._constant_key(item, node) for item in value)
+            items = tuple(self._constant_key(item, node) for item in sorted(value, key=repr))
             return listed_set(self.scope.kind_of(items[0]), items) if items else EMPTY_SET
         if is_plain_map(value):
             entries = tuple((self._constant_key(k, node), self.literal(v, node)) for k, v in value.items())

@@ -62,7 +62,7 @@ class Scope(ABC):
         self._scalars: dict[int, Scalar] = {}
         self.sort(BOOL)
         self.sort(INT)
-        self._normal_forms: dict[str, Named] = {}
+        self._normal_forms: dict[tuple[str, Keys], Named] = {}
 
     # Sorts -----------------------------------------------------------------------------
 
@@ -179,7 +179,7 @@ class Scope(ABC):
         kind = kind_of_type(type_)
         for part in components(kind, prefix):
             if part.within is not None:
-                self._normal_forms.setdefault(part.path, self._normal_form(part, *part.within))
+                self._normal_forms.setdefault((part.path, part.keys), self._normal_form(part, *part.within))
         return grow(kind, prefix, (), self.declare)()
 
     constant = fresh

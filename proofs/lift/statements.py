@@ -145,7 +145,7 @@ def lift_if(frame: Frame, node: ast.If, env: Env) -> Outcome:
         return Branch(test, yes, no)
     joined: Env = {}
     with frame.at(node.test):
-        for name in yes.env.keys() & no.env.keys():
+        for name in (name for name in yes.env if name in no.env):
             one, other = yes.env[name], no.env[name]
             untouched = name in env and one is when_true[name] and other is when_false[name]
             joined[name] = env[name] if untouched else _joined(test, one, other)

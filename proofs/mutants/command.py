@@ -12,7 +12,7 @@ from rich.console import Console
 
 from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
-from proofs.records import commit, versions, write_json
+from proofs.records import about, write_json
 
 KILLED, CLASSED, HOLE = "killed", "classed", "hole"
 """What a mutant may become.  There is no fourth: what is unknown kills nothing."""
@@ -59,19 +59,19 @@ def mutate(
         refuse(f"--only {only}: no {what} is named so; heisoku mutate --help")
     began = time.perf_counter()
 
-    about = {"only": only, "sample": sample, "versions": versions(), "commit": commit()}
+    given = {"only": only, "sample": sample, **about()}
     if joints:
         with progress("tried") as step:
             tried = between.record(names, jobs, telling(step))
         if json:
-            write_json(json, {**tried, **about})
+            write_json(json, {**tried, **given})
         between.print_record(console(), tried)
         raise typer.Exit(between.exit_code(tried))
     with progress("tried") as step:
         verdicts = try_all(names, jobs, Trials(), telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
-        write_json(json, {**found, **about})
+        write_json(json, {**found, **given})
     print_record(console(), found)
     raise typer.Exit(exit_code(found))
 

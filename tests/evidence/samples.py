@@ -33,6 +33,7 @@ def answer(row: str, column: str, solver: str) -> dict[str, Any]:
         "transition": row,
         "invariant": column,
         "hypotheses": [column],
+        "axioms": [],
         "verdict": "proved",
         "solver": solver,
         "solver_version": "1.2.3",

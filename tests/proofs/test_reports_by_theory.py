@@ -17,6 +17,7 @@ def answer(transition: str, invariant: str, verdict: Verdict = "proved") -> Obli
         "transition": transition,
         "invariant": invariant,
         "hypotheses": [],
+        "axioms": [],
         "verdict": verdict,
         "solver": "z3",
         "solver_version": "5.4.0",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from models.alarm.line import TUNNELS_MM, ZONE_MM
 from models.alarm.page.scene import Shown, line_data, moment, shown
+from models.streams import write_whole
 from models.whole_page import script_data, template_of
 
 LINE = "Yamabe line"
@@ -35,4 +36,4 @@ def write(
     Raises:
         OSError: the file cannot be written.
     """
-    path.write_text(page_of(shown(seed, day, worker_m, first_s, length_s)), "utf-8")
+    write_whole(path, page_of(shown(seed, day, worker_m, first_s, length_s)).encode())

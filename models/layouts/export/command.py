@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +11,10 @@ import typer
 
 from models.commands import bad_input_refused, console, refuse, tell
 from models.exit_codes import DOES_NOT_HOLD
+from models.streams import write_whole
+
+NO_PLACE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST)
+"""A folder that another would do for; a disk that is full, say, decides nothing."""
 
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
 Folder = Annotated[Path, typer.Option("--output", "-o", metavar="DIR", help="The folder.", show_default=False)]
@@ -49,8 +54,10 @@ def export(layout: Layout, output: Folder, file: Files = None) -> None:
                 (output / name).unlink(missing_ok=True)
             for each in files:
                 if each.content is not None:
-                    (output / each.name).write_bytes(each.content)
+                    write_whole(output / each.name, each.content)
     except OSError as error:
+        if error.errno not in NO_PLACE:
+            raise
         refuse(f"{output}: cannot be written ({error.strerror}); name another folder")
     there = [each for each in files if each.content is not None and _is_there(output / each.name, each.content)]
     for each in files:
