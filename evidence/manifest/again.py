@@ -14,6 +14,7 @@ from evidence.manifest.making import Result
 from evidence.records.reading import Records
 from models.days.systems import NAMES as SYSTEMS
 from models.layouts import BadInput
+from models.processes import spread
 from models.reproduce import PAPERS
 from proofs.mutants.plays import witnesses
 from proofs.theories import THEORIES
@@ -107,6 +108,20 @@ def drawn(pool: Sequence[Figure], seed: int, size: int) -> list[Figure]:
     while any(kinds.values()) and len(found) < size:
         found += [of_it.pop() for of_it in kinds.values() if of_it]
     return sorted(found[:size], key=lambda figure: (figure.kind, figure.what))
+
+
+def asked_again(records: Records, jobs: int, progress: Callable[[int, int, str], object]) -> Iterator[Result]:
+    """Put every obligation on record to Z3 once, which any record of what is not proved differs from."""
+    told = _list(records, "prove.json", "obligations")
+    cells = {(str(each["transition"]), str(each["invariant"])): str(each["verdict"]) for each in told}
+    for each in told:
+        if each["verdict"] != "refuted":
+            cells[each["transition"], each["invariant"]] = each["verdict"]
+    todo = list(cells.items())
+    chunks = [todo[start : start + 20] for start in range(0, len(todo), 20)]
+    for done, results in enumerate(spread(making.ask_again, chunks, jobs), 1):
+        progress(done, len(chunks), chunks[done - 1][0][0][0])
+        yield from results
 
 
 def made_again(figure: Figure) -> Result:

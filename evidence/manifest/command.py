@@ -5,13 +5,17 @@ from __future__ import annotations
 import secrets
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from models.commands import refuse, tell
+from models.commands import EVERY_CORE, Jobs, progress, refuse, tell
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
-from proofs.records import write_whole
+from models.streams import write_whole
+
+if TYPE_CHECKING:
+    from evidence.manifest.finding import Finding
+    from evidence.records.reading import Records
 
 SAMPLE = 30
 
@@ -42,39 +46,62 @@ def verify(
         int | None,
         typer.Option(metavar="S", min=0, max=2**31 - 1, help="What they are drawn from.", show_default="a new one"),
     ] = None,
+    jobs: Jobs = EVERY_CORE,
 ) -> None:
-    """Compare a folder of records with its manifest, and make a random sample of what they say again.
+    """Compare a folder of records with its manifest and with the sources, and make some of it again.
 
-    What is changed, missing, foreign, or of another commit is named (1).
+    Without a solver: every obligation is laid out anew and its hash compared, every witness is played, and what each
+    record must name by the sources is there, no less and no more.  Then Z3 is asked every obligation once, which
+    shows each that is said to be proved and is not; and of everything else a sample is made again, drawn from the seed.
+    What is not as it should be is named (1).  --sample 0 makes nothing again.
 
     Examples:
     * `heisoku verify out --sample 30`
     """
     from evidence.manifest.comparing import compared
+    from evidence.manifest.expected import NAMES
+    from evidence.manifest.finding import lines
     from evidence.manifest.hashes import ManifestError, read_manifest
+    from evidence.records.reading import read
 
     _there(folder)
     try:
         known = read_manifest(folder)
     except ManifestError as error:
         refuse(str(error))
-    findings = [each.line for each in compared(folder, known)]
-    for line in findings:
+    findings, records = list(compared(folder, known)), read(folder, NAMES)
+    findings += _against_the_sources(records, known.commit, jobs)
+    for line in lines(findings):
         tell(line)
     tell(f"{len(known.records):,} files of commit {known.commit or 'unknown'}: {len(findings)} findings")
     chosen = secrets.randbelow(2**31) if seed is None else seed
-    again = list(_again(folder, chosen, sample)) if sample else []
+    again = list(_again(folder, chosen, sample, jobs)) if sample else []
     wrong = len(findings) + sum(not same for same in again)
-    tell(f"{len(again)} figures made again with seed {chosen}, {again.count(False)} otherwise than recorded")
+    tell(f"{len(again):,} figures made again with seed {chosen}, {again.count(False)} otherwise than recorded")
     verdict = DOES_NOT_HOLD if wrong else HOLDS
     tell(WORDS[verdict])
     raise typer.Exit(verdict)
 
 
-def _again(folder: Path, seed: int, sample: int) -> Iterator[bool]:
-    """Make a sample of figures again, once the solvers have noticed their canaries; tell of each."""
+def _against_the_sources(records: Records, commit: str | None, jobs: int) -> list[Finding]:
+    """Compare the records with all that the sources say of them; tell what is not there, and what is of a part."""
+    from evidence.manifest import expected
+    from evidence.manifest.laying_out import all_laid_out
+
+    with progress("laid out") as step:
+        laid_out = all_laid_out(jobs, step)
+    played = list(expected.played(jobs))
+    found = [*expected.told(records, commit), *expected.by_proofs(records, laid_out), *expected.by_runs(records)]
+    for line in expected.lacking(records):
+        tell(f"not shown: {line}")
+    tell(f"{len(laid_out):,} obligations laid out anew, {len(expected.plays()):,} witnesses played, no solver asked")
+    return [*found, *played]
+
+
+def _again(folder: Path, seed: int, sample: int, jobs: int) -> Iterator[bool]:
+    """Put every obligation to Z3, and make a sample of figures again, once the solvers have noticed their canaries."""
     from evidence.catalogue import catalogue
-    from evidence.manifest.again import drawn, figures, made_again
+    from evidence.manifest.again import asked_again, drawn, figures, made_again
     from evidence.records.reading import read
     from proofs.canaries import seen
 
@@ -83,6 +110,11 @@ def _again(folder: Path, seed: int, sample: int) -> Iterator[bool]:
             tell(f"solver: {each['solver']} answers {each['answer']} to what does not hold, {each['canary']}")
             yield False
     records = read(folder, frozenset(each.record for each in catalogue().values()))
+    with progress("asked again") as step:
+        for result in asked_again(records, jobs, step):
+            if not result.same:
+                tell(f"DIFFERS: obligation: {result.says}")
+            yield result.same
     for figure in drawn(list(figures(folder, records)), seed, sample):
         result = made_again(figure)
         tell(f"{'again' if result.same else 'DIFFERS'}: {figure.kind}: {figure.what}: {result.says}")

@@ -7,10 +7,10 @@ import hashlib
 import json
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from evidence.manifest.finding import Finding
 from evidence.manifest.hashes import Manifest, files, hash_of, sources
 from proofs.records import commit
 from proofs.run import kept
@@ -18,20 +18,6 @@ from proofs.run import kept
 OBLIGATIONS = "obligations"
 """The folder of the texts that were put to the solvers, where they are kept."""
 COMMIT_OF_REPORT = re.compile(r'<meta name="heisoku-commit" content="([^"]*)">')
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One thing that is not as it should be: what kind, of which file, and in words."""
-
-    kind: str
-    where: str
-    says: str
-
-    @property
-    def line(self) -> str:
-        """In one line."""
-        return f"{self.kind}: {self.where}: {self.says}"
 
 
 def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:

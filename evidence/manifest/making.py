@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -51,6 +51,19 @@ def prove(told: Mapping[str, Any]) -> Result:
     if now["verdict"] != told["verdict"]:
         return Result(False, f"recorded as {told['verdict']}, and now {now['verdict']}")
     return Result(True, f"{now['verdict']}, the same text")
+
+
+def ask_again(some: Sequence[tuple[tuple[str, str], str]]) -> list[Result]:
+    """Put a few obligations to Z3, each with the verdict recorded."""
+    found = []
+    for (row, column), verdict in some:
+        try:
+            now = run.settle(row, column, "z3", 0, run.parts(row, column), "")["verdict"]
+        except (KeyError, TypeError, AttributeError) as error:
+            found.append(Result(False, f"{row} × {column}: cannot be made from its record: {error!r}"))
+            continue
+        found.append(Result(now == verdict, f"{row} × {column}: recorded as {verdict}, and now {now}"))
+    return found
 
 
 def play(theory: str, name: str) -> Result:

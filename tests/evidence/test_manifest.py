@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from evidence.manifest import comparing, hashes
-from evidence.manifest.comparing import Finding, compared
+from evidence.manifest.comparing import compared
+from evidence.manifest.finding import Finding
 from evidence.manifest.hashes import ManifestError, made, read_manifest, sources
 from proofs.run import kept
 from tests.evidence.samples import COMMIT, change, write

@@ -199,6 +199,13 @@ def test_a_record_that_is_missing_or_damaged_is_named_and_the_rest_shown(
     assert f"not shown : {names[-1]}" in told or f"not shown: {names[-1]}" in told
 
 
+def test_a_folder_without_records_shows_nothing_and_says_what_is_missing(tmp_path: Path) -> None:
+    book = gathered(tmp_path)
+    page = page_of(book)
+    assert {each.verdict for each in book.shown.values()} == {"not shown"}
+    assert all(each.record in page for each in catalogue().values())
+
+
 # ---- the command
 
 

@@ -1,0 +1,157 @@
+"""What records of proofs, certificates, mutants and cores must say by the sources, but for what solvers answered."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from evidence.manifest.finding import Finding, differences
+from evidence.manifest.laying_out import Cell, LaidOut
+from models.exit_codes import WORDS
+from proofs import canaries, lints_apart
+from proofs.certificates.command import DRAWN_FROM
+from proofs.certificates.command import exit_code as certified_code
+from proofs.mutants import command as mutating
+from proofs.mutants import joints as between
+from proofs.mutants import trying
+from proofs.mutants.classes import table
+from proofs.mutants.guarantees import Use
+from proofs.mutants.targets import mutants
+from proofs.records import Report
+from proofs.solvers import BUDGET
+from proofs.theories import is_transition, theory_of
+
+Told = Mapping[str, Any]
+PROOF = "prove.json"
+
+
+def proved(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
+    """Each obligation of the sources stands there once a solver and seed, as it is laid out from them."""
+    obligations: Sequence[Told] = told["obligations"]
+    solvers = sorted({each["solver"] for each in obligations})
+    seeds = range(1 + max((each["seed"] for each in obligations), default=0))
+    wanted = [_asked(*cell, solver, seed) for cell in laid_out for solver in solvers for seed in seeds]
+    there = [_asked(each["transition"], each["invariant"], each["solver"], each["seed"]) for each in obligations]
+    yield from differences("obligation", PROOF, there, wanted)
+    for each in obligations:
+        now = laid_out.get((each["transition"], each["invariant"]))
+        if now is not None:
+            yield from _as_laid_out(each, now, told["versions"])
+    yield from _canaries(told["canaries"], solvers)
+    offences = lints_apart.unlisted(lints_apart.offences(), lints_apart.listed())
+    if list(told["offences"]) != offences:
+        yield Finding("other offences", PROOF, f"says {told['offences']}, and the sources {offences}")
+    verdict = Report(told["obligations"], 0.0, 0.0, told["canaries"], told["offences"]).verdict
+    if told["verdict"] != verdict:
+        yield Finding("other verdict", PROOF, f"says {told['verdict']}, and what stands in it comes to {verdict}")
+
+
+def _asked(row: str, column: str, solver: str, seed: int) -> str:
+    return f"{row} × {column} by {solver}, seed {seed}"
+
+
+def _as_laid_out(each: Told, now: LaidOut, versions: Told) -> Iterator[Finding]:
+    what = f"{each['transition']} × {each['invariant']} by {each['solver']}"
+    if each["smt2_sha256"] != now.digest:
+        yield Finding("other text", PROOF, f"{what}: the sources give another text than the one recorded")
+    if list(each["hypotheses"]) != now.hypotheses or list(each["axioms"]) != now.axioms:
+        yield Finding("other hypotheses", PROOF, f"{what}: it is laid out with others than those recorded")
+    if (each["source"]["file"], *each["source"]["lines"]) != now.source:
+        yield Finding("other source", PROOF, f"{what}: its claim stands at {':'.join(map(str, now.source[:2]))}")
+    if each["rlimit"] != BUDGET[each["solver"]]:
+        yield Finding("other budget", PROOF, f"{what}: asked with {each['rlimit']:,}, not {BUDGET[each['solver']]:,}")
+    package = "z3-solver" if each["solver"] == "z3" else each["solver"]
+    if each["solver_version"] != versions[package]:
+        yield Finding("other version", PROOF, f"{what}: by version {each['solver_version']}, not the record's")
+    if each["verdict"] not in ("proved", "refuted", "undecided"):
+        yield Finding("other verdict", PROOF, f"{what}: {each['verdict']} is no verdict")
+    if now.parts and not each["rlimit_spent"] and each["seconds"] == 0:
+        yield Finding("nothing spent", PROOF, f"{what}: an answer for which nothing was spent")
+
+
+def _canaries(seen: Sequence[Told], solvers: Sequence[str]) -> Iterator[Finding]:
+    """Each solver was asked each canary, of all theories; one is noticed if it is answered with ``sat``."""
+    wanted = [f"{each.name} to {solver}" for solver in solvers for each in canaries.CANARIES]
+    there = list(dict.fromkeys(f"{each['canary']} to {each['solver']}" for each in seen))
+    yield from differences("canary", PROOF, there, wanted)
+    for each in seen:
+        if each["noticed"] != (each["answer"] == "sat"):
+            yield Finding("other canary", PROOF, f"{each['canary']}: {each['answer']}, and said to be noticed or not")
+
+
+def certified(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
+    """Each obligation asked for has its entry, of the text that the sources give; each control stands there."""
+    name, matches = "certificates.json", re.compile(told["only"] or "")
+    asked = [cell for cell in laid_out if matches.search(" ".join(cell))]
+    if told["sample"] is not None:
+        asked = random.Random(DRAWN_FROM).sample(asked, min(told["sample"], len(asked)))
+    there = [f"{each['row']} × {each['column']}" for each in told["obligations"]]
+    yield from differences("obligation", name, there, [" × ".join(cell) for cell in asked])
+    yield from _of(name, told["of"], len(laid_out))
+    for each in told["obligations"]:
+        now = laid_out.get((each["row"], each["column"]))
+        if now is not None and (each["smt2_sha256"], each["parts"]) != (now.digest, now.parts):
+            what = f"{each['row']} × {each['column']}"
+            yield Finding("other text", name, f"{what}: the sources give another text than the one certified")
+    controls = [each["asked"] for each in told["controls"]]
+    wanted = [canary.name for canary in canaries.CANARIES]
+    if told["external"]:
+        wanted.append("a proof of what is no theorem")
+    yield from differences("control", name, controls, wanted)
+    yield from _verdict(name, told, certified_code(told))
+
+
+def mutated(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
+    """Each mutant asked for has its entry; what becomes of it follows from its outcome and from its class."""
+    name, rows = "mutate.json", told["mutants"]
+    there = [each["mutant"] for each in rows]
+    yield from differences("mutant", name, there, trying.chosen(told["only"] or "", told["sample"]))
+    yield from _of(name, told["of"], len(mutants()))
+    for each in rows:
+        entry = table().get(each["mutant"])
+        kind = (
+            ""
+            if each["mutant"] not in mutants() or trying.killed(each["mutant"], each["outcome"])
+            else (entry.kind if entry else "")
+        )
+        became = mutating.HOLE if each["objection"] else mutating.CLASSED if kind else mutating.KILLED
+        if each["mutant"] in mutants() and (each["class"], each["became"]) != (kind, became):
+            says = f"{each['became']} {each['class']}".strip()
+            yield Finding("other class", name, f"{each['mutant']}: {says}, and by the sources {became} {kind}".strip())
+    if told["kills"] != mutating.kills(rows):
+        yield Finding("other sums", name, "its kills are not those of the mutants that stand in it")
+    yield from _verdict(name, told, mutating.exit_code(told))
+
+
+def cored(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
+    """Each obligation that a transition keeps an invariant has its core, of hypotheses that its proof names."""
+    name = "cores.json"
+    asked = [cell for cell in laid_out if is_transition(cell[0]) and cell[1] in theory_of(cell[0])[0].invariants]
+    there = [f"{each['transition']} × {each['invariant']}" for each in told["obligations"]]
+    yield from differences("obligation", name, there, [" × ".join(cell) for cell in asked])
+    for each in told["obligations"]:
+        now = laid_out.get((each["transition"], each["invariant"]))
+        if now is not None and not set(each["hypotheses"]) <= set(now.hypotheses):
+            what = f"{each['transition']} × {each['invariant']}"
+            yield Finding("other hypotheses", name, f"{what}: a core of what its proof does not assume")
+
+
+def joined(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
+    """Each guarantee in use, and each assumption below the theorem, was tried."""
+    name = "joints.json"
+    there = [Use(each["row"], each["column"], each["guarantee"]).name for each in told["guarantees"]]
+    there += [each["assumption"] for each in told["assumptions"]]
+    yield from differences("joint", name, there, between.chosen(told["only"] or "", told["sample"]))
+    yield from _verdict(name, told, between.exit_code(told))
+
+
+def _of(name: str, told: int, there_are: int) -> Iterator[Finding]:
+    if told != there_are:
+        yield Finding("other sums", name, f"says that there are {told:,}, and there are {there_are:,}")
+
+
+def _verdict(name: str, told: Told, code: int) -> Iterator[Finding]:
+    if told["verdict"] != WORDS[code]:
+        yield Finding("other verdict", name, f"says {told['verdict']}, and what stands in it comes to {WORDS[code]}")

@@ -1,0 +1,160 @@
+"""Every forgery is named without a solver, and what only a solver can show is shown for certain."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from evidence.manifest import again, comparing, expected, expected_runs
+from evidence.manifest.finding import Finding
+from evidence.manifest.hashes import read_manifest
+from evidence.manifest.laying_out import Cell, LaidOut, all_laid_out, laid_out
+from evidence.records.reading import Kept, read
+from models.commands import EVERY_CORE
+from proofs import lints_apart, run
+from proofs.mutants.targets import mutants
+from proofs.records import commit, solvers_altered
+from proofs.theories import THEORIES
+from proofs.witnesses.registry import WITNESSES
+from proofs.workbench import Workbench
+from tests.evidence import genuine
+from tests.evidence.forgeries import MORE, QUICK, Forgery
+
+Laid = Mapping[Cell, LaidOut]
+TESTS = ["tests.test_cli::test_one", "tests.test_cli::test_two[a & b]"]
+"""What is taken for all tests where only a sample of forgeries is tried."""
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, Laid]]:
+    """Records of two theories, and of all else that takes no time."""
+    with pytest.MonkeyPatch.context() as patch:
+        asked_once(patch)
+        patch.setattr(expected_runs, "collected", lambda: TESTS)
+        few = laid_out(genuine.few())
+        yield genuine.write(tmp_path_factory.mktemp("quick") / "out", few, whole=False), few
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path, Laid]]:
+    """Records of everything."""
+    with pytest.MonkeyPatch.context() as patch:
+        asked_once(patch)
+        every = all_laid_out(EVERY_CORE)
+        yield genuine.write(tmp_path_factory.mktemp("whole") / "out", every, whole=True), every
+
+
+def asked_once(patch: pytest.MonkeyPatch) -> None:
+    """What takes seconds, and is the same for every forgery."""
+    patch.setattr(expected_runs, "collected", cache(expected_runs.collected))
+    patch.setattr(expected, "solvers_altered", cache(solvers_altered))
+    patch.setattr(lints_apart, "offences", cache(lints_apart.offences))
+
+
+def found(folder: Path, every: Laid) -> list[Finding]:
+    """All that verify finds before it makes anything again."""
+    manifest, records = read_manifest(folder), read(folder, expected.NAMES)
+    return [
+        *comparing.compared(folder, manifest),
+        *expected.told(records, manifest.commit),
+        *expected.by_proofs(records, every),
+        *expected.by_runs(records),
+    ]
+
+
+def names(forgery: Forgery, folder: Path, every: Laid, to: Path) -> None:
+    """The forgery is named, whoever forges having made the manifest anew."""
+    shutil.copytree(folder, to)
+    forgery.forge(to)
+    genuine.bind(to)
+    told = found(to, every)
+    assert (forgery.kind, forgery.where) in {(each.kind, each.where) for each in told}, [each.line for each in told]
+
+
+def test_genuine_records_have_no_findings(quick: tuple[Path, Laid]) -> None:
+    assert [each.line for each in found(*quick)] == []
+
+
+@pytest.mark.parametrize("forgery", QUICK, ids=lambda each: each.name)
+def test_a_forgery_is_named(forgery: Forgery, quick: tuple[Path, Laid], tmp_path: Path) -> None:
+    names(forgery, *quick, tmp_path / "forged")
+
+
+@pytest.mark.slow
+def test_all_genuine_records_have_no_findings(whole: tuple[Path, Laid]) -> None:
+    assert [each.line for each in found(*whole)] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("forgery", [*QUICK, *MORE], ids=lambda each: each.name)
+def test_every_forgery_is_named(forgery: Forgery, whole: tuple[Path, Laid], tmp_path: Path) -> None:
+    names(forgery, *whole, tmp_path / "forged")
+
+
+def test_forty_forgeries_are_written_down() -> None:
+    assert len({each.name for each in (*QUICK, *MORE)}) >= 40
+
+
+# ---- forgeries of what the verifier runs on
+
+
+def test_a_manifest_of_another_commit_and_of_other_sources_is_named(quick: tuple[Path, Laid], tmp_path: Path) -> None:
+    shutil.copytree(quick[0], tmp_path / "forged")
+    path = tmp_path / "forged" / "manifest.json"
+    text = path.read_text("utf-8").replace(str(commit()), "0" * 40)
+    path.write_text(text, "utf-8")
+    told = list(comparing.compared(tmp_path / "forged", read_manifest(tmp_path / "forged")))
+    assert ("other commit", "manifest.json") in {(each.kind, each.where) for each in told}
+
+
+def test_an_edited_witness_is_played_and_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def edited(steps: object) -> None:
+        raise AssertionError("the train has not moved")
+
+    name = next(iter(WITNESSES))
+    monkeypatch.setitem(WITNESSES, name, edited)
+    monkeypatch.setattr(expected, "plays", lambda: [("interlocking", name)])
+    assert [each.line for each in expected.played(1)] == [
+        f"witness: interlocking: {name}: fails: the train has not moved"
+    ]
+
+
+def test_a_solver_that_is_not_as_its_package_says_is_named(
+    monkeypatch: pytest.MonkeyPatch, quick: tuple[Path, Laid]
+) -> None:
+    monkeypatch.setattr(expected, "solvers_altered", lambda: ["z3/z3.py"])
+    assert ("altered solver", "z3/z3.py") in {(each.kind, each.where) for each in found(*quick)}
+
+
+FAULT = "kernel.onboard.braking."
+ROW = "braking.run_a_cycle"
+
+
+def test_a_cell_that_does_not_hold_is_asked_again_for_certain(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A kernel with a fault at its own commit, or answers that workers made up: the text is then as recorded.
+
+    Nothing but a solver shows that.  Every obligation is put to Z3 again, so the chance to name it in one run is 1.
+    """
+    cells = [(ROW, column) for column in THEORIES["braking"].invariants]
+    records = {"prove.json": as_recorded(cells)}
+    assert all(result.same for result in again.asked_again(records, 1, lambda *_: None))
+    for name, mutant in mutants().items():
+        if not name.startswith(FAULT):
+            continue
+        faulty = Workbench(THEORIES["braking"], named=THEORIES["braking"].quantified, sources=mutant.sources)
+        monkeypatch.setattr(run, "bench", lambda theory, faulty=faulty: faulty)
+        told = list(again.asked_again(records, 1, lambda *_: None))
+        assert len(told) == len(cells)
+        if not all(result.same for result in told):
+            return
+    pytest.fail("no fault of the brakes was shown")
+
+
+def as_recorded(cells: list[Cell]) -> Kept:
+    """A record by which each of them is proved, by both solvers."""
+    told = [{"transition": row, "invariant": column, "verdict": "proved"} for row, column in cells]
+    return Kept("prove.json", data={"obligations": told})
