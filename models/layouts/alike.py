@@ -13,17 +13,22 @@ DRAWN_ALIKE = (
     "ABE3KMHOPCTYXaeopcyxijsdqwSIJABEZHIKMNOPTYXoavp",
 )
 """Cyrillic and Greek letters, and the Latin ones that they are drawn as."""
-LATIN = str.maketrans(*DRAWN_ALIKE)
+DRAWN_ALIKE_IN_JAPAN = (
+    "‐‑‒–—―−ー一二力口工夕八卜才千へりべぺ〇",
+    "---------ニカロエタハトオチヘリベペ○",
+)
+"""Dashes, the bar that makes a vowel long and the sign for one; signs and hiragana drawn as a katakana is."""
+PLAIN = str.maketrans(*("".join(each) for each in zip(DRAWN_ALIKE, DRAWN_ALIKE_IN_JAPAN, strict=True)))
 DIGITS = str.maketrans("oil", "011")
 """Letters that are read as digits, in lower case."""
 LOOK_ALIKE = "no two names look the same"
 
 
 def drawn(name: str) -> str:
-    """A name as it is drawn: one Unicode form, no space at its ends or twice, Latin letters for those like them."""
+    """A name as it is drawn: one Unicode form, no space at its ends or twice, one of the letters drawn alike."""
     if name.isascii():
         return " ".join(name.split()) if " " in name else name
-    return " ".join(normalize("NFKC", name).translate(LATIN).split())
+    return " ".join(normalize("NFKC", name).translate(PLAIN).split())
 
 
 def read(name: str) -> str:

@@ -23,6 +23,7 @@ from models.layouts.geometry import (
     say_what_looks_alike,
 )
 from models.layouts.granting import Granted, grant, hold_flank
+from models.layouts.loops import say_what_is_too_long, shortest_loop
 from models.layouts.numbers import LARGEST_BLOCK_NUMBER, number_blocks, records_for
 from models.layouts.reading import escaped
 from models.layouts.results import Imported, Places
@@ -50,6 +51,8 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
     say_what_is_too_short(paths, findings)
     say_what_hangs_on_nothing(blocks, paths, findings)
     say_what_looks_alike(blocks, told, findings)
+    loop = shortest_loop(blocks)
+    say_what_is_too_long(loop, told.longest_train_mm, blocks.bounds, findings)
     layout = _layout(blocks, granted, told, tags)
     ground = _ground(blocks, granted, told, tags, neighbours, opens)
     if told.held is not None:
@@ -70,6 +73,7 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
         told,
         {Route(route.name): route.beside for route in granted},
         legs_of(blocks, told),
+        loop,
     )
 
 

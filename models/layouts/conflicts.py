@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from models.layouts.findings import Findings
@@ -12,11 +12,15 @@ if TYPE_CHECKING:
     from models.layouts.table import TableRoute
 
 
-def shared(first: TableRoute, second: TableRoute) -> tuple[list[str], list[str]]:
+Fouls = Mapping[str, frozenset[str]]
+"""For a section or piece of path, those that a train there also obstructs."""
+
+
+def shared(first: TableRoute, second: TableRoute, fouls: Fouls) -> tuple[list[str], list[str]]:
     """What makes two routes conflict: the elements, and each in words.
 
-    Points wanted in different positions come first, then shared sections, then shared track
-    outside of sections (two routes over a point in the same position meet there).
+    Points wanted in different positions come first, then shared sections, then shared track outside of sections (two
+    routes over a point in the same position meet there), then what the table tells to foul each other.
     """
     opposite = [p for p in first.points if second.points.get(p, first.points[p]) != first.points[p]]
     sections = [section for section in first.sections if section in second.sections]
@@ -24,16 +28,20 @@ def shared(first: TableRoute, second: TableRoute) -> tuple[list[str], list[str]]
     words = [f"point '{p}' ({first.points[p]} against {second.points[p]})" for p in opposite]
     words += [f"section '{section}'" for section in sections]
     words += [f"track '{piece}'" for piece in track]
-    return [*opposite, *sections, *track], words
+    over = {name for _, name in _runs_over(second)}
+    names = sorted({name for _, name in _runs_over(first)})
+    fouled = [(name, other) for name in names for other in sorted(fouls.get(name, frozenset()) & over)]
+    words += [f"'{name}' fouling '{other}'" for name, other in fouled]
+    return [*opposite, *sections, *track, *(name for pair in fouled for name in pair)], words
 
 
 MOST_TOLD = 10_000
 """So many pairs are told one by one; a table in which more are wrong is wrong as a whole."""
 
 
-def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
+def compare_conflicts(routes: Sequence[TableRoute], fouls: Fouls, findings: Findings) -> None:
     """Every pair: a conflict that follows must be declared by both, and one that is declared must follow."""
-    following, (declares, declared) = _following(routes), _declared(routes)
+    following, (declares, declared) = _following(routes, fouls), _declared(routes)
     told = missed = needless = 0
     for at, first in enumerate(routes):
         missing = (following[at] & ~(declares[at] & declared[at])) >> at + 1
@@ -41,7 +49,7 @@ def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
         if told < MOST_TOLD:
             for other in _bits(missing | idle, at + 1):
                 told += 1
-                _tell(first, routes[other], findings)
+                _tell(first, routes[other], fouls, findings)
         else:
             missed, needless = missed + missing.bit_count(), needless + idle.bit_count()
     if missed:
@@ -55,10 +63,10 @@ def compare_conflicts(routes: Sequence[TableRoute], findings: Findings) -> None:
             findings.remark((route.name,), f"route '{route.name}' is declared to conflict with itself")
 
 
-def _tell(first: TableRoute, second: TableRoute, findings: Findings) -> None:
+def _tell(first: TableRoute, second: TableRoute, fouls: Fouls, findings: Findings) -> None:
     """What is wrong with one pair."""
     declared = [second.name in first.conflicts, first.name in second.conflicts]
-    elements, words = shared(first, second)
+    elements, words = shared(first, second, fouls)
     names = f"routes '{first.name}' and '{second.name}'"
     if words:
         silent = [route.name for route, told in zip((first, second), declared, strict=True) if not told]
@@ -72,7 +80,7 @@ def _tell(first: TableRoute, second: TableRoute, findings: Findings) -> None:
             findings.remark((first.name, second.name), f"{names}: the conflict is declared by one of them only")
 
 
-def _following(routes: Sequence[TableRoute]) -> list[int]:
+def _following(routes: Sequence[TableRoute], fouls: Fouls) -> list[int]:
     """For each route the others it shares something with, as the bits of an integer."""
     over: dict[tuple[str, str], int] = defaultdict(int)
     lying: dict[tuple[str, str], int] = defaultdict(int)
@@ -85,8 +93,10 @@ def _following(routes: Sequence[TableRoute]) -> list[int]:
     found = []
     for route in routes:
         bits = 0
-        for name in _runs_over(route):
-            bits |= over[name]
+        for kind, over_it in _runs_over(route):
+            bits |= over[kind, over_it]
+            for other in fouls.get(over_it, frozenset()):
+                bits |= over["section", other] | over["path", other]
         for point in route.points.items():
             bits |= over["point", point[0]] & ~lying[point]
         found.append(bits)

@@ -57,7 +57,10 @@ def import_native(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     reader.compare_joints(station, findings)
     joints = frozenset(data.get("joints", ()))
     told = Told(
-        file, "native", fleet, routes, fouls, reader.held(blocks), data.get("name"), reader.clear_mm(station), joints
+        *(file, "native", fleet, routes, fouls, reader.held(blocks), data.get("name"), reader.clear_mm(station)),
+        joints=joints,
+        laid_at_start=reader.laid_at_start(),
+        longest_train_mm=data.get("longest_train_mm"),
     )
     return assemble(blocks, paths, told, findings)
 
@@ -169,6 +172,13 @@ class NativeReader:
                 self._known(f"points.{point}.clear_mm", "leg", leg, station.junctions[point].kind.ports)
                 found[point, leg] = int(clear_mm)
         return found
+
+    def laid_at_start(self) -> frozenset[str]:
+        """The points that staff lay before the first start, where a train stands at them."""
+        known = self.data.get("points", {})
+        return frozenset(
+            self._known("laid_at_start", "point", point, known) for point in self.data.get("laid_at_start", ())
+        )
 
     def _boundaries(self) -> dict[str, Mark]:
         """The boundaries on all tracks."""

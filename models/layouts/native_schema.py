@@ -101,6 +101,13 @@ SCHEMA: dict[str, Any] = {
                 "items": {"type": "string", "minLength": 1},
                 "uniqueItems": True,
             },
+            "laid_at_start": {
+                "type": "array",
+                "description": "Points that staff lay and lock for where a train stands, before the first start.",
+                "items": {"type": "string", "minLength": 1},
+                "uniqueItems": True,
+            },
+            "longest_train_mm": _position_mm("No train of the fleet is longer, in mm.", 1),
             "fouling": _pairs("Pairs of blocks, a train in either of which obstructs the other."),
             "held_by_authority": {
                 "description": "Pairs (from, into) kept apart by train protection alone; 'rest': all such pairs.",

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from kernel.layout import Layout
 from kernel.names import Route
 from models.layouts.results import Imported, Rest, RestKind
 
@@ -16,6 +17,7 @@ Instances = Sequence[tuple[str, ...]]
 WORDS: Mapping[RestKind, str] = {
     "authority": "pairs of blocks (from, into) kept apart by train protection alone",
     "clearance": "legs of points that no clearance is known of",
+    "start": "points in start blocks, before the system first starts laid for the track that a train there stands on",
     "joint": "joints of track made by one name at two ends alone",
     "position": "points held in a position that nobody states",
     "derived": "routes, lengths or choices that the file does not tell and the import made",
@@ -28,21 +30,25 @@ def rests_of(imported: Imported) -> tuple[Rest, ...]:
     """Everything that a verdict on a layout rests on, kind by kind; kinds of which there is nothing are left out."""
     told = imported.told
     listed = told is not None and told.held is not None
+    laid, at_start = told.laid_at_start if told is not None else (), _laid_at_start(imported.layout)
     found: list[tuple[RestKind, bool, Instances]] = [
         ("authority", listed, _held(imported)),
         ("clearance", True, [(leg.point, leg.leg) for leg in imported.legs if _matters(leg.boundary, leg.clear_mm)]),
         ("clearance", False, _not_known(imported)),
+        ("start", True, [each for each in at_start if each[0] in laid]),
+        ("start", False, [each for each in at_start if each[0] not in laid]),
         ("joint", False, _by_name(imported)),
         ("position", False, list(_unstated(imported))),
         ("derived", False, _remarked(imported, "derived")),
         ("unread", False, _remarked(imported, "unread")),
         ("left out", False, _left_out(imported)),
     ]
-    return tuple(
+    counted = (
         Rest(kind, declared, tuple(instances), _text(kind, declared, instances))
         for kind, declared, instances in found
         if instances
     )
+    return (*counted, *_loop(imported))
 
 
 def _text(kind: RestKind, declared: bool, instances: Instances) -> str:
@@ -68,6 +74,34 @@ def _not_known(imported: Imported) -> Instances:
     return [
         (leg.point, leg.leg, leg.boundary) for leg in imported.legs if leg.boundary is not None and leg.clear_mm is None
     ]
+
+
+def _laid_at_start(layout: Layout) -> Instances:
+    """The points that a route needs in its start block: a train that stands there on another leg would be let go.
+
+    The centre is told of blocks; in running no point below a train moves, before the first start staff lays it.
+    """
+    found = {
+        (str(point), str(start))
+        for route, start in layout.start.items()
+        for point in layout.needs[route]
+        if layout.stands_in[point] == start
+    }
+    return sorted(found)
+
+
+def _loop(imported: Imported) -> Iterator[Rest]:
+    """That no train is as long as the shortest loop; declared where the file tells how long its longest train is."""
+    loop, told = imported.loop, imported.told
+    if loop is None:
+        return
+    longest_mm = told.longest_train_mm if told is not None else None
+    declared = longest_mm is not None and longest_mm < loop.long_mm
+    way = "the shortest way out of a block and back into it that no point bars"
+    if not loop.blocks:
+        way = "beyond which no way out of a block and back into it was looked for"
+    text = f"trains shorter than {loop.long_mm / 1_000:,.3f} m, {way}{', as the file declares' if declared else ''}"
+    yield Rest("loop", declared, ((*loop.blocks, f"{loop.long_mm} mm"),), text)
 
 
 def _by_name(imported: Imported) -> Instances:

@@ -56,7 +56,7 @@ class Remark:
     rests: RestKind | None = None
 
 
-RestKind = Literal["authority", "clearance", "joint", "position", "derived", "unread", "left out"]
+RestKind = Literal["authority", "clearance", "start", "loop", "joint", "position", "derived", "unread", "left out"]
 """What a verdict can rest on that no axiom says: :mod:`models.layouts.rests` has each in words."""
 
 
@@ -88,6 +88,18 @@ class Leg:
     clear_mm: int | None
 
 
+@dataclass(frozen=True)
+class Loop:
+    """The shortest way out of a block and back into it that no point bars: a train as long as that is in it twice.
+
+    ``blocks``: those that it leads out of and back into, all if there are several of one length.  Without one it was
+    looked for up to ``long_mm``, and not found.
+    """
+
+    long_mm: int
+    blocks: tuple[Block, ...]
+
+
 Span = tuple[str, int, int]
 """A stretch of one track: its name, from and to in mm."""
 
@@ -116,7 +128,7 @@ class Imported:
 
     ``kind`` names the format; ``station`` is the track graph for formats that have one;
     ``told``: what the file tells beside it.  ``beside``: for a route, the points beside its path in its blocks.
-    ``legs``: those of points and crossings, with their clearance.
+    ``legs``: those of points and crossings, with their clearance.  ``loop``: the shortest that no point bars, if any.
     """
 
     name: str
@@ -131,6 +143,7 @@ class Imported:
     told: Told | None = None
     beside: Mapping[Route, Mapping[Point, BesidePath]] = field(default_factory=dict)
     legs: tuple[Leg, ...] = ()
+    loop: Loop | None = None
 
     @property
     def longest_route(self) -> Route | None:

@@ -14,7 +14,7 @@ routes run over it: from one block lead those that follow it on some route which
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,7 +51,19 @@ _VALIDATOR = Draft202012Validator(
     {
         "type": "object",
         "required": ["interlocking-table"],
-        "properties": {"interlocking-table": {"type": "array", "items": _ROUTE}},
+        "properties": {
+            "interlocking-table": {"type": "array", "items": _ROUTE},
+            "fouling": {
+                "type": "array",
+                "items": {
+                    "type": "array",
+                    "items": {"type": "string"},
+                    "minItems": 2,
+                    "maxItems": 2,
+                    "uniqueItems": True,
+                },
+            },
+        },
     }
 )
 
@@ -78,7 +90,8 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     validate(file, data, _VALIDATOR)
     routes = read_routes(file, data["interlocking-table"])
     findings = Findings("point")
-    compare_conflicts(list(routes.values()), findings)
+    fouls = _fouling(file, data.get("fouling", ()), routes.values())
+    compare_conflicts(list(routes.values()), fouls, findings)
     for what, each in (
         ("routes", lambda route: [route.name]),
         ("signals", lambda route: [route.source, route.destination]),
@@ -87,7 +100,20 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     ):
         names = (name for route in routes.values() for name in each(route))
         say_what_is_alike(what, dict.fromkeys(names), findings)
-    return assemble_table(file, list(routes.values()), trains, findings)
+    return assemble_table(file, list(routes.values()), fouls, trains, findings)
+
+
+def _fouling(file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute]) -> dict[str, frozenset[str]]:
+    """The sections and pieces that a train in each also obstructs, both ways: what a table does not draw."""
+    known = {name for route in routes for name in (*route.path, *route.sections)}
+    found: dict[str, frozenset[str]] = {}
+    for index, pair in enumerate(pairs):
+        for name, other in (pair, reversed(pair)):
+            if name not in known:
+                what = f"no route runs over '{name}'"
+                raise BadInput(file, f"fouling[{index}]", what, "correct the name: a section, or a piece of path")
+            found[name] = found.get(name, frozenset()) | {other}
+    return found
 
 
 def read_routes(file: str, rows: list[Mapping[str, Any]]) -> dict[str, TableRoute]:

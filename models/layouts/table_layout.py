@@ -60,15 +60,21 @@ class Row:
         return [self.start, *self.covers]
 
 
-def assemble_table(file: str, routes: Sequence[TableRoute], trains: Sequence[str], findings: Findings) -> Imported:
-    """The layout that a table tells of."""
+def assemble_table(
+    file: str,
+    routes: Sequence[TableRoute],
+    fouls: Mapping[str, frozenset[str]],
+    trains: Sequence[str],
+    findings: Findings,
+) -> Imported:
+    """The layout that a table tells of; ``fouls``: the sections and pieces of path that obstruct each other."""
     rows = [Row(route, covers, _needs(route), Block("")) for route, covers in _covered(routes, findings)]
     _start(rows, findings)
     stands_in = _stand(rows, findings)
     _agree(rows, stands_in, findings)
     _merge(rows, stands_in, findings)
     track = Track(rows)
-    layout = _layout(rows, stands_in, track, trains)
+    layout = _layout(rows, stands_in, track, trains, _fouling(routes, fouls))
     places = Places(
         blocks={block: (_element(block),) for block in layout.blocks},
         routes={route: (str(route),) for route in layout.routes},
@@ -234,7 +240,24 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
                 findings.violation("a point lies one way between two blocks", (route, point), text)
 
 
-def _layout(rows: Sequence[Row], stands_in: Mapping[Point, Block], track: Track, trains: Sequence[str]) -> Layout:
+def _fouling(routes: Sequence[TableRoute], fouls: Mapping[str, frozenset[str]]) -> dict[Block, frozenset[Block]]:
+    """The blocks that foul each other: those of the sections and pieces that do; a piece lies in its section's."""
+    home, found = homes(routes) if fouls else {}, dict[Block, frozenset[Block]]()
+    for name, others in fouls.items():
+        block = Block(home.get(name, name))
+        beside = {Block(home.get(other, other)) for other in others} - {block}
+        if beside:
+            found[block] = found.get(block, frozenset()) | beside
+    return found
+
+
+def _layout(
+    rows: Sequence[Row],
+    stands_in: Mapping[Point, Block],
+    track: Track,
+    trains: Sequence[str],
+    fouls: Mapping[Block, frozenset[Block]],
+) -> Layout:
     """The relations that the kernel is told; everything is released on arrival."""
     by = {Route(row.route.name): row for row in rows}
     blocks = frozenset(block for row in rows for block in row.chain) | frozenset(stands_in.values())
@@ -258,7 +281,7 @@ def _layout(rows: Sequence[Row], stands_in: Mapping[Point, Block], track: Track,
                 for name, row in by.items()
             },
             released_after={name: _released_after(row) for name, row in by.items()},
-            fouls={},
+            fouls=fouls,
             stands_in=stands_in,
             points_in={block: frozenset(p for p in stands_in if stands_in[p] == block) for block in blocks},
             tag_in=tag_in,

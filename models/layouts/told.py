@@ -40,7 +40,8 @@ class Told:
     ``held``: block pairs (from, into) that train protection alone keeps apart; none: every pair
     that no point keeps apart.  ``clear_mm``: for a leg (point, port), from the point to where the leg is clear of
     the other.  ``joints``: where a file joins ends of track by one name alone, the names that it lists as joints;
-    none: it says of all its joints what they join.
+    none: it says of all its joints what they join.  ``laid_at_start``: points that staff lay, before the system first
+    starts, for the track that a train stands on.  ``longest_train_mm``: no train of the fleet is longer.
     """
 
     name: str
@@ -52,3 +53,5 @@ class Told:
     title: str | None = None
     clear_mm: Mapping[tuple[str, str], int] = field(default_factory=dict)
     joints: frozenset[str] | None = None
+    laid_at_start: frozenset[str] = frozenset()
+    longest_train_mm: int | None = None

@@ -9,6 +9,7 @@ from kernel.layout import Layout
 from kernel.names import Block
 from kernel.names import Route as RouteName
 from models.layouts import CheckResult, Imported
+from tests.independent import raw_table
 from tests.independent.files import Enumerated, facts_of, network_of
 from tests.independent.raw_graph import Network, leads
 from tests.independent.raw_graph import Route as Walked
@@ -67,7 +68,9 @@ def differing_ground(imported: Imported, found: Enumerated) -> list[str]:
     """Neighbours, open track, where a route's track leads, and where points stand, as far as they differ."""
     network, ground, layout = network_of(found), imported.ground, imported.layout
     if network is None:
-        return []
+        assert isinstance(found, raw_table.Enumerated)
+        fouls = {(str(one), str(other)) for one, others in layout.fouls.items() for other in others}
+        return [] if fouls == raw_table.fouling_blocks(found) else [f"fouling: {sorted(fouls)}"]
     differing: list[str] = []
     for block in sorted(network.blocks):
         name = Block(block)

@@ -64,6 +64,8 @@ class Enumerated:
     routes: dict[str, TableRoute] = field(default_factory=dict)
     violations: list[Finding] = field(default_factory=list)
     remarks: list[Finding] = field(default_factory=list)
+    fouling: list[tuple[str, str]] = field(default_factory=list)
+    """Sections or segments, a train on either of which obstructs the other."""
 
 
 def _ids(items: list[dict[str, Any]]) -> list[str]:
@@ -73,7 +75,7 @@ def _ids(items: list[dict[str, Any]]) -> list[str]:
 def rows_of(data: dict[str, Any]) -> dict[str, Row]:
     """Route -> its row; signals are taken out of the path."""
     table = data["interlocking-table"]
-    signals = {signal for row in table for signal in _ids(row["signals"])}
+    signals = {signal for row in table for signal in (*_ids(row.get("signals", [])), row["source"], row["destination"])}
     return {
         str(row["id"]): Row(
             str(row["id"]),
@@ -107,7 +109,7 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     for point, by in of_point.items():
         under = [segment for segment in bare if by <= listed[segment]]
         stands_in[point] = min(under, key=lambda segment: len(listed[segment]))
-    found = Enumerated(rows, block_of, stands_in)
+    found = Enumerated(rows, block_of, stands_in, fouling=[(str(a), str(b)) for a, b in data.get("fouling", [])])
     for row in rows.values():
         _follow(found, row)
     for row in rows.values():
@@ -233,14 +235,25 @@ def _compare_positions(found: Enumerated) -> None:
     found.violations += [Finding("a point lies one way between two blocks", one) for one in sorted(odd)]
 
 
+def fouling_blocks(found: Enumerated) -> set[tuple[str, str]]:
+    """The blocks that foul each other, each pair both ways."""
+    pairs = {(found.block_of.get(one, one), found.block_of.get(other, other)) for one, other in found.fouling}
+    return {pair for one, other in pairs if one != other for pair in ((one, other), (other, one))}
+
+
 def shared(found: Enumerated, one: str, other: str) -> tuple[list[str], list[str], list[str]]:
-    """What two routes share: points wanted in different positions, sections or, sharing none, track outside them."""
+    """What two routes share: points wanted in different positions, sections or, sharing none, track outside them.
+
+    What the table tells to foul each other comes last.
+    """
     first, second = found.rows[one], found.rows[other]
     points = sorted(p for p in first.points if second.points.get(p, first.points[p]) != first.points[p])
     sections = sorted(set(first.sections) & set(second.sections))
     track = set(first.segments) & set(second.segments)
     bare = sorted(segment for segment in track if found.block_of[segment] == segment)
-    return points, sections, bare if not sections else []
+    over, there = {*first.segments, *first.sections}, {*second.segments, *second.sections}
+    foul = [(a, b) for pair in found.fouling for a, b in (pair, pair[::-1]) if a in over and b in there]
+    return points, sections, [*(bare if not sections else []), *(name for pair in foul for name in pair)]
 
 
 def _compare_conflicts(found: Enumerated) -> None:

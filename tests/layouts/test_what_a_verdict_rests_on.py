@@ -3,18 +3,35 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from heisoku import run
-from models.layouts import CheckResult, Imported, as_json, check, load
+from models.layouts import BadInput, CheckResult, Imported, as_json, check, load
 from models.layouts.native import import_native
 from models.layouts.railjson import import_railjson
 from models.layouts.table import import_table
 from tests.layouts.stations import SAMPLES, SHARED, needs_shared, plain_station, railjson_of, table_rows
 
 STATION = next(path for path in SAMPLES if path.stem == "passing_station")
+STOPS = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+tracks.line = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W0 = 300_000, W = 800_000 } }
+tracks.a = { from = "P.normal", to = "stop a", length_mm = 300_000 }
+tracks.b = { from = "P.reverse", to = "stop b", length_mm = 300_000 }
+points.P = {}
+routes."a out" = { from = "W", direction = "backward", to = "W0", points = { P = "normal" } }
+"""
+RING = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+tracks.ring = { from = "n", to = "n", length_mm = 1_000_000, boundaries = { A = 100_000, B = 600_000 } }
+routes.r = { from = "A", direction = "forward", to = "B" }
+routes.s = { from = "B", direction = "forward", to = "A" }
+"""
 STRICT = "nothing rests on a default"
 
 
@@ -69,6 +86,41 @@ def test_joints_by_name_alone_are_told_until_the_file_lists_them() -> None:
     assert "joint" not in rests(check(import_railjson("x", railjson_of(plain_station()), ("T1",))))
 
 
+def two_legs(**more: object) -> Imported:
+    """A block in which trains start from either leg of a point that they trail."""
+    return import_native("legs", {**tomllib.loads(STOPS), **more}, ("T1",))
+
+
+def test_points_that_only_staff_lays_before_the_first_start_are_told() -> None:
+    (rest,) = (rest for rest in check(two_legs()).rests if rest.kind == "start")
+    assert (rest.declared, rest.instances) == (False, (("P", "B:W+stop a+stop b"),))
+    declared = check(two_legs(laid_at_start=["P"]))
+    assert ("start" in rests(declared), rests(declared, declared=True)["start"]) == (False, 1)
+    assert "start" not in rests(check(native()))
+    with pytest.raises(BadInput, match="there is no point 'Q'"):
+        two_legs(laid_at_start=["Q"])
+
+
+@needs_shared
+@pytest.mark.parametrize(
+    ("name", "points"), [("osrd-overlapping_routes.json", {"s.b"}), ("gicsafe-1.railml", {"swi9", "swi55", "swi58"})]
+)
+def test_real_layouts_in_which_trains_start_on_either_leg_say_so(name: str, points: set[str]) -> None:
+    imported = load(SHARED / name)
+    assert {each[0] for rest in check(imported).rests if rest.kind == "start" for each in rest.instances} == points
+    assert check(imported, strict=True).verdict == "does not hold"
+
+
+def test_the_shortest_loop_is_told_until_the_file_says_that_its_trains_are_shorter() -> None:
+    ring = tomllib.loads(RING)
+    (rest,) = (rest for rest in check(import_native("ring", ring, ("T1",))).rests if rest.kind == "loop")
+    assert (rest.declared, rest.instances) == (False, (("B:A+B", "B:A+B#2", "500000 mm"),))
+    for longest_mm, verdict, declared in ((499_999, "holds", 1), (500_000, "does not hold", 0)):
+        result = check(import_native("ring", {**ring, "longest_train_mm": longest_mm}, ("T1",)))
+        assert (result.verdict, rests(result, declared=True).get("loop", 0)) == (verdict, declared)
+        assert [v.elements for v in result.violations] == [("A", "B")] * (1 - declared)
+
+
 def test_strict_makes_a_violation_of_each_kind_that_nobody_declared() -> None:
     imported = native()
     loose, strict = check(imported), check(imported, strict=True)
@@ -90,7 +142,8 @@ def test_the_command_tells_what_it_rests_on_and_records_it(tmp_path: Path, capsy
     assert run(["check", ring, "--json", str(record)]) == 0
     assert "rests on 8 pairs of blocks (from, into) kept apart by train protection alone" in capsys.readouterr().out
     (entry,) = json.loads(record.read_text("utf-8"))["layouts"]
-    (rest,) = entry["rests"]
+    rest, loop = entry["rests"]
+    assert (loop["on"], loop["instances"][0][-1]) == ("loop", "2700000 mm")
     assert (rest["on"], rest["declared"], rest["count"], len(rest["instances"])) == ("authority", False, 8, 8)
     assert run(["check", ring, "--strict"]) == 1
     assert STRICT in capsys.readouterr().out
@@ -109,4 +162,4 @@ def test_the_record_counts_what_the_result_has() -> None:
 def test_the_largest_real_network_shows_its_76_pairs() -> None:
     result = check(load(SHARED / "osrd-small_infra.json"))
     assert result.verdict == "holds"
-    assert rests(result) == {"authority": 76, "clearance": 40, "left out": 6, "unread": 3}
+    assert rests(result) == {"authority": 76, "clearance": 40, "left out": 6, "unread": 3, "loop": 1}

@@ -39,6 +39,8 @@ def native_data(imported: Imported) -> Data:
         "trains": list(told.trains),
         "held_by_authority": "rest" if told.held is None else sorted(map(list, told.held)),
         "fouling": sorted(map(list, fouling)),
+        "laid_at_start": sorted(told.laid_at_start),
+        "longest_train_mm": told.longest_train_mm,
         "joints": writer.joints() if told.joints is None else sorted(told.joints),
         "tracks": writer.tracks(),
         "points": writer.points_told(told.clear_mm),
