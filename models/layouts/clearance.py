@@ -35,22 +35,27 @@ def _nearest(blocks: Blocks, told: Told, junction: Junction, start: Heading) -> 
     own = blocks.of[start[0]]
     closed = told.fouls.get(own, frozenset()) | {own}
     met: set[Heading] = set()
-    todo = [(0, start)]
+    todo = [(_long_mm(blocks, start), start)]
     while todo:
-        so_far_mm, heading = heappop(todo)
+        end_mm, heading = heappop(todo)
         if heading in met:
             continue
         met.add(heading)
-        segment, end = blocks.segments.segments[heading[0]], blocks.segments.at[heading]
-        end_mm = so_far_mm + segment.to_mm - segment.from_mm
+        end, onward = blocks.segments.at[heading], list[Heading]()
         if isinstance(end, Cut):
             if blocks.of[end.beyond[0]] not in closed:
                 return end_mm, end.mark
-            heappush(todo, (end_mm, end.beyond))
+            onward = [end.beyond]
         elif isinstance(end, Joint) and end.junction != junction.name:
-            for _, _, onward in blocks.segments.onward(end):
-                heappush(todo, (end_mm, onward))
+            onward = [beyond for _, _, beyond in blocks.segments.onward(end)]
+        for beyond in onward:
+            heappush(todo, (end_mm + _long_mm(blocks, beyond), beyond))
     return 0, None
+
+
+def _long_mm(blocks: Blocks, heading: Heading) -> int:
+    segment = blocks.segments.segments[heading[0]]
+    return segment.to_mm - segment.from_mm
 
 
 def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:

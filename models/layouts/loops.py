@@ -45,16 +45,15 @@ def shortest_loop(blocks: Blocks) -> Loop | None:
             return Loop(so_far_mm, ())
         left -= 1
         before.append(lies)
-        end = segments.at[heading]
+        end, onward = segments.at[heading], list[tuple[Heading, Lies]]()
         if isinstance(end, Joint):
-            onward = list(_over(blocks, end, lies))
-        elif isinstance(end, Cut) and blocks.of[end.beyond[0]] != block:
-            onward = [(end.beyond, lies)]
-        else:
-            if isinstance(end, Cut) and heading != out and _is_open(blocks, out, end.beyond):
+            onward += _over(blocks, end, lies)
+        elif isinstance(end, Cut) and blocks.of[end.beyond[0]] == block != blocks.of[heading[0]]:
+            if _is_open(blocks, out, end.beyond):
                 found_mm = so_far_mm
                 found.add(block)
-            continue
+        elif isinstance(end, Cut) and blocks.of[end.beyond[0]] != blocks.of[heading[0]]:
+            onward.append((end.beyond, lies))
         for ahead, lie in onward:
             long_mm = segments.segments[ahead[0]].to_mm - segments.segments[ahead[0]].from_mm
             heappush(todo, (so_far_mm + long_mm, next(turn), block, out, ahead, lie))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from kernel.layout import Layout
@@ -14,6 +15,8 @@ from tests.independent.files import Enumerated, facts_of, network_of
 from tests.independent.raw_graph import Network, leads
 from tests.independent.raw_graph import Route as Walked
 from tests.independent.raw_measures import measured
+from tests.independent.raw_names import drawn_alike
+from tests.independent.raw_rests import rests_again, shortest_loops
 
 
 def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
@@ -108,7 +111,55 @@ def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:
     if network is not None and told is not None:
         fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
         ours |= {(rule, tuple(sorted(set(elements)))) for rule, elements in measured(network, told.clear_mm, fouls)}
+    longest_mm = None if told is None else told.longest_train_mm
+    loop = None if network is None or longest_mm is None else shortest_loops(network)
+    if network is not None and isinstance(loop, tuple) and longest_mm is not None and longest_mm >= loop[0]:
+        ours.add(("a train is shorter than its loop", tuple(sorted(set(network.ends(min(loop[1])))))))
+    for names in names_of(imported, found):
+        ours |= {("no two names look the same", alike) for alike in drawn_alike(names)}
     return ours
+
+
+def names_of(imported: Imported, found: Enumerated) -> Iterator[Iterable[str]]:
+    """The names of a file, kind by kind; those of routes and trains as the importer has them."""
+    if isinstance(found, raw_table.Enumerated):
+        rows = list(found.rows.values())
+        yield [signal for row in rows for signal in (row.source, row.destination)]
+        yield [name for row in rows for name in (*row.segments, *row.sections, row.source, row.destination)]
+        yield [point for row in rows for point in row.points]
+    else:
+        network = found.network
+        yield network.lengths
+        yield [name for name, junction in network.junctions.items() if len(junction.legs) > 2]
+        yield [*network.stops.values(), *(name for cuts in network.cuts.values() for _, name in cuts)]
+        yield network.given.values()
+    if imported.told is not None:
+        yield [wanted.name for wanted in imported.told.routes]
+        yield imported.told.trains
+
+
+def differing_rests(imported: Imported, result: CheckResult, found: Enumerated) -> list[str]:
+    """What the verdict rests on, as far as the enumeration counts it otherwise."""
+    if isinstance(found, raw_table.Enumerated) or imported.told is None:
+        return []
+    ours = rests_again(found.network, found.routes, imported.told)
+    theirs: dict[tuple[str, bool], set[tuple[str, ...]]] = {
+        (rest.kind, rest.declared): set(rest.instances) for rest in result.rests
+    }
+    kinds = {"authority", "clearance", "start", "joint", "left out"}
+    differing = [
+        f"{kind}: {theirs.get(kind)} is not {ours.get(kind)}"
+        for kind in sorted({*ours, *(each for each in theirs if each[0] in kinds)})
+        if ours.get(kind) != theirs.get(kind)
+    ]
+    loop = None if imported.loop is None else (imported.loop.long_mm, frozenset(map(str, imported.loop.blocks)))
+    again = shortest_loops(found.network)
+    longest_mm = imported.told.longest_train_mm
+    declared = again is not None and longest_mm is not None and not isinstance(again, str) and longest_mm < again[0]
+    told = {(*sorted(again[1]), f"{again[0]} mm")} if isinstance(again, tuple) else None
+    if not isinstance(again, str) and (loop != again or theirs.get(("loop", declared)) != told):
+        differing.append(f"loop: {loop} is not {again}")
+    return differing
 
 
 def disagreements(imported: Imported, result: CheckResult, found: Enumerated) -> list[str]:
@@ -123,7 +174,7 @@ def disagreements(imported: Imported, result: CheckResult, found: Enumerated) ->
     ]
     for route, facts in differing_routes(imported, found).items():
         differing += [f"{route}: {fact}" for fact in facts]
-    return differing or differing_ground(imported, found)
+    return differing or differing_ground(imported, found) + differing_rests(imported, result, found)
 
 
 def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:

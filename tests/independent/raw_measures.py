@@ -11,6 +11,8 @@ CLEAR_MM = 20_000
 ROOM_MM, LAST_MM = 6_339, 2_713
 """For two tags and for one: 2 m of overhang, a window of 513 mm and 200 mm of laying for each; between two a window
 of 513 mm and the laying of both."""
+LONGEST_MM, VEHICLE_MM = 2**28 - 1, 20_000
+"""A tag has 28 bits; no vehicle is shorter, so that no file has shorter tracks alone."""
 Measured = tuple[str, tuple[str, ...]]
 
 
@@ -25,9 +27,21 @@ def measured(
         for name, mouth in network.mouths(block):
             if not name or not _is_cut(network, mouth):
                 continue
-            for far_mm, cut, _ in _ways_to(network, mouth, {}, ()):
+            ways = _ways_to(network, mouth, {}, ())
+            if [far_mm > LONGEST_MM for far_mm, cut, _ in ways if cut is not None] == [True]:
+                yield "a distance fits its tag", tuple(network.ends(block))
+            for far_mm, cut, _ in ways:
                 if far_mm < (LAST_MM if cut is None else ROOM_MM):
                     yield "a block has room for its tags", tuple(network.ends(block))
+    for point, leg, cuts in legs(network, fouls):
+        if cuts[0][0] < told_mm.get((point, leg), CLEAR_MM):
+            yield "a train behind a boundary is clear of the point", tuple(sorted((point, cuts[0][1])))
+    if any(network.cuts.values()) and max(network.lengths.values()) < VEHICLE_MM:
+        yield "a track is as long as a vehicle", tuple(network.lengths)
+
+
+def legs(network: Network, fouls: Mapping[str, Collection[str]]) -> Iterator[tuple[str, str, list[tuple[int, str]]]]:
+    """Each leg of a point that some way over it does not use, with the boundaries that a train stands behind."""
     for point, junction in network.junctions.items():
         for leg, end in junction.legs.items() if len(junction.legs) > 2 else ():
             if all(leg in pair for pairs in junction.joins.values() for pair in pairs):
@@ -35,9 +49,9 @@ def measured(
             own = network.block_of[network.last_piece(end)]
             closed = {own, *fouls.get(own, ())}
             found = _ways_to(network, _inward(network, end), {point: leg}, closed)
-            cuts = [(far_mm, cut) for far_mm, cut, _ in found if cut is not None]
-            if cuts and min(cuts)[0] < told_mm.get((point, leg), CLEAR_MM):
-                yield "a train behind a boundary is clear of the point", tuple(sorted((point, min(cuts)[1])))
+            cuts = sorted((far_mm, cut) for far_mm, cut, _ in found if cut is not None)
+            if cuts:
+                yield point, leg, cuts
 
 
 def _is_cut(network: Network, place: Place) -> bool:
@@ -54,7 +68,7 @@ def _ways_to(
 ) -> list[tuple[int, str | None, str]]:
     """Every way on to a boundary behind which a block is not closed, or to an end of track: how far, which, where."""
     found: list[tuple[int, str | None, str]] = []
-    todo: list[tuple[int, Place, frozenset[tuple[str, int]]]] = [(0, start, frozenset())]
+    todo: list[tuple[int, Place, frozenset[tuple[str, str]]]] = [(0, start, frozenset())]
     while todo:
         so_far_mm, place, seen = todo.pop()
         ahead = [cut for cut in network.cuts.get(place.track, []) if (cut[0] - place.mm) * place.heading > 0]
@@ -71,9 +85,9 @@ def _ways_to(
                 found.append((far_mm, None, block))
                 continue
             name, leg = network.leg_at[end]
-            if (name, place.heading) in seen or name in barred:
+            if (name, leg) in seen or name in barred:
                 continue
             for other in set(network.junctions[name].ways_from(leg).values()):
                 beyond = _inward(network, network.junctions[name].legs[other])
-                todo.append((far_mm, beyond, seen | {(name, place.heading)}))
+                todo.append((far_mm, beyond, seen | {(name, leg)}))
     return found

@@ -169,6 +169,111 @@ DIAMOND = {
 }
 """A diamond in a start block, whose other track ends in a buffer stop and in nothing."""
 
+NEAR = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks]
+line = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 500_000, V = 800_000 } }
+link = { from = "P.normal", to = "Q.tip", length_mm = 12_000 }
+far = { from = "Q.normal", to = "east", length_mm = 900_000, boundaries = { E = 100_000 } }
+near = { from = "Q.reverse", to = "south", length_mm = 900_000, boundaries = { S = 7_000 } }
+yard = { from = "P.reverse", to = "yard", length_mm = 900_000, boundaries = { Y = 20_000 } }
+[points]
+P = {}
+Q = { clear_mm = { reverse = 7_000, normal = 6_000 } }
+[routes]
+in = { from = "V", direction = "forward", to = "E", points = { P = "normal", Q = "normal" } }
+"""
+"""A boundary nearer to a point than what is clear, behind another point that is told to be clear of it."""
+
+NAMES = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = ["n"]
+[tracks]
+"A-1" = { from = "w", to = "n", length_mm = 900_000, boundaries = { "A" = 100_000, "А" = 300_000, "a" = 500_000 } }
+["tracks"."A‑1"]
+from = "n"
+to = "e"
+length_mm = 900_000
+boundaries = { "二" = 100_000, "ニ" = 300_000, "C  1" = 600_000, "C 1" = 700_000 }
+[routes]
+r = { from = "A", direction = "forward", to = "a" }
+"r " = { from = "二", direction = "forward", to = "ニ" }
+"""
+"""Names that look alike, of tracks, boundaries and routes."""
+
+SHORT = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks.line]
+from = "w"
+to = "e"
+length_mm = 900_000
+boundaries = { A = 2_712, B = 9_051, C = 15_389, D = 400_000, E = 409_989, F = 600_000, G = 609_990, H = 897_287 }
+[routes]
+one = { from = "C", direction = "forward", to = "D", overlap_to = "E" }
+two = { from = "E", direction = "forward", to = "F", overlap_to = "G" }
+stop = { from = "w", direction = "forward", to = "B", overlap_to = "C" }
+"""
+"""Blocks and overlaps just as long as they must be, and a millimetre shorter."""
+
+LONG = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks]
+one = { from = "w", to = "n", length_mm = 268_435_455, boundaries = { A = 100_000 } }
+two = { from = "n", to = "m", length_mm = 300_000, boundaries = { B = 100_000, C = 250_000 } }
+on = { from = "m", to = "e", length_mm = 268_435_455, boundaries = { D = 268_385_456 } }
+[routes]
+far = { from = "A", direction = "forward", to = "B" }
+as_far = { from = "C", direction = "forward", to = "D" }
+"""
+"""Between two tags as many millimetres as 28 bits hold, and one more, at either end of a joint that one name makes."""
+
+KILOMETRES = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+tracks.line = { from = "w", to = "e", length_mm = 19_999, boundaries = { A = 5_000, B = 15_000 } }
+routes.r = { from = "A", direction = "forward", to = "B" }
+"""
+METRES = KILOMETRES.replace("19_999", "20_000")
+
+RING = """
+format = "heisoku-layout-1"
+held_by_authority = []
+longest_train_mm = 500_000
+laid_at_start = ["P"]
+[tracks]
+ring = { from = "P.normal", to = "Q.normal", length_mm = 1_000_000, boundaries = { A = 100_000, B = 900_000 } }
+side = { from = "P.reverse", to = "Q.reverse", length_mm = 1_000_000, boundaries = { S = 100_000, R = 900_000 } }
+back = { from = "Q.tip", to = "P.tip", length_mm = 500_000, boundaries = { C = 100_000, D = 400_000 } }
+[points]
+P = {}
+Q = {}
+[routes]
+r = { from = "C", direction = "forward", to = "B", points = { P = "normal", Q = "normal" } }
+s = { from = "A", direction = "backward", to = "C", points = { P = "normal" } }
+"""
+"""A ring whose points lie the same each time round; what stands beside it is held off by nothing."""
+SHORTER = RING.replace("500_000\nlaid", "800_000\nlaid").replace("= []", '= "rest"')
+PRETZEL = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+longest_train_mm = 699_999
+[tracks]
+w = { from = "west", to = "X.a1", length_mm = 900_000, boundaries = { W = 800_000 } }
+loop = { from = "X.b1", to = "X.a2", length_mm = 900_000, boundaries = { L1 = 100_000, L2 = 800_000 } }
+e = { from = "X.b2", to = "east", length_mm = 900_000, boundaries = { E = 100_000 } }
+alone = { from = "x", to = "y", length_mm = 900_000, boundaries = { Z = 100_000 } }
+[points]
+X = { kind = "crossing" }
+[routes]
+in = { from = "W", direction = "forward", to = "L2" }
+out = { from = "L2", direction = "forward", to = "E" }
+"""
+"""A line that crosses itself on the level, its trains told to be a millimetre shorter than the loop; track apart."""
+
 CRAFTED = {
     "two legs.toml": TWO_LEGS,
     "no track.toml": NO_TRACK,
@@ -178,5 +283,14 @@ CRAFTED = {
     "flanked.toml": FLANKED,
     "against.toml": AGAINST,
     "diamond.json": json.dumps(DIAMOND),
+    "near.toml": NEAR,
+    "names.toml": NAMES,
+    "short.toml": SHORT,
+    "long.toml": LONG,
+    "kilometres.toml": KILOMETRES,
+    "metres.toml": METRES,
+    "ring.toml": RING,
+    "shorter.toml": SHORTER,
+    "pretzel.toml": PRETZEL,
 }
 """All of them, as files."""

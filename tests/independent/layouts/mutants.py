@@ -26,7 +26,7 @@ from typing import Any
 
 import yaml
 
-from models.layouts import BadInput, Imported, check, load_text
+from models.layouts import BadInput, CheckResult, Imported, check, load_text
 from models.layouts.generate import as_toml
 from tests.independent import files, raw_native, raw_railjson, raw_table
 from tests.independent.compare import disagreements
@@ -43,9 +43,10 @@ from tests.layouts.railml_made import railml_of
 
 PACKAGE = ROOT / "models" / "layouts"
 MODULES = (
-    *("assemble", "beside", "blocks", "conflicts", "distances", "following", "granting", "native", "numbers"),
-    *("railjson", "standing", "table", "table_layout", "track", "railml.importing", "railml.marks"),
-    *("railml.overlaps", "railml.routes", "railml.sections", "railml.topology"),
+    *("alike", "assemble", "beside", "blocks", "clearance", "conflicts", "distances", "following", "geometry"),
+    *("granting", "loops", "native", "numbers", "railjson", "rests", "standing", "table", "table_layout", "track"),
+    *("railml.declared", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes", "railml.sections"),
+    *("railml.switches", "railml.topology", "railml.unread"),
 )
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
 STATIONS, MADE_UP, EDITED = 24, 60, 24
@@ -171,6 +172,10 @@ class File:
         return imported_or_refused(self)
 
     @cached_property
+    def verdict(self) -> CheckResult | None:
+        return check(self.before) if self.before is not None else None
+
+    @cached_property
     def survey(self) -> Survey:
         return survey_text(self.name, self.text)
 
@@ -255,7 +260,7 @@ def loads(file: File) -> bool:
     try:
         if file.before is None:
             return file.walked is not None and any(found.rule == NEVER for found in file.walked.violations)
-        return file.hazards + len(file.unlike) >= 0
+        return file.verdict is not None and file.hazards + len(file.unlike) >= 0
     except (NotImplementedError, KeyError, ValueError, IndexError, AssertionError):
         return False
 
@@ -282,7 +287,7 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
                     return "refused"
                 if (imported is None) != (file.before is None):
                     return "refused" if imported is None else "walk"
-                if imported is not None and imported != file.before:
+                if imported is not None and (imported != file.before or check(imported) != file.verdict):
                     same = False
                     by = file.noticed(imported)
                     if by is not None:

@@ -16,7 +16,7 @@ import pytest
 from kernel.layout import Layout
 from models.layouts import check, load, load_text
 from tests.independent.files import OTHERS, ROOT, SAMPLES, path_of
-from tests.independent.layouts.crafted import CRAFTED, TWO_LEGS
+from tests.independent.layouts.crafted import CRAFTED, NEAR, TWO_LEGS
 from tests.independent.layouts.driving import Driver, Found
 from tests.independent.layouts.mutants import RAILML, File
 from tests.independent.layouts.stations import station, without
@@ -157,6 +157,11 @@ SAID = {
     "no track.toml": [("on b", "P")],
     "diamond.json": [("out", "stop", "south")],
     "against.toml": [("main", "T")],
+    "names.toml": [("A-1", "A\u20111"), ("A", "\u0410"), ("\u30cb", "\u4e8c"), ("C  1", "C 1"), ("r", "r ")],
+    "short.toml": [("A", "w"), ("B", "C"), ("one", "D", "E"), ("stop", "B", "C")],
+    "long.toml": [("C", "D"), ("C", "D")],
+    "kilometres.toml": [("line",)],
+    "shorter.toml": [("A", "B")],
 }
 """What is wrong with a crafted layout, by its elements."""
 
@@ -168,3 +173,8 @@ def test_a_crafted_layout_is_seen_as_a_plain_walk_sees_it(name: str) -> None:
     assert file.unlike == []
     at_import = [v.elements for v in file.before.violations]
     assert at_import == SAID.get(name, [])
+
+
+def test_the_nearest_boundary_counts_whichever_way_over_a_point_leads_to_it() -> None:
+    found = [v.elements for v in check(load_text("near.toml", NEAR)).violations]
+    assert found == [("P", "S")]

@@ -1,0 +1,121 @@
+"""What a verdict rests on, counted again over the plain graph; what a file tells of itself is believed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Set
+from heapq import heapify, heappop, heappush
+from itertools import count
+
+from models.layouts.told import Told, Wanted
+from tests.independent.raw_graph import Network, Place, Route, Way
+from tests.independent.raw_measures import legs
+from tests.independent.raw_points import far_end
+
+Rests = dict[tuple[str, bool], set[tuple[str, ...]]]
+"""Kind, whether the file declares it -> the instances."""
+MOST_STEPS = 3_000
+"""A loop that is not found within so many steps is not compared."""
+
+
+def rests_again(network: Network, routes: Mapping[str, Route], told: Told) -> Rests:
+    """Authority, clearances, points at the first start, joints and routes left out."""
+    stated = {wanted.name: wanted for wanted in told.routes}
+    held = {(str(one), str(other)) for one, other in told.held or ()}
+    if told.held is None:
+        held = {pair for name, route in routes.items() for pair in _held(network, route, stated[name])}
+    fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
+    cleared = [(point, leg, cut) for point, leg, cuts in legs(network, fouls) for _, cut in cuts[:1]]
+    start = {
+        (point, route.start)
+        for route in routes.values()
+        for point in route.needs
+        if point in network.points_in.get(route.start, ())
+    }
+    found: Rests = {
+        ("authority", told.held is not None): {*held},
+        ("clearance", True): {(point, leg) for point, leg, _ in cleared if (point, leg) in told.clear_mm},
+        ("clearance", False): {each for each in cleared if each[:2] not in told.clear_mm},
+        ("start", True): {each for each in start if each[0] in told.laid_at_start},
+        ("start", False): {each for each in start if each[0] not in told.laid_at_start},
+        ("joint", False): set(_joints(network, told)),
+        ("left out", False): {(name,) for name in stated if name not in routes},
+    }
+    return {kind: instances for kind, instances in found.items() if instances}
+
+
+def _joints(network: Network, told: Told) -> list[tuple[str, ...]]:
+    plain = {name: junction for name, junction in network.junctions.items() if len(junction.legs) == 2}
+    if told.joints is None:
+        return []
+    named = {
+        name.removeprefix("joint "): sorted(track for track, _ in each.legs.values()) for name, each in plain.items()
+    }
+    return [(name, *tracks) for name, tracks in named.items() if name not in told.joints]
+
+
+def _held(network: Network, route: Route, stated: Wanted) -> Set[tuple[str, str]]:
+    """The pairs that no flank point keeps apart; one that shields several blocks counts for the last alone."""
+    claims = route.claims
+    open_ = {
+        (block, target): wanted
+        for target in claims[1:]
+        for block in network.neighbours[target] - set(claims)
+        if (wanted := network.demands(block, target)) is not None
+    }
+    shut = set()
+    for point, position in stated.flank.items():
+        there = [
+            t
+            for t in claims[1:]
+            for (b, to), wanted in open_.items()
+            if to == t and wanted.get(point, position) != position and point in network.points_in.get(b, ())
+        ]
+        beside = next((b for b in network.points_in if point in network.points_in[b]), "")
+        last = [target for target in there if target in route.covers][-1:] or there[-1:]
+        shut |= {(beside, target) for target in last}
+    return open_.keys() - shut
+
+
+def shortest_loops(network: Network) -> tuple[int, frozenset[str]] | str | None:
+    """The shortest ways out of a block and back into it, way by way through whole blocks; a text if it is given up."""
+    ways = {block: list(network.ways(block)) for block in network.blocks}
+    ends: dict[Place, list[Way]] = {}
+    for each in ways.values():
+        for way in each:
+            if way.into is not None:
+                ends.setdefault(far_end(network, way), []).append(way)
+    turn, seen, found_mm, found = count(), set(), None, set[str]()
+    todo = [
+        (0, next(turn), block, out, out, str(way.into), frozenset[tuple[str, str]]())
+        for block, each in ways.items()
+        for out, way in {far_end(network, way): way for way in each if way.into not in (None, block)}.items()
+    ]
+    heapify(todo)
+    while todo and (found_mm is None or todo[0][0] == found_mm):
+        mm, _, block, out, place, here, lies = heappop(todo)
+        if (block, out, place, lies) in seen:
+            continue
+        seen.add((block, out, place, lies))
+        if len(seen) > MOST_STEPS:
+            return "given up"
+        into = [way for way in ways[here] if way.mouth == place]
+        if here == block:
+            if any(_agree(moved(network, left), moved(network, way)) for left in ends[out] for way in into):
+                found_mm = mm
+                found.add(block)
+            continue
+        for way in into:
+            passed = moved(network, way)
+            if way.into is not None and way.into != here and _agree(dict(lies), passed):
+                beyond = (far_end(network, way), way.into, lies | set(passed.items()))
+                heappush(todo, (mm + network.way_mm(way), next(turn), block, out, *beyond))
+    return None if found_mm is None else (found_mm, frozenset(found))
+
+
+def moved(network: Network, way: Way) -> dict[str, str]:
+    """How the points of a way lie."""
+    return {each.junction: each.position for each in way.passed if network.junctions[each.junction].moves}
+
+
+def _agree(one: Mapping[str, str], other: Mapping[str, str]) -> bool:
+    return all(other.get(point, at) == at for point, at in one.items())
