@@ -142,7 +142,9 @@ def differing_rests(imported: Imported, result: CheckResult, found: Enumerated) 
     """What the verdict rests on, as far as the enumeration counts it otherwise."""
     if isinstance(found, raw_table.Enumerated) or imported.told is None:
         return []
-    ours = rests_again(found.network, found.routes, imported.told)
+    ours = rests_again(
+        found.network, found.routes, imported.told, {(leg.point, leg.leg): leg.boundary for leg in imported.legs}
+    )
     theirs: dict[tuple[str, bool], set[tuple[str, ...]]] = {
         (rest.kind, rest.declared): set(rest.instances) for rest in result.rests
     }

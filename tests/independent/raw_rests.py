@@ -17,14 +17,20 @@ MOST_STEPS = 3_000
 """A loop that is not found within so many steps is not compared."""
 
 
-def rests_again(network: Network, routes: Mapping[str, Route], told: Told) -> Rests:
-    """Authority, clearances, points at the first start, joints and routes left out."""
+def rests_again(
+    network: Network, routes: Mapping[str, Route], told: Told, named: Mapping[tuple[str, str], str | None]
+) -> Rests:
+    """Authority, clearances, points at the first start, joints and routes left out.
+
+    ``named``: of boundaries equally near behind a leg, the one that is told.
+    """
     stated = {wanted.name: wanted for wanted in told.routes}
     held = {(str(one), str(other)) for one, other in told.held or ()}
     if told.held is None:
         held = {pair for name, route in routes.items() for pair in _held(network, route, stated[name])}
     fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
-    cleared = [(point, leg, cut) for point, leg, cuts in legs(network, fouls) for _, cut in cuts[:1]]
+    nearest = {(point, leg): [cut for mm, cut in cuts if mm == cuts[0][0]] for point, leg, cuts in legs(network, fouls)}
+    cleared = [(*leg, next((cut for cut in cuts if cut == named.get(leg)), cuts[0])) for leg, cuts in nearest.items()]
     start = {
         (point, route.start)
         for route in routes.values()

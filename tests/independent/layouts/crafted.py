@@ -242,7 +242,7 @@ METRES = KILOMETRES.replace("19_999", "20_000")
 RING = """
 format = "heisoku-layout-1"
 held_by_authority = []
-longest_train_mm = 500_000
+longest_train_mm = 699_999
 laid_at_start = ["P"]
 [tracks]
 ring = { from = "P.normal", to = "Q.normal", length_mm = 1_000_000, boundaries = { A = 100_000, B = 900_000 } }
@@ -256,7 +256,20 @@ r = { from = "C", direction = "forward", to = "B", points = { P = "normal", Q = 
 s = { from = "A", direction = "backward", to = "C", points = { P = "normal" } }
 """
 """A ring whose points lie the same each time round; what stands beside it is held off by nothing."""
-SHORTER = RING.replace("500_000\nlaid", "800_000\nlaid").replace("= []", '= "rest"')
+SHORTER = RING.replace("699_999", "700_000").replace("= []", '= "rest"')
+TURN = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+[tracks]
+line = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 800_000 } }
+turn = { from = "P.normal", to = "P.reverse", length_mm = 900_000, boundaries = { X = 200_000, Y = 700_000 } }
+[points]
+P = {}
+[routes]
+in = { from = "V", direction = "forward", to = "Y", points = { P = "normal" } }
+out = { from = "Y", direction = "forward", to = "W", points = { P = "reverse" } }
+"""
+"""A balloon whose point would have to lie both ways at once under a train that meets itself: no loop."""
 PRETZEL = """
 format = "heisoku-layout-1"
 held_by_authority = "rest"
@@ -292,5 +305,6 @@ CRAFTED = {
     "ring.toml": RING,
     "shorter.toml": SHORTER,
     "pretzel.toml": PRETZEL,
+    "turn.toml": TURN,
 }
 """All of them, as files."""

@@ -32,6 +32,7 @@ from tests.independent import files, raw_native, raw_railjson, raw_table
 from tests.independent.compare import disagreements
 from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
+from tests.independent.layouts import railml_pieces
 from tests.independent.layouts.crafted import CRAFTED
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
@@ -192,9 +193,13 @@ class File:
 
     @cached_property
     def unlike(self) -> list[str]:
-        if self.walked is None or self.before is None:
-            return []
-        return disagreements(self.before, check(self.before), self.walked)
+        return [] if self.before is None else self.disagree(self.before)
+
+    def disagree(self, imported: Imported) -> list[str]:
+        """What is seen otherwise without the importer."""
+        if self.name.endswith(".railml"):
+            return railml_pieces.differing(imported, check(imported), self.text)
+        return [] if self.walked is None else disagreements(imported, check(imported), self.walked)
 
     @cached_property
     def hazards(self) -> int:
@@ -204,7 +209,7 @@ class File:
 
     def noticed(self, imported: Imported) -> str | None:
         """Who notices that a file was imported otherwise."""
-        if self.walked is not None and disagreements(imported, check(imported), self.walked) != self.unlike:
+        if self.disagree(imported) != self.unlike:
             return "walk"
         if len(Driver.of(self.survey, imported).drive().hazards) > self.hazards:
             return "rails"
@@ -223,7 +228,7 @@ def corpus() -> Iterator[File]:
     """The files, those that take least first."""
     for name in SAMPLES:
         yield File(name, files.path_of(name).read_text(encoding="utf-8"))
-    yield from itertools.starmap(File, CRAFTED.items())
+    yield from itertools.starmap(File, (*CRAFTED.items(), *railml_pieces.files()))
     for number in range(EDITED):
         what, data = edited("junction.toml", NATIVE, random.Random(number))
         yield File(f"{what}.toml", as_toml(data))
@@ -283,11 +288,12 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
             for file in known:
                 try:
                     imported = imported_or_refused(file)
+                    verdict = None if imported is None else check(imported)
                 except Exception:  # whatever it is: a file that is a layout is refused
                     return "refused"
                 if (imported is None) != (file.before is None):
                     return "refused" if imported is None else "walk"
-                if imported is not None and (imported != file.before or check(imported) != file.verdict):
+                if imported is not None and (imported != file.before or verdict != file.verdict):
                     same = False
                     by = file.noticed(imported)
                     if by is not None:
