@@ -12,6 +12,10 @@ things that are registered beforehand, for the paper's reason that they happen e
 
 All three lie in sections that are not to be used: a handset there does not sound the normal tone.
 
+Distance is the difference of two kilometrages, so it is a way along the track only as far as figures run on.  Where
+they do not (the line's end, a line that joins, a break of kilometrage) stands an opening on the register: trains come
+by it that no list has, or that are told in other figures.  Near one the handset does not sound a mild tone (ours).
+
 A fix that its train cannot have reached since the one before, nor left before it, by the line's speed and what GPS
 errs, is not taken, and the fault tone sounds until one comes that fits: one of the two was wrong (ours).  Where either
 of them puts the train near, the alarm sounds.
@@ -57,6 +61,8 @@ Train = NewType("Train", str)
 """A train number (A2)."""
 Section = NewType("Section", str)
 """The name of a section that is not to be used (A4, A5, A6)."""
+Opening = NewType("Opening", str)
+"""The name of a place where kilometrage does not run on (A1)."""
 
 
 class Tone(Enum):
@@ -110,6 +116,8 @@ class Register:
     ``display_error_mm``: a train's antenna is no farther outside of the stretch that the display shows.
     ``tolerance_mm``: GPS and display agree when the fix is no farther outside.
     ``stabled``: which train may be stabled in which section: the roster.
+    ``openings``: where figures do not run on to trains of this list: the line's ends, lines that join, and both
+    figures of a break; of an adjoining line whose trains are on the list in these figures, the end of that.
     """
 
     bounds: AlarmBounds
@@ -118,6 +126,7 @@ class Register:
     tolerance_mm: int
     sections: Map[Section, NoUse]
     stabled: frozenset[tuple[Train, Section]]
+    openings: Map[Opening, int]
 
 
 @dataclass(frozen=True)
@@ -411,6 +420,23 @@ def is_not_to_be_used(register: Register, worker: WorkerFix) -> bool:
     )
 
 
+def is_near_an_opening(register: Register, worker: WorkerFix) -> bool:
+    """Tell whether a train may be within 3000 m of the worker by an opening, unknown or in other figures (A1, A3).
+
+    Beyond it any train may stand.  One that has come by it may be told in the figures from before as long as those
+    are fresh, and has run on meanwhile.
+    """
+    bounds, fresh = register.bounds, register.fresh
+    within_um = (
+        UM_A_MM * (CAUTION_MM + bounds.length_mm)
+        + bounds.train_mm_s * larger(fresh.fix_ms, fresh.display_ms)
+        + worker_off_um(bounds, worker)
+    )
+    return any(
+        UM_A_MM * magnitude(place_mm - worker.place_mm) <= within_um for _name, place_mm in register.openings.items()
+    )
+
+
 def is_faulty(register: Register, handset: Handset) -> bool:
     """Tell whether anything is not known that the normal tone rests on (A2, A8)."""
     return (
@@ -418,6 +444,7 @@ def is_faulty(register: Register, handset: Handset) -> bool:
         or not has_worker(register, handset)
         or not is_linked(register, handset)
         or is_not_to_be_used(register, handset.worker)
+        or is_near_an_opening(register, handset.worker)
         or any(
             known.jumped or (not is_matched(register, known) and not is_registered(register, train, known))
             for train, known in handset.trains.items()

@@ -3,6 +3,9 @@
 Any number of trains; they run at once: each intends something, and when time passes all do it.  Reports of
 either source come late, again, out of order or not at all.  A fix may be wrong, as long as the traffic
 display contradicts it then: that is what there are two sources for.
+
+The line is as far as figures run on, from opening to opening.  What is beyond is any network whatever; of a train there
+it matters only by which opening its shortest way to the worker leads, and how far it is from that.
 """
 
 from __future__ import annotations
@@ -11,7 +14,7 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import Display, Train
+from kernel.alarm.tone import Display, Opening, Train
 from models.alarm.tone_assumptions import (
     a_train_fix_is_within_its_error,
     a_worker_fix_is_within_its_error,
@@ -28,6 +31,8 @@ from models.alarm.tone_assumptions import (
     the_list_names_it_before_it_comes,
     the_train_keeps_the_lines_speed,
     the_worker_keeps_a_walking_speed,
+    trains_come_by_openings,
+    what_is_made_up_is_new_on_the_list,
 )
 from models.alarm.worksite import (
     NOTHING_TOLD,
@@ -35,14 +40,18 @@ from models.alarm.worksite import (
     Heard,
     Railway,
     Worksite,
+    age_after_ms,
     approaches_within,
     has_fresh_fix,
+    has_just_come,
     has_place,
+    is_beyond_within,
     is_in_a_stretch,
     is_known,
     is_known_by_one,
     is_list_fresh,
     is_listed,
+    is_of_the_line,
     is_report,
     is_told_alike,
     may_be_within,
@@ -58,10 +67,21 @@ from models.measures import UM_A_MM
 
 
 def come(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
-    """A train comes onto the line, or is made up there (A2)."""
+    """A train is made up on the line, anywhere (A2)."""
     if not the_list_names_it_before_it_comes(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
-    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=True)})
+    if not what_is_made_up_is_new_on_the_list(system, train):
+        return system
+    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=True, came_ms=3_600_001)})
+
+
+def come_by(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
+    """A train comes onto the line by an opening; whatever was told of it until now was of other figures (A1, A2)."""
+    if not the_list_names_it_before_it_comes(site, system, train) or not no_train_is_longer_than_written(site, body):
+        return system
+    if not trains_come_by_openings(site, body):
+        return system
+    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=False, came_ms=0)})
 
 
 def leave(site: Railway, system: Worksite, train: Train) -> Worksite:
@@ -79,27 +99,32 @@ def intend(site: Railway, system: Worksite, train: Train, to_um: int, heading: D
 
 def pass_time(site: Railway, system: Worksite, elapsed_ms: int, worker_to_um: int) -> Worksite:
     """Time passes: all trains do what they intended, the worker walks, and what is known grows old (A1, A3)."""
-    told = told_after(system.told, elapsed_ms)
     if not all_trains_keep_the_lines_speed(site, system, elapsed_ms):
         return system
     if not all_trains_run_as_they_head(system):
         return system
-    if not no_train_turns_as_time_passes(site, system, told):
-        return system
-    if not sources_do_not_fail_together(site, system, told):
-        return system
     if not the_worker_keeps_a_walking_speed(site, system.worker_um, worker_to_um, elapsed_ms):
         return system
-    return replace(
+    later = replace(
         system,
         worker_um=worker_to_um,
         bodies={
-            train: replace(body, antenna_um=body.next_um, heading=body.next_heading)
+            train: replace(
+                body,
+                antenna_um=body.next_um,
+                heading=body.next_heading,
+                came_ms=age_after_ms(body.came_ms, elapsed_ms),
+            )
             for train, body in system.bodies.items()
         },
-        told=told,
+        told=told_after(system.told, elapsed_ms),
         handset=machine.older(system.handset, elapsed_ms),
     )
+    if not no_train_turns_as_time_passes(site, later):
+        return system
+    if not sources_do_not_fail_together(site, later):
+        return system
+    return later
 
 
 # ---- what the handset is told
@@ -146,12 +171,14 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
     if train not in system.bodies:
         return replace(system, told=told, handset=handset)
     body = system.bodies[train]
-    is_taken_right = body.fix_is_right if of.jumped else is_right
-    if not no_train_turns_sooner(site, of, body.heading):
-        return system
-    if not a_wrong_fix_is_contradicted(site, of, is_taken_right):
-        return system
-    counts = is_right and not of.jumped and is_report(fix.place_mm, fix.age_ms)
+    is_of_now = is_right and is_of_the_line(body, fix.age_ms)
+    is_taken_right = body.fix_is_right if of.jumped else is_of_now
+    if not has_just_come(site, body):
+        if not no_train_turns_sooner(site, of, body.heading):
+            return system
+        if not a_wrong_fix_is_contradicted(site, of, is_taken_right):
+            return system
+    counts = is_of_now and not of.jumped and is_report(fix.place_mm, fix.age_ms)
     if counts and not (
         a_train_fix_is_within_its_error(site, fix, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)
@@ -171,11 +198,12 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
     if train not in system.bodies:
         return replace(system, told=told, handset=handset)
     body = system.bodies[train]
-    if not no_train_turns_sooner(site, of, body.heading):
-        return system
-    if not a_wrong_fix_is_contradicted(site, of, body.fix_is_right):
-        return system
-    counts = is_in_a_stretch(display)
+    if not has_just_come(site, body):
+        if not no_train_turns_sooner(site, of, body.heading):
+            return system
+        if not a_wrong_fix_is_contradicted(site, of, body.fix_is_right):
+            return system
+    counts = is_in_a_stretch(display) and is_of_the_line(body, display.age_ms)
     if counts and not (
         the_display_shows_where_the_train_was(site, display, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, display.age_ms)
@@ -204,10 +232,11 @@ def look_at_the_battery(site: Railway, system: Worksite, battery_well: bool) -> 
     )
 
 
-def listen(site: Railway, system: Worksite) -> Worksite:
+def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) -> Worksite:
     """The worker hears the tone, at any moment; what is so then goes into history (A3).
 
-    3000 m, 1500 m and 100 m are the paper's (004, 3.3).
+    3000 m, 1500 m and 100 m are the paper's (004, 3.3).  ``opening``, ``beyond_um``: where a train is then that is not
+    on the line, if one is: by which opening its way leads, and how far from there.
     """
     told, worker_um = system.told, system.worker_um
     has_fix = is_report(told.worker.place_mm, told.worker.age_ms)
@@ -215,11 +244,14 @@ def listen(site: Railway, system: Worksite) -> Worksite:
         system,
         heard=Heard(
             tone=machine.tone(site.register, system.handset),
-            within_3000=any(approaches_within(body, worker_um, 3_000_000) for _train, body in system.bodies.items()),
-            within_1500=any(approaches_within(body, worker_um, 1_500_000) for _train, body in system.bodies.items()),
+            within_3000=is_beyond_within(site, opening, beyond_um, worker_um, 3_000_000)
+            or any(approaches_within(body, worker_um, 3_000_000) for _train, body in system.bodies.items()),
+            within_1500=is_beyond_within(site, opening, beyond_um, worker_um, 1_500_000)
+            or any(approaches_within(body, worker_um, 1_500_000) for _train, body in system.bodies.items()),
             matched_within_1500=has_fix
             and any(
                 train in told.trains
+                and not has_just_come(site, body)
                 and is_told_alike(site, told.trains[train])
                 and approaches_within(body, worker_um, 1_500_000)
                 for train, body in system.bodies.items()

@@ -6,13 +6,24 @@ from typing import Any
 
 import numpy as np
 
+from kernel.alarm.tone import Opening
+from kernel.maps import Map
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
-from models.alarm.draws import HOURS, drawn
+from models.alarm.draws import HOURS, Drawn, drawn
 from models.alarm.faults import BEYOND, FAULTS
+from models.alarm.moving import joint_m
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
+from models.compiled import packed
 from models.days.system import Numbers, System
 
 FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
+
+
+def with_openings(register: Any, began: Drawn) -> Any:
+    """Give a register with the opening of the day, if a line joins (A1)."""
+    place_m = joint_m(began)
+    openings = {} if place_m < 0 else {0: int(1_000 * place_m)}
+    return register._replace(openings=packed(openings, Map[Opening, int]))
 
 
 def one_day(
@@ -24,7 +35,7 @@ def one_day(
     """
     out = np.zeros(len(COLUMNS), np.int64)
     began = drawn(seed, day, beyond)
-    watch(began, REGISTERED, register, sounds, NOTHING, out, trace())
+    watch(began, with_openings(REGISTERED, began), with_openings(register, began), sounds, NOTHING, out, trace())
     out[FIRST_FAULT : FIRST_FAULT + len(FAULTS)] = began.begin_s >= 0
     return out
 

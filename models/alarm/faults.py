@@ -32,6 +32,8 @@ FAULTS = (
     # ---- drawn from numbers of its own, so that the days on record stay what they are otherwise
     Fault("gps_frozen", "a train's fixes stayed the same, with fresh time stamps", 0.0, 60, 1_800, "-", 0, 0,
           "ours: a receiver or its program that repeats its last fix", "a_wrong_fix_is_contradicted"),
+    Fault("joined", "a line joined, and no list had its trains", 0.1, 61_200, 61_200, "m", 1_500, 38_500,
+          "practice: a branch, a break of kilometrage, the next line"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
@@ -40,7 +42,7 @@ OF_A_TRAIN = (
     "gps_frozen",
 )  # fmt: skip
 """Those that begin while the train is under way."""
-OF_THEIR_OWN = frozenset({"gps_frozen"})
+OF_THEIR_OWN = frozenset({"gps_frozen", "joined"})
 """Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}
 WITHIN = tuple(fault for fault in FAULTS if not fault.breaks)

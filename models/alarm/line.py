@@ -81,6 +81,7 @@ REGISTER = Register(
         section(SIDING): NoUse(Reason.STABLING, *SIDING_MM, 0),
     },
     stabled=frozenset({(name(STABLED), section(SIDING))}),
+    openings={},
 )
 """The line with its sections; trains and sections are numbered, as compiled code needs it."""
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from models.alarm.faults import KIND
 from models.alarm.line import LENGTH_MM, REGULAR, SHUNTER, STATIONS_MM, TRAINS, YARD_MM
 from models.compiled import compiled
 
@@ -155,3 +156,21 @@ def gap_m(day: Any, trains: Any, train: int, worker_m: float) -> float:
 def has_departed(trains: Any, train: int, gap: float, worker_m: float) -> bool:
     """Tell whether a train is past the worker by 100 m, from end to end, and ran last away from him (A3)."""
     return gap >= 100.0 and (trains.heading[train] > 0) == (trains.place_m[train] > worker_m)
+
+
+JOINED = KIND["joined"]
+STRANGE_M, STRANGE_M_S = 6_000.0, 20.0
+"""A train of the line that joins runs to and fro as far and as fast as that, up to the joint and away from it."""
+
+
+@compiled(forceinline=True)
+def joint_m(day: Any) -> float:
+    """Give where a line joins whose trains no list has; below 0 where none does."""
+    return float(abs(day.size[JOINED])) if day.begin_s[JOINED] >= 0 else -1.0
+
+
+@compiled(forceinline=True)
+def stranger_m(day: Any, worker_m: float, second: int) -> float:
+    """Give how far a train of the line that joins is from the worker, along the track."""
+    way = (STRANGE_M_S * second) % (2.0 * STRANGE_M)
+    return float(abs(worker_m - joint_m(day)) + min(way, 2.0 * STRANGE_M - way))

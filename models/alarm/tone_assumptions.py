@@ -9,8 +9,8 @@ from models.alarm.worksite import (
     Body,
     OfTrain,
     Railway,
-    Told,
     Worksite,
+    has_just_come,
     is_list_fresh,
     is_report,
     is_shown,
@@ -31,6 +31,11 @@ def the_alarm_limit_is_within_an_hour(site: Railway) -> bool:
 def the_error_is_not_negative(site: Railway) -> bool:
     """The error of a train's fix is written as a way, not below zero (A1)."""
     return site.register.bounds.train_error_mm >= 0
+
+
+def speed_and_freshness_are_not_negative(site: Railway) -> bool:
+    """The line's greatest speed, and for how long a fix is fresh, are written as no less than zero (A1)."""
+    return site.register.bounds.train_mm_s >= 0 and site.register.fresh.fix_ms >= 0
 
 
 # ---- assumptions
@@ -116,21 +121,21 @@ def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um
     return UM_A_MM * (display.from_mm - error_mm) <= at_um <= UM_A_MM * (display.to_mm + error_mm)
 
 
-def sources_do_not_fail_together(site: Railway, system: Worksite, told: Told) -> bool:
-    """As time passes, no display falls silent while a wrong fix puts its train where trains shunt (A2, A5)."""
+def sources_do_not_fail_together(site: Railway, later: Worksite) -> bool:
+    """When time has passed, no display is silent while a wrong fix puts its train where trains shunt (A2, A5)."""
     return all(
-        a_wrong_fix_is_contradicted(site, told.trains[train], body.fix_is_right)
-        for train, body in system.bodies.items()
-        if train in told.trains
+        a_wrong_fix_is_contradicted(site, later.told.trains[train], body.fix_is_right)
+        for train, body in later.bodies.items()
+        if train in later.told.trains and not has_just_come(site, body)
     )
 
 
-def no_train_turns_as_time_passes(site: Railway, system: Worksite, told: Told) -> bool:
-    """None does what no train does (A3)."""
+def no_train_turns_as_time_passes(site: Railway, later: Worksite) -> bool:
+    """When time has passed, none has done what no train does (A3)."""
     return all(
-        no_train_turns_sooner(site, told.trains[train], body.next_heading)
-        for train, body in system.bodies.items()
-        if train in told.trains
+        no_train_turns_sooner(site, later.told.trains[train], body.heading)
+        for train, body in later.bodies.items()
+        if train in later.told.trains and not has_just_come(site, body)
     )
 
 
@@ -140,10 +145,19 @@ def the_list_is_whole(site: Railway, system: Worksite) -> bool:
 
 
 def the_list_names_it_before_it_comes(site: Railway, system: Worksite, train: Train) -> bool:
-    """No train comes onto the line, nor its reports, before the list has it, unless the list is not fresh (A1, A2)."""
-    if train in system.told.trains:
-        return system.told.trains[train] == NOTHING_TOLD
-    return not is_list_fresh(site, system.told)
+    """No train is on the line before the list has it, unless the list is not fresh (A1, A2)."""
+    return train in system.told.trains or not is_list_fresh(site, system.told)
+
+
+def what_is_made_up_is_new_on_the_list(system: Worksite, train: Train) -> bool:
+    """Of a train that is made up on the line nothing was told before, under its name (A2)."""
+    return train not in system.told.trains or system.told.trains[train] == NOTHING_TOLD
+
+
+def trains_come_by_openings(site: Railway, body: Body) -> bool:
+    """A train that is not made up on the line comes onto it where an opening is registered (A1)."""
+    openings = site.register.openings
+    return body.came_by in openings and body.antenna_um == UM_A_MM * openings[body.came_by]
 
 
 def only_what_has_left_is_off_the_list(site: Railway, system: Worksite, train: Train) -> bool:

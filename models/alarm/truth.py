@@ -11,7 +11,7 @@ from kernel.alarm.tone import Tone
 from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.line import BOUNDS, REGISTER, TRAINS
-from models.alarm.moving import gap_m, has_departed
+from models.alarm.moving import gap_m, has_departed, joint_m, stranger_m
 from models.compiled import compiled, packed
 
 KERNEL = MADE.tone
@@ -172,6 +172,8 @@ def hold(
     """Hold one second against the truth, and write it down."""
     least_m, which = nearest(day, trains, worker_m, second, False)
     any_m, _which = nearest(day, trains, worker_m, second, True)
+    if joint_m(day) >= 0:
+        least_m, any_m = min(least_m, stranger_m(day, worker_m, second)), min(any_m, stranger_m(day, worker_m, second))
     no_use = in_section(worker_m)
     unknown = hold_trains(register, day, trains, handset, second, out)
     unknown = hold_handset(register, day, handset, worker_m, out) or unknown

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import Display, Handset, NoUse, Reason, Register, Tone, Train
+from kernel.alarm.tone import Display, Handset, NoUse, Opening, Reason, Register, Tone, Train
 from kernel.maps import Map
 from models.measures import UM_A_MM, apart, greater
 
@@ -24,7 +24,9 @@ class Body:
     ``antenna_um``, ``heading``: where its antenna is, and which way it runs, or ran last if it stands.
     ``below_mm``, ``above_mm``: how far it reaches from there.
     ``next_um``, ``next_heading``: what it will have done when time has passed.
-    ``fix_is_right``: the fix that was told last, of those that fitted, was within its error.
+    ``fix_is_right``: the last fix told of those that fitted was within its error, and in this line's figures.
+    ``came_by``, ``came_ms``: by which opening it came onto the line, and how long ago; more than an hour where it was
+    made up on the line, or came longer ago.
     """
 
     antenna_um: int
@@ -34,6 +36,8 @@ class Body:
     next_um: int
     next_heading: Direction
     fix_is_right: bool
+    came_by: Opening
+    came_ms: int
 
 
 @dataclass(frozen=True)
@@ -73,8 +77,8 @@ class Told:
 class Heard:
     """A history: a tone, and what was so when the worker heard it.
 
-    ``within_3000``, ``within_1500``: some train was, and had not departed.
-    ``matched_within_1500``: one of which both sources agreed, while the worker had a fix.
+    ``within_3000``, ``within_1500``: some train was, and had not departed, or was that near beyond an opening.
+    ``matched_within_1500``: one of which both sources agreed, while the worker had a fix; none that had just come.
     ``unknown``: some train was not on the list, or not known as it should be, or the worker's place was not.
     ``astray``: of some train on the list the last fix jumped, or the last that fitted is too old, and the display alone
     is not enough for it.
@@ -123,6 +127,30 @@ def has_departed(body: Body, worker_um: int) -> bool:
 def approaches_within(body: Body, worker_um: int, limit_mm: int) -> bool:
     """Tell whether a train is that near, the limit included, and has not departed (A3)."""
     return gap_um(body, worker_um) <= UM_A_MM * limit_mm and not has_departed(body, worker_um)
+
+
+def is_beyond_within(site: Railway, opening: Opening, beyond_um: int, worker_um: int, limit_mm: int) -> bool:
+    """Tell whether a train is that near which is not on the line, by the opening over which its way leads (A3).
+
+    ``beyond_um``: how far its nearest part is from there; below 0 where it stands astride, by no more than its length.
+    """
+    openings = site.register.openings
+    return (
+        opening in openings
+        and beyond_um >= -UM_A_MM * site.register.bounds.length_mm
+        and apart(worker_um, UM_A_MM * openings[opening]) + beyond_um <= UM_A_MM * limit_mm
+    )
+
+
+def has_just_come(site: Railway, body: Body) -> bool:
+    """Tell whether what was told of a train before it came onto the line may still be fresh (A1)."""
+    fresh = site.register.fresh
+    return body.came_ms <= 3_600_000 and body.came_ms <= greater(fresh.fix_ms, fresh.display_ms)
+
+
+def is_of_the_line(body: Body, age_ms: int) -> bool:
+    """Tell whether a report was made while its train was on the line, and so is in the line's figures (A1)."""
+    return body.came_ms > 3_600_000 or age_ms < body.came_ms
 
 
 # ---- what was told, by the register of the line alone

@@ -11,7 +11,15 @@ from models.alarm.tone_assumptions import (
     no_train_is_longer_than_written,
     no_train_turns_sooner,
 )
-from models.alarm.worksite import Railway, Worksite, is_in_a_stretch, is_list_fresh, is_report
+from models.alarm.worksite import (
+    Railway,
+    Worksite,
+    has_just_come,
+    is_in_a_stretch,
+    is_list_fresh,
+    is_of_the_line,
+    is_report,
+)
 from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
 
@@ -34,7 +42,7 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
         and system.told.worker == system.handset.worker
         and system.told.servers_well == system.handset.servers_well
         and system.told.battery_well == system.handset.battery_well
-        and all(body.fix_is_right for _train, body in system.bodies.items())
+        and all(body.fix_is_right and body.came_ms > 3_600_000 for _train, body in system.bodies.items())
         and all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
     )
 
@@ -43,12 +51,15 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
 
 
 def the_normal_tone_means_no_train_within_3000_m(site: Railway, system: Worksite) -> bool:
-    """While the normal tone sounds each train of the line is farther than 3000 m, or has departed (A3)."""
+    """While the normal tone sounds each train is farther than 3000 m, or of the line and has departed (A3).
+
+    Of any network: also a train beyond the line's end, on a line that joins, or beyond a break of kilometrage.
+    """
     return system.heard.tone != Tone.NORMAL or not system.heard.within_3000
 
 
 def caution_means_no_train_within_1500_m(site: Railway, system: Worksite) -> bool:
-    """While caution alone sounds each train is farther than 1500 m, or has departed (A3)."""
+    """While caution alone sounds each train, of the line or not, is farther than 1500 m, or has departed (A3)."""
     return system.heard.tone != Tone.CAUTION or not system.heard.within_1500
 
 
@@ -137,25 +148,39 @@ def trains_are_within_reach_of_the_display(site: Railway, system: Worksite) -> b
         <= UM_A_MM * (system.handset.trains[train].display.to_mm + site.register.display_error_mm)
         + site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
         for train, body in system.bodies.items()
-        if train in system.handset.trains and is_in_a_stretch(system.handset.trains[train].display)
+        if train in system.handset.trains
+        and is_in_a_stretch(system.handset.trains[train].display)
+        and is_of_the_line(body, system.handset.trains[train].display.age_ms)
+    )
+
+
+def a_train_is_near_the_opening_that_it_came_by(site: Railway, system: Worksite) -> bool:
+    """A train that came by an opening this hour has got no farther from it than the line's speed lets it (A1)."""
+    return all(
+        body.came_by in site.register.openings
+        and body.came_ms >= 0
+        and apart(body.antenna_um, UM_A_MM * site.register.openings[body.came_by])
+        <= site.register.bounds.train_mm_s * body.came_ms
+        for _train, body in system.bodies.items()
+        if body.came_ms <= 3_600_000
     )
 
 
 def wrong_fixes_are_contradicted(site: Railway, system: Worksite) -> bool:
-    """A fix that is wrong is one that the display contradicts (A2)."""
+    """A fix that is wrong is one that the display contradicts, but of a train that has just come (A2)."""
     return all(
         a_wrong_fix_is_contradicted(site, system.told.trains[train], body.fix_is_right)
         for train, body in system.bodies.items()
-        if train in system.told.trains
+        if train in system.told.trains and not has_just_come(site, body)
     )
 
 
 def told_directions_still_hold(site: Railway, system: Worksite) -> bool:
-    """While it counts, no direction told is against that of the train (A3)."""
+    """While it counts, no direction told is against that of the train, but of one that has just come (A3)."""
     return all(
         no_train_turns_sooner(site, system.told.trains[train], body.heading)
         for train, body in system.bodies.items()
-        if train in system.told.trains
+        if train in system.told.trains and not has_just_come(site, body)
     )
 
 
@@ -186,14 +211,20 @@ INVARIANTS = (
     the_worker_is_within_reach_of_his_fix,
     trains_are_within_reach_of_right_fixes,
     trains_are_within_reach_of_the_display,
+    a_train_is_near_the_opening_that_it_came_by,
     wrong_fixes_are_contradicted,
     told_directions_still_hold,
     no_train_of_the_line_is_longer,
     a_fresh_list_has_every_train,
 )
-PREMISES = (assumed.the_alarm_limit_is_within_an_hour, assumed.the_error_is_not_negative)
+PREMISES = (
+    assumed.the_alarm_limit_is_within_an_hour,
+    assumed.the_error_is_not_negative,
+    assumed.speed_and_freshness_are_not_negative,
+)
 STEPS = (
     world.come,
+    world.come_by,
     world.leave,
     world.intend,
     world.pass_time,

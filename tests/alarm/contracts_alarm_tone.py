@@ -31,6 +31,7 @@ REGISTER = Register(
     tolerance_mm=50_000,
     sections={},
     stabled=frozenset(),
+    openings={},
 )
 WORKER = WorkerFix(place_mm=0, age_ms=0)
 

@@ -233,6 +233,7 @@ def test_maps_sets_and_names_come_back_as_they_went() -> None:
         8,
         {},
         frozenset({(tone.Train(9), tone.Section(1)), (tone.Train(2), tone.Section(0))}),  # type: ignore[arg-type]
+        {},
     )
     assert list(packed(register).sections) == []
     assert list(packed(register).stabled) == [(2, 0), (9, 1)]

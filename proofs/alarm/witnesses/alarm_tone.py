@@ -21,7 +21,7 @@ from kernel.alarm.tone import (
 )
 from models.alarm.line import BOUNDS, FRESH
 from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed, may_be_within
-from proofs.alarm.witnesses import one_decision, what_is_known
+from proofs.alarm.witnesses import one_decision, openings, what_is_known
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     CAUTION,
@@ -30,6 +30,7 @@ from proofs.alarm.witnesses.worksite import (
     FIRST,
     KM,
     NORMAL,
+    NOWHERE,
     OFF_MM,
     OTHER,
     REGISTER,
@@ -141,7 +142,7 @@ def a_tunnel_goes_into_history_by_its_outer_end() -> None:
 
 def a_train_reaches_from_end_to_end() -> None:
     """The gap is to its nearer end; it has departed when all of it is past (A3)."""
-    body = Body(0, DOWN, 58_000, 2_000, 0, DOWN, fix_is_right=True)
+    body = Body(0, DOWN, 58_000, 2_000, 0, DOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1)
     assert gap_um(body, UM_A_MM * 500_000) == UM_A_MM * 498_000
     assert gap_um(body, -UM_A_MM * 500_000) == UM_A_MM * 442_000
     assert gap_um(body, 0) == -UM_A_MM * 2_000
@@ -242,7 +243,9 @@ def a_list_that_is_not_heard_is_the_fault_tone() -> None:
     day.hear()
     day.run(8_000)
     at_um = UM_A_MM * WORKER_MM
-    body = Body(at_um, DOWN, 58_000, 2_000, at_um, DOWN, fix_is_right=True)
+    body = Body(
+        at_um, DOWN, 58_000, 2_000, at_um, DOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1
+    )
     before = day.system
     assert day.step("come", train=FIRST, body=body) == before
     day.run(1)
@@ -412,7 +415,7 @@ def no_train_longer_than_written_comes() -> None:
     day = Day()
     day.step("hear_named", train=FIRST)
     before = day.system
-    body = Body(0, UNKNOWN, 60_000, 60_000, 0, UNKNOWN, fix_is_right=True)
+    body = Body(0, UNKNOWN, 60_000, 60_000, 0, UNKNOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1)
     for below_mm, above_mm in ((60_001, 0), (0, 60_001), (-1, 0), (0, -1)):
         bad = replace(body, below_mm=below_mm, above_mm=above_mm)
         assert day.step("come", train=FIRST, body=bad) == before
@@ -459,4 +462,5 @@ WITNESSES = (
     a_train_turns_when_it_can,
     *one_decision.WITNESSES,
     *what_is_known.WITNESSES,
+    *openings.WITNESSES,
 )

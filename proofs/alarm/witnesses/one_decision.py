@@ -27,6 +27,7 @@ from kernel.alarm.tone import (
 )
 from proofs.alarm.witnesses.worksite import (
     ALARM,
+    BRANCH,
     CAUTION,
     DOWN,
     FAULT,
@@ -280,6 +281,7 @@ def every_number_fits_into_64_bits() -> None:
         tolerance_mm=edge,
         sections={name: NoUse(reason, -edge, edge, edge) for name, reason in zip((TUNNEL, YARD), Reason, strict=False)},
         stabled=frozenset(),
+        openings={BRANCH: -edge},
     )
     numbers = [Checked(number) for number in (-HUGE, -GREATEST_PLACE_MM, 0, GREATEST_AGE_MS, GREATEST_PLACE_MM, HUGE)]
     for place_mm, age_ms, shown_mm, own_mm in product(numbers, numbers, numbers, numbers):

@@ -20,6 +20,7 @@ from kernel.alarm.tone import (
     Handset,
     Known,
     NoUse,
+    Opening,
     Reason,
     Register,
     Section,
@@ -34,6 +35,7 @@ from proofs.onboard.witnesses.play import Play
 DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
 ALARM, FAULT, CAUTION, NORMAL = Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL
 TUNNEL, YARD, SIDING = Section("tunnel"), Section("yard"), Section("siding")
+BRANCH, NOWHERE = Opening("branch"), Opening("nowhere")
 KM = 1_000_000
 REGISTER = Register(
     BOUNDS,
@@ -46,6 +48,7 @@ REGISTER = Register(
         SIDING: NoUse(Reason.STABLING, 60 * KM, 61 * KM, zone_mm=0),
     },
     stabled=frozenset({(Train("9D"), SIDING)}),
+    openings={BRANCH: 90 * KM},
 )
 SITE = Railway(REGISTER)
 WORKER_MM = 10 * KM
@@ -98,8 +101,12 @@ class Day(Play[Railway, Worksite]):
 
     def tone(self) -> Tone:
         """Listen."""
+        return self.tone_with(NOWHERE, 0)
+
+    def tone_with(self, opening: Opening, beyond_mm: int) -> Tone:
+        """Listen while a train is beyond an opening."""
         before = self.system
-        self.step("listen")
+        self.step("listen", opening=opening, beyond_um=UM_A_MM * beyond_mm)
         assert replace(self.system, heard=before.heard) == before
         return self.system.heard.tone
 
@@ -113,9 +120,9 @@ class Day(Play[Railway, Worksite]):
         """A train comes onto the line, after the list has named it."""
         self.step("hear_named", train=train)
         at_um = UM_A_MM * at_mm
-        body = Body(at_um, heading, 58_000, 2_000, at_um, heading, fix_is_right=False)
+        body = Body(at_um, heading, 58_000, 2_000, at_um, heading, fix_is_right=False, came_by=NOWHERE, came_ms=0)
         self.step("come", train=train, body=body)
-        assert self.system.bodies[train] == replace(body, fix_is_right=True)
+        assert self.system.bodies[train] == replace(body, fix_is_right=True, came_ms=GREATEST_AGE_MS + 1)
 
     def tell(self, train: Train, heading: Direction = UNKNOWN, *, off_mm: int = 0, display: bool = True) -> Known:
         """Both sources tell of a train, or GPS alone; ``off_mm``: how wrong the fix is."""
