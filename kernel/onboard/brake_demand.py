@@ -12,6 +12,7 @@ from kernel.onboard import braking
 from kernel.onboard.brake_watch import BrakeWatch
 from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.onboard.odometry import Motion, is_located, rear_least_mm
+from kernel.onboard.restriction_ahead import Ahead, is_too_fast
 from kernel.onboard.reverse_movement import Movement
 from kernel.onboard.speed_limit import SpeedLimit, SpeedTable, is_overspeed
 from kernel.onboard.split import Split, demands_emergency_brake
@@ -31,7 +32,7 @@ class TrainLimits:
 class Known:
     """What the machines on board know at the end of a cycle.
 
-    ``motion``: the odometry's, and ``watch``, ``movement``, ``limit``, ``wholeness``, ``window`` the others'.
+    ``motion``: the odometry's, and ``watch``, ``movement``, ``limit``, ``wholeness``, ``window``, ``ahead`` others'.
     """
 
     motion: Motion
@@ -40,14 +41,15 @@ class Known:
     limit: SpeedLimit
     wholeness: Split
     window: Window
+    ahead: Ahead
 
 
 def is_demanded(limits: TrainLimits, known: Known, may_proceed: bool) -> bool:
     """Tell whether anything wants the emergency brake (T5, T12, P5).
 
     A broken bound of motors or brake, reverse movement, an overspeed, which a train with a lost position may
-    always have, a split, an overdue tag, or an order that does not let the train proceed:
-    ``kernel.authority.may_proceed`` for its run.
+    always have, a restriction ahead that is near, a split, an overdue tag, or an order that does not let the train
+    proceed: ``kernel.authority.may_proceed`` for its run.
     """
     motion = known.motion
     return (
@@ -60,6 +62,7 @@ def is_demanded(limits: TrainLimits, known: Known, may_proceed: bool) -> bool:
             rear_least_mm(motion, limits.length_mm),
             motion.speed_most_mm_s,
         )
+        or is_too_fast(limits.brake, limits.speeds, known.ahead, motion.front_most_mm, motion.speed_most_mm_s)
         or demands_emergency_brake(known.wholeness)
         or known.window.passed
         or not may_proceed

@@ -2,9 +2,10 @@
 
 The rule is worked out for the worst: the train gains speed as hard as it can for this cycle and for as
 long as the brake takes to respond, and only then slows by what the brake guarantees.  If it would
-not stop before the end of its authority then, the brake comes on now.
+not stop before the end of its authority then, the brake comes on now.  To be slower from a place on is the same
+with another speed than 0 at the end.
 
-An inequality instead of a division: u² <= 2 b s, with u in µm/s, b in mm/s² and s in nm.  It fits into
+An inequality instead of a division: u² - v² <= 2 b s, with u and v in µm/s, b in mm/s² and s in nm.  It fits into
 64 bits for speeds to 200 m/s, decelerations to 4 m/s² and ends at most 1000 km ahead.
 """
 
@@ -12,7 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, LONGEST_CYCLE_MS, NM_A_MM, SHORTEST_CYCLE_MS, smaller
+from kernel.onboard.arithmetic import (
+    GREATEST_SPEED_MM_S,
+    LONGEST_CYCLE_MS,
+    NM_A_MM,
+    SHORTEST_CYCLE_MS,
+    limited,
+    smaller,
+)
 
 FARTHEST_MM = 10**9
 """The farthest ahead that an end of authority is reckoned with; what lies beyond counts as so far."""
@@ -78,18 +86,25 @@ def left_nm(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_m
     return end_nm - reach_nm(bounds, front_most_mm, speed_most_mm_s) - cycle_nm
 
 
-def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> bool:
-    """Tell whether a train that brakes a cycle from now still stops before the end (T12).
+def slows_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, place_mm: int, to_mm_s: int) -> bool:
+    """Tell whether a train that brakes a cycle from now runs at no more than ``to_mm_s`` from a place on (T12).
 
     ``front_most_mm``, ``speed_most_mm_s``: as far and as fast as it may be.  Out of range, it does not.
     """
     if not 0 <= speed_most_mm_s <= GREATEST_SPEED_MM_S or not -GREATEST_PLACE_MM <= front_most_mm <= GREATEST_PLACE_MM:
         return False
-    if end_mm < front_most_mm:
+    fast_um_s, slow_um_s = worst_um_s(bounds, speed_most_mm_s), 1000 * limited(to_mm_s, 0, GREATEST_SPEED_MM_S)
+    if fast_um_s < slow_um_s:
+        return True
+    if place_mm < front_most_mm:
         return False
-    fast_um_s = worst_um_s(bounds, speed_most_mm_s)
-    way_nm = left_nm(bounds, front_most_mm, speed_most_mm_s, end_mm)
-    return way_nm >= 0 and fast_um_s * fast_um_s <= 2 * slows_mm_s2(bounds) * way_nm
+    way_nm = left_nm(bounds, front_most_mm, speed_most_mm_s, place_mm)
+    return way_nm >= 0 and fast_um_s * fast_um_s - slow_um_s * slow_um_s <= 2 * slows_mm_s2(bounds) * way_nm
+
+
+def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> bool:
+    """Tell whether a train that brakes a cycle from now still stops before the end (T12)."""
+    return slows_before(bounds, front_most_mm, speed_most_mm_s, end_mm, 0)
 
 
 def supervise(

@@ -18,6 +18,7 @@ from kernel.onboard import (
     brake_watch,
     braking,
     odometry,
+    restriction_ahead,
     reverse_movement,
     speed_limit,
     split,
@@ -29,13 +30,14 @@ from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Motion, Readings
+from kernel.onboard.restriction_ahead import NONE_LISTED
 from kernel.onboard.reverse_movement import LOCATED
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
 from kernel.onboard.tag_window import NONE_AWAITED
 from kernel.onboard.way import Way
-from kernel.standstill import Standstill, ThroughLine, is_braked
+from kernel.standstill import Standstill, ThroughLine, is_braked, is_held
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,7 @@ def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
             limit=NO_TRACK_KNOWN,
             wholeness=split.made_up(limits.split),
             window=NONE_AWAITED,
+            ahead=NONE_LISTED,
         ),
         before=odometry.past(motion),
         from_mm=0,
@@ -131,6 +134,7 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
             limit=known.limit,
             wholeness=split.note_cycle(limits.split, known.wholeness, tail),
             window=known.window,
+            ahead=known.ahead,
         ),
         before=known.motion,
     )
@@ -154,16 +158,37 @@ def way_to_tag_mm(limits: Limits, computer: Computer, place_mm: int) -> int:
     return place_mm + limits.tags.antenna_mm - computer.from_mm
 
 
-def await_tag(limits: Limits, computer: Computer, place_mm: int) -> Computer:
-    """Await the tag that is listed at this place as the next; the way to it is counted from behind the train (T5)."""
+def await_tag(limits: Limits, computer: Computer, place_mm: int, kind: int) -> Computer:
+    """Await the tag that is listed at this place as the next; the way to it is counted from behind the train (T5).
+
+    ``kind``: as listed; where the list does not say it, the worst (``tag_kind.UNKNOWN``).  What is listed beyond it
+    is told anew (:func:`note_listed`).
+    """
     begun = replace(computer, from_mm=computer.known.motion.front_least_mm - limits.window.tolerance_mm)
     away_mm = way_to_tag_mm(limits, begun, place_mm)
-    return replace(begun, known=replace(begun.known, window=tag_window.await_tag(away_mm, away_mm)))
+    window = tag_window.await_tag(away_mm, away_mm)
+    return note_listed(
+        limits, replace(begun, known=replace(begun.known, window=window, ahead=NONE_LISTED)), place_mm, kind
+    )
+
+
+def note_listed(limits: Limits, computer: Computer, place_mm: int, kind: int) -> Computer:
+    """Take a tag that is listed ahead, and the kind that the list has for it: nothing restricts before it (T1, T12).
+
+    It is told in the same cycle as the end of authority beyond it, or before.
+    """
+    ahead = restriction_ahead.note_listed(computer.known.ahead, kind, read_from_mm(limits, place_mm))
+    return replace(computer, known=replace(computer.known, ahead=ahead))
+
+
+def read_from_mm(limits: Limits, place_mm: int) -> int:
+    """Give where the front is at the least when the head reads a tag that is listed at ``place_mm`` (T1, T2)."""
+    return place_mm + limits.tags.antenna_mm - limits.tags.error_mm
 
 
 def await_none(computer: Computer) -> Computer:
-    """Await no tag: no order says which comes next (T5)."""
-    return replace(computer, known=replace(computer.known, window=NONE_AWAITED))
+    """Await no tag: no order says which comes next, and no list what lies ahead (T5, T12)."""
+    return replace(computer, known=replace(computer.known, window=NONE_AWAITED, ahead=NONE_LISTED))
 
 
 def awaits(limits: Limits, computer: Computer, place_mm: int) -> bool:
@@ -250,12 +275,14 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
     )
 
 
-def note_place(computer: Computer, least_mm: int, most_mm: int) -> Computer:
+def note_place(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Narrow the range by what a person says who sees the train stand: from where to where its front may be (P7, T8).
 
     He may say no more than on which side of a boundary it is.  The wheel stays trusted, as it would not if the train
-    were located anew.
+    were located anew.  One that is not held at rest may be elsewhere by the time he has said it.
     """
+    if not is_held(standstill(limits, computer)):
+        return computer
     motion = odometry.note_fix(computer.known.motion, least_mm, most_mm)
     return replace(computer, known=replace(computer.known, motion=motion))
 
@@ -282,6 +309,7 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
             movement=LOCATED,
             limit=NO_TRACK_KNOWN,
             window=NONE_AWAITED,
+            ahead=NONE_LISTED,
         ),
         before=odometry.past(motion),
         from_mm=0,

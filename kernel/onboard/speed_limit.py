@@ -7,8 +7,8 @@ of each; an earlier end lies behind it, and is passed before.
 
 A tag that is not where a list has it says nothing, and what was known of the track counts no more: nobody
 knows which one it is.  That no tag is missed is the second loop's to watch (T5).  What lies ahead of the
-next tag is not known here: a driver slows down before, or the brake does from the tag on (ours).  Nothing is
-calculated, so that every number of 64 bits is answered.
+next tag is not known here, but by lists (``kernel.onboard.restriction_ahead``); where no list had it the brake
+slows the train from the tag on.  Nothing is calculated, so that every number of 64 bits is answered.
 """
 
 from __future__ import annotations

@@ -8,16 +8,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard import braking
+from kernel.onboard import braking, restriction_ahead
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.speed_limit import SpeedTable
+from models.onboard import slowing, speed_limit
+from models.onboard.slowing import Slowing
 from models.onboard.units import LONGEST_MS, NM_A_MM, SHORTEST_MS, UM_A_MM, larger, magnitude
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """What does not change: the bounds that the brake is held to (T12)."""
+    """What does not change: the bounds that the brake is held to, and the speeds of the line (T12)."""
 
     bounds: BrakeBounds
+    table: SpeedTable
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,7 @@ class Approach:
     ``released_amiss``: history: it has gone off while it was demanded, unacknowledged, or while the train moved.
     ``brake``: what the brake control knows.
     ``wanted``, ``wanted_mm``: the end of authority that the unit wants, if there is one.
+    ``slowing``: the train as it comes to restrictions ahead.
     """
 
     head_nm: int
@@ -46,6 +51,7 @@ class Approach:
     brake: Brake
     wanted: bool
     wanted_mm: int
+    slowing: Slowing
 
 
 # ---- premises
@@ -96,12 +102,17 @@ def the_brake_keeps_its_bound(site: Vehicle, system: Approach, speed_um_s: int) 
     return speed_um_s <= larger(0, system.speed_um_s - SHORTEST_MS * site.bounds.slows_mm_s2)
 
 
+def a_list_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> bool:
+    """The list has of each tag what is written in it: every curve and turnout that lies after it (T1, T12)."""
+    return speed_limit.a_kind_hides_no_restriction(in_curve, at_turnout, kind)
+
+
+def a_listed_tag_is_read_no_earlier(from_mm: int, read_from_nm: int) -> bool:
+    """Where the unit reckons that a listed tag is read first, none is read before (T1, T2)."""
+    return NM_A_MM * from_mm <= read_from_nm
+
+
 # ---- transitions
-
-
-def slows_mm_s2(site: Vehicle) -> int:
-    """How a brake slows the train in long cycles that does so by what is guaranteed in short ones (T12)."""
-    return site.bounds.slows_mm_s2 * SHORTEST_MS // LONGEST_MS
 
 
 def run_a_cycle(
@@ -117,17 +128,22 @@ def run_a_cycle(
 ) -> Approach:
     """The control decides, and the train runs for a cycle as the driver, the line and the brake let it (T12).
 
-    Whoever demands the brake may do so because nothing is known of place and speed.
+    Whoever demands the brake may do so because nothing is known of place and speed.  A restriction ahead demands it.
     """
     if not demanded and not the_range_contains_the_head(system, front_most_mm, speed_least_mm_s, speed_most_mm_s):
         return system
     if not the_way_follows_the_speed(system, to_nm, speed_um_s):
         return system
+    is_near = restriction_ahead.is_too_fast(
+        site.bounds, site.table, system.slowing.ahead, front_most_mm, speed_most_mm_s
+    )
     brake = braking.supervise(
-        site.bounds, system.brake, front_most_mm, speed_least_mm_s, speed_most_mm_s, demanded, acknowledged
+        site.bounds, system.brake, front_most_mm, speed_least_mm_s, speed_most_mm_s, demanded or is_near, acknowledged
     )
     responds = brake.applied and system.response_cycles == 0
-    if responds and not the_brake_keeps_its_bound(site, system, speed_um_s):
+    if (responds or (brake.applied and system.slowing.response_cycles == 0)) and not the_brake_keeps_its_bound(
+        site, system, speed_um_s
+    ):
         return system
     if not the_train_gains_no_more(site, system, speed_um_s):
         return system
@@ -140,8 +156,11 @@ def run_a_cycle(
             speed_um_s=speed_um_s,
             demanded=demanded,
             released_amiss=system.released_amiss or amiss,
+            slowing=slowing.let_run(
+                site.bounds, system.slowing, front_most_mm, speed_most_mm_s, brake.end_mm, system.speed_um_s
+            ),
         )
-    slowed_um_s = larger(0, system.worst_um_s - LONGEST_MS * slows_mm_s2(site))
+    slowed_um_s = larger(0, system.worst_um_s - LONGEST_MS * slowing.slows_mm_s2(site.bounds))
     return replace(
         system,
         head_nm=to_nm,
@@ -152,7 +171,30 @@ def run_a_cycle(
         left_nm=system.left_nm - LONGEST_MS * slowed_um_s if responds else system.left_nm,
         demanded=demanded,
         brake=brake,
+        slowing=slowing.held(site.bounds, system.slowing, system.speed_um_s),
     )
+
+
+def list_tag(
+    site: Vehicle,
+    system: Approach,
+    in_curve: bool,
+    at_turnout: bool,
+    kind: int,
+    from_mm: int,
+    read_from_nm: int,
+) -> Approach:
+    """A tag is listed ahead; the front is at ``read_from_nm`` or beyond when it is read (T1, T12)."""
+    if not a_list_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    if not a_listed_tag_is_read_no_earlier(from_mm, read_from_nm):
+        return system
+    return replace(system, slowing=slowing.listed(system.slowing, in_curve, at_turnout, kind, from_mm, read_from_nm))
+
+
+def list_none(site: Vehicle, system: Approach) -> Approach:
+    """Nothing is listed ahead any more (T4, T12)."""
+    return replace(system, slowing=slowing.unlisted(system.slowing))
 
 
 def stands(site: Vehicle, system: Approach) -> bool:

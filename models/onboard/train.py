@@ -12,8 +12,9 @@ from kernel.onboard import braking as brake_control
 from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
-from models.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit, tag_window
+from models.onboard import antenna_spacing, brake_watch, braking, odometry, slowing, speed_limit, tag_window
 from models.onboard.antenna_spacing import Trailing
+from models.onboard.braking import Approach
 from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
     Train,
@@ -50,6 +51,7 @@ from models.onboard.train_nature import (
     watched_over,
     way_nm,
     who_finds_the_train_whole_finds_its_antennas_as_preset,
+    who_says_where_a_held_train_is_sees_it_stand,
 )
 from models.onboard.units import NM_A_MM
 
@@ -307,15 +309,18 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
 
 
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
-    """At rest somebody says between which places the front is, and the computer goes on (P7, T8)."""
+    """Somebody says between which places the front is, late it may be, and the computer goes on (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
+    if not who_says_where_a_held_train_is_sees_it_stand(site, system, least_mm, most_mm):
+        return system
+    said = computer.note_place(site.limits, system.computer, least_mm, most_mm)
+    if said == system.computer:
         return system
     return replace(
         system,
         running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
-        computer=computer.note_place(system.computer, least_mm, most_mm),
+        computer=said,
     )
 
 
@@ -354,6 +359,7 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             left_nm=0,
             demanded=False,
             wanted=False,
+            slowing=slowing.at_rest(system.front_nm, system.computer.brake.end_mm),
         ),
         watched=replace(watched(system), allowed_mm_s=0),
         asked=system.computer.brake,
@@ -363,11 +369,17 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
     )
 
 
-def await_tag(site: Train, system: Whole, place_mm: int) -> Whole:
-    """The orders say which tag comes next, and where it is listed (T5)."""
+def await_tag(
+    site: Train, system: Whole, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Whole:
+    """The orders say which tag comes next, where it is listed, and what lies from it on (T5, T12)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    told = computer.await_tag(site.limits, system.computer, place_mm)
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    told = computer.await_tag(site.limits, system.computer, place_mm, kind)
     window = told.known.window
     awaiting = replace(system, awaited_mm=place_mm, computer=told)
     return replace(
@@ -375,7 +387,36 @@ def await_tag(site: Train, system: Whole, place_mm: int) -> Whole:
         expecting=tag_window.expect_a_tag(
             stretch(site), system.expecting, way_nm(awaiting, system.front_nm), window.least_mm, window.most_mm
         ),
+        approach=_listed(
+            site, braking.list_none(braked(site), approach(system)), place_mm, kind, uid, in_curve, at_turnout
+        ),
     )
+
+
+def note_listed(
+    site: Train, system: Whole, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Whole:
+    """The list has a further tag ahead, and what lies from it on (T1, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    return replace(
+        system,
+        computer=computer.note_listed(site.limits, system.computer, place_mm, kind),
+        approach=_listed(site, approach(system), place_mm, kind, uid, in_curve, at_turnout),
+    )
+
+
+def _listed(
+    site: Train, there: Approach, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Approach:
+    """The head reads it no earlier than at the near end of its read window (T2)."""
+    from_mm, read_from_mm = computer.read_from_mm(site.limits, place_mm), uid - site.read_within_mm
+    read_from_nm = NM_A_MM * (read_from_mm + site.limits.tags.antenna_mm)
+    return braking.list_tag(braked(site), there, in_curve, at_turnout, kind, from_mm, read_from_nm)
 
 
 def await_none(site: Train, system: Whole) -> Whole:
@@ -385,6 +426,7 @@ def await_none(site: Train, system: Whole) -> Whole:
     return replace(
         system,
         expecting=tag_window.expect_none(stretch(site), system.expecting),
+        approach=braking.list_none(braked(site), approach(system)),
         computer=computer.await_none(system.computer),
     )
 

@@ -92,7 +92,7 @@ def line(site: Train) -> Line:
 
 def braked(site: Train) -> braking.Vehicle:
     """Give the site of the brake control's world."""
-    return braking.Vehicle(bounds=site.limits.train.brake)
+    return braking.Vehicle(bounds=site.limits.train.brake, table=site.limits.train.speeds)
 
 
 def watched_over(site: Train) -> brake_watch.Vehicle:
@@ -142,7 +142,8 @@ def before(system: Whole) -> Running:
 
 def approach(system: Whole) -> Approach:
     """Give it as the brake control's world sees it (T12)."""
-    return replace(coming(system), brake=system.computer.brake)
+    seen = replace(system.approach.slowing, ahead=system.computer.known.ahead)
+    return replace(coming(system), brake=system.computer.brake, slowing=seen)
 
 
 def coming(system: Whole) -> Approach:
@@ -340,6 +341,15 @@ def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> b
 def the_train_stands_where_it_is_said_to(system: Whole, least_mm: int, most_mm: int) -> bool:
     """Who locates a train anew sees it stand, and its front within what he says (P7, T8)."""
     return odometry.the_train_stands_where_it_is_said_to(before(system), least_mm, most_mm)
+
+
+def who_says_where_a_held_train_is_sees_it_stand(site: Train, system: Whole, least_mm: int, most_mm: int) -> bool:
+    """Who says where the front of a held train is sees it stand there; else he may say what was so (P7, T8)."""
+    brake = site.limits.train.brake
+    is_held = system.watched.cycles >= brake.response_cycles and (
+        -UM_A_MM * brake.standstill_mm_s <= system.speed_um_s <= UM_A_MM * brake.standstill_mm_s
+    )
+    return not is_held or the_train_stands_where_it_is_said_to(system, least_mm, most_mm)
 
 
 def a_train_whose_computer_is_off_is_held(site: Train, system: Whole) -> bool:

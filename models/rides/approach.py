@@ -34,6 +34,7 @@ stops_before, Brake = MADE.braking.stops_before, MADE.braking.Brake
 decide, Known = MADE.brake_demand.decide, MADE.brake_demand.Known
 note_movement, NOT_MOVED = MADE.reverse_movement.note_cycle, MADE.reverse_movement.LOCATED
 UNKNOWN, NONE_AWAITED, made_up = MADE.speed_limit.UNKNOWN, MADE.tag_window.NONE_AWAITED, MADE.split.made_up
+NONE_LISTED = MADE.restriction_ahead.NONE_LISTED
 watching, note_watch = MADE.brake_watch.watching, MADE.brake_watch.note_cycle
 
 
@@ -119,7 +120,7 @@ def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any
     out[tally.APPROACHES] = 1
     broken_bounds(ending, out)
     for _ in range(LONGEST_CYCLES):
-        known = Known(motion, watch, movement, UNKNOWN, whole, NONE_AWAITED)
+        known = Known(motion, watch, movement, UNKNOWN, whole, NONE_AWAITED, NONE_LISTED)
         brake = decide(TRAIN_LIMITS, brake, known, True, False)
         braked_cycles = braked_cycles + 1 if brake.applied else 0
         before, rolling = rolling, rolled(rolling, ending, braked_cycles)

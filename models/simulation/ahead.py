@@ -18,7 +18,7 @@ from models.layouts.track import Heading, Stop
 
 @dataclass(frozen=True)
 class Ahead:
-    """The list of one run: where each block ends for a head that runs through it, and where each tag lies.
+    """The list of one run: where each block ends for a head that runs through it, where each tag lies, and its kind.
 
     ``begins_mm``: where the first of these blocks begins, or the train's path as far as it is remembered.
     ``arrives``: the last segment, and the end of it that the train then faces.
@@ -27,6 +27,7 @@ class Ahead:
     begins_mm: int
     ends_mm: Map[Block, int]
     tags_mm: Mapping[Tag, int]
+    kinds: Mapping[Tag, int]
     arrives: Heading
 
     def bounds_mm(self, block: Block) -> tuple[int, int] | None:
@@ -38,8 +39,13 @@ class Ahead:
         return max(before, default=self.begins_mm), end_mm
 
 
-def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Point, Position]) -> Ahead:
-    """Survey a run whose points lie right, from where the train came into it, or from its front's block on."""
+def ahead(
+    layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Point, Position], kinds: Mapping[Tag, int]
+) -> Ahead:
+    """Survey a run whose points lie right, from where the train came into it, or from its front's block on.
+
+    ``kinds``: what is written in each tag of the line.
+    """
     wanted, destination = layout.claims[run.route], layout.destination[run.route]
     ends_mm: dict[Block, int] = {}
     tags_mm: dict[Tag, int] = {}
@@ -54,7 +60,7 @@ def ahead(layout: Layout, rails: Rails, train: OnRails, run: Run, lies: Map[Poin
                 ends_mm[block] = piece.to_mm
         if out and block == destination:
             break
-    return Ahead(begins_mm, ends_mm, tags_mm, arrives)
+    return Ahead(begins_mm, ends_mm, tags_mm, {tag: kinds[tag] for tag in tags_mm}, arrives)
 
 
 def block_begins_mm(rails: Rails, train: OnRails) -> int:

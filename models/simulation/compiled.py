@@ -12,7 +12,7 @@ from typing import Any
 from numba.typed import List
 
 from kernel.onboard import computer as computing
-from kernel.onboard import odometry, split
+from kernel.onboard import odometry, speed_limit, split
 from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
@@ -27,9 +27,10 @@ _motion_of, _brake_of, _computer_of = unpacking(Motion), unpacking(Brake), unpac
 @cache
 def made() -> Any:
     """The compiled function; it is compiled when it is first called, and kept for the next process."""
-    kernel = compile_machines((computing, odometry, split))
+    kernel = compile_machines((computing, odometry, speed_limit, split))
     read = sensing(compiled, kernel.odometry.Readings, kernel.split.Readings, kernel.split.Acceleration)
-    machines = Machines(kernel.computer.decide, kernel.computer.sense, kernel.odometry.is_located, read)
+    kept, limit_mm_s = kernel.computer, kernel.speed_limit.limit_mm_s
+    machines = Machines(kept.decide, kept.sense, kernel.odometry.is_located, limit_mm_s, read)
     cycles = cycles_of(machines, compiled)
 
     @compiled

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 from kernel.onboard import computer as computing
-from kernel.onboard import odometry
+from kernel.onboard import odometry, speed_limit
 from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
@@ -103,20 +103,32 @@ class Machines:
     decide: Callable[..., Any]
     sense: Callable[..., Any]
     is_located: Callable[..., Any]
+    limit_mm_s: Callable[..., Any]
     sensing: sensors.Sensing
 
 
-def driven_of(code: Callable[[Any], Any]) -> Any:
+def driven_of(limit_mm_s: Callable[..., Any], code: Callable[[Any], Any]) -> Any:
     """Make what moves the train for a cycle: at its end the speed is the driver's, or the emergency brake's."""
     shown, asked, gained = code(driver.shown_mm_s), code(driver.asked_mm_s2), code(driver.gained_mm_s2)
 
     @code
-    def driven(bounds: Any, motion: Any, brake: Any, moving: Any, given: Any) -> Any:
+    def least_shown(train: Any, known: Any, end_mm: int) -> Any:
+        bounds, speeds, motion = train.brake, train.speeds, known.motion
+        permitted = limit_mm_s(speeds, known.limit, motion.front_least_mm - train.length_mm)
+        least = min(float(permitted), shown(bounds, motion, end_mm, 0))
+        if speeds.curve_mm_s < speeds.line_mm_s:
+            least = min(least, shown(bounds, motion, known.ahead.curve_mm, speeds.curve_mm_s))
+        if speeds.turnout_mm_s < speeds.line_mm_s:
+            least = min(least, shown(bounds, motion, known.ahead.turnout_mm, speeds.turnout_mm_s))
+        return least
+
+    @code
+    def driven(train: Any, known: Any, brake: Any, moving: Any, given: Any) -> Any:
         if brake.applied:
             gains = gained(moving.gained_mm_s2, 0.0, True)
         else:
             to_stop_mm = 0.0 if given.holds else given.target_mm - (given.front_mm + moving.pending_mm)
-            wanted = asked(moving.speed_mm_s, to_stop_mm, shown(bounds, motion, brake.end_mm))
+            wanted = asked(moving.speed_mm_s, to_stop_mm, least_shown(train, known, brake.end_mm))
             gains = gained(moving.gained_mm_s2, wanted, False)
         speed_mm_s = max(0.0, moving.speed_mm_s + gains * CYCLE_S)
         if speed_mm_s == 0.0:
@@ -162,7 +174,7 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
     decide, sense, is_located = machines.decide, machines.sense, machines.is_located
     turned, head, tail = machines.sensing.turned, machines.sensing.head, machines.sensing.tail
     slipped = code(sensors.slipped)
-    driven, goes_on = driven_of(code), goes_on_of(is_located, code)
+    driven, goes_on = driven_of(machines.limit_mm_s, code), goes_on_of(is_located, code)
 
     @code
     def cycles(
@@ -172,7 +184,7 @@ def cycles_of(machines: Machines, code: Callable[[Any], Any]) -> Callable[..., A
         while True:
             computer = decide(limits, computer, given.runs and not computer.brake.withheld, False)
             before, remembered = moving, kept
-            moving = driven(limits.train.brake, computer.known.motion, computer.brake, before, given)
+            moving = driven(limits.train, computer.known, computer.brake, before, given)
             gained_mm_s2 = (moving.speed_mm_s - before.speed_mm_s) / CYCLE_S
             stays = given.parted and before.speed_mm_s != 0.0
             tail_mm_s2 = -before.speed_mm_s / CYCLE_S if stays else gained_mm_s2
@@ -195,7 +207,10 @@ def as_it_is(function: Any) -> Any:
     return function
 
 
-_CYCLES = cycles_of(Machines(computing.decide, computing.sense, odometry.is_located, sensors.INTERPRETED), as_it_is)
+_MACHINES = Machines(
+    computing.decide, computing.sense, odometry.is_located, speed_limit.limit_mm_s, sensors.INTERPRETED
+)
+_CYCLES = cycles_of(_MACHINES, as_it_is)
 
 
 @dataclass

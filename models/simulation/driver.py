@@ -29,14 +29,15 @@ NEAR_MM = 400.0
 CYCLE_S = CYCLE_MS / 1_000
 
 
-def shown_mm_s(bounds: BrakeBounds, motion: Motion, end_mm: int) -> float:
-    """The speed that the cab shows: above it the brake control would come on."""
-    left_mm = end_mm - motion.front_most_mm
-    if left_mm <= 0:
-        return 0.0
-    time_s = (bounds.response_cycles + 2) * CYCLE_S
-    worst = bounds.slows_mm_s2 * (sqrt(time_s * time_s + 2 * left_mm / bounds.slows_mm_s2) - time_s)
-    return max(0.0, worst - (bounds.response_cycles + 1) * CYCLE_S * bounds.gains_mm_s2)
+def shown_mm_s(bounds: BrakeBounds, motion: Motion, place_mm: int, to_mm_s: int) -> float:
+    """The speed that the cab shows for the sake of a place from which on the train is to be so slow, or to stand.
+
+    Above it the brake control would come on.
+    """
+    left_mm = max(0, place_mm - motion.front_most_mm)
+    lost_mm_s = (bounds.response_cycles + 2) * CYCLE_S * bounds.slows_mm_s2
+    worst = sqrt(lost_mm_s * lost_mm_s + 2 * bounds.slows_mm_s2 * left_mm + to_mm_s * to_mm_s) - lost_mm_s
+    return max(0.0, max(worst, float(to_mm_s)) - (bounds.response_cycles + 1) * CYCLE_S * bounds.gains_mm_s2)
 
 
 def is_barred(shown: float) -> bool:

@@ -27,6 +27,8 @@ from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 from models.simulation.ahead import Ahead
 from models.simulation.cycles import Cycling, Held, Interpreted
 
+Listed = tuple[int, int]
+"""Where a list has a tag, and its kind."""
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
 
@@ -119,15 +121,17 @@ class OnBoard:
     # ---- what the unit was told
 
     def follow(self, unit: Unit) -> None:
-        """Let the brake do what the orders of the unit ask, and await the next tag by them (T4, T5)."""
+        """Let the brake do what the orders of the unit ask, await the next tag by them, and list others (T4, T5)."""
         runs = [run for run in self.lists if run in unit.orders]
         computer = replace(self.computer, brake=self._asked(unit, runs))
-        tags_mm = list[int]()
+        awaited, listed = list[Listed](), list[Listed]()
         for run in runs:
-            order, listed = unit.orders[run], self.lists[run].tags_mm
-            if order.permitted and not order.given_back and order.expected is not None and order.expected in listed:
-                tags_mm.append(listed[order.expected])
-        self.computer = self._awaiting(computer, min(tags_mm, default=None))
+            order, tags = unit.orders[run], self.lists[run].tags_mm
+            if order.permitted and not order.given_back:
+                places = {tag: (place_mm, self.lists[run].kinds[tag]) for tag, place_mm in tags.items()}
+                listed += places.values()
+                awaited += [place for tag, place in places.items() if tag == order.expected]
+        self.computer = self._awaiting(computer, min(awaited, default=None), listed)
 
     def _asked(self, unit: Unit, runs: Iterable[Run]) -> braking.Brake:
         """What becomes of the brake by these runs' lists, and by where the front is (T12)."""
@@ -144,13 +148,18 @@ class OnBoard:
         )
         return brake
 
-    def _awaiting(self, computer: Computer, place_mm: int | None) -> Computer:
-        """What becomes of the computer as it awaits the nearest of the tags that come next."""
-        if place_mm is None:
-            return computing.await_none(computer)
-        if computing.awaits(self.limits, computer, place_mm):
-            return computer
-        return computing.await_tag(self.limits, computer, place_mm)
+    def _awaiting(self, computer: Computer, awaited: Listed | None, listed: Iterable[Listed]) -> Computer:
+        """What becomes of the computer as it awaits the nearest of the tags that come next; others are listed too."""
+        if awaited is None:
+            computer, from_mm = computing.await_none(computer), self.motion.front_least_mm
+        else:
+            from_mm, kind = awaited
+            if not computing.awaits(self.limits, computer, from_mm):
+                computer = computing.await_tag(self.limits, computer, from_mm, kind)
+        for place_mm, kind in listed:
+            if place_mm > from_mm:
+                computer = computing.note_listed(self.limits, computer, place_mm, kind)
+        return computer
 
     # ---- at rest
 
@@ -161,7 +170,7 @@ class OnBoard:
 
     def note_place(self, least_mm: int, most_mm: int) -> None:
         """Somebody says of the train at rest between which places its front is (P7, T8)."""
-        self.computer = computing.note_place(self.computer, least_mm, most_mm)
+        self.computer = computing.note_place(self.limits, self.computer, least_mm, most_mm)
 
     @property
     def takes_hold(self) -> bool:

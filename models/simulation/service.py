@@ -375,7 +375,8 @@ class Service:
             order = unit.orders.get(run)
             if run.route not in layout.routes or order is None or order.given_back or run in board.lists:
                 continue
-            surveyed = ahead(layout, self.line.rails, self.vehicle.on_rails, run, self.play.system.track.lies)
+            lies, kinds = self.play.system.track.lies, self.line.kinds
+            surveyed = ahead(layout, self.line.rails, self.vehicle.on_rails, run, lies, kinds)
             if follows_the_way(layout, run, surveyed.ends_mm):
                 board.lists[run] = surveyed
         self.vehicle.look_again()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kernel.standstill import is_held
 from models.concrete.rails import Rails
 from models.simulation.ahead import block_begins_mm
 from models.simulation.diary import STAFF, Diary
@@ -43,7 +44,7 @@ class Staff:
         """
         board, train = self.vehicle.board, self.vehicle.on_rails
         beyond_mm = block_begins_mm(self.rails, train) + BEYOND_BOARD_MM
-        if train.front_mm < beyond_mm or board.motion.front_least_mm >= beyond_mm:
+        if train.front_mm < beyond_mm or board.motion.front_least_mm >= beyond_mm or not is_held(board.standstill):
             return False
         board.note_place(beyond_mm, board.motion.front_most_mm)
         self.vehicle.look_again()

@@ -100,7 +100,7 @@ class Vehicle:
     @property
     def is_barred(self) -> bool:
         """Whether the cab shows it that it may not go on."""
-        return is_barred(shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm))
+        return is_barred(shown_mm_s(PLAN.brake, self.board.motion, self.board.brake.end_mm, 0))
 
     # ---- cycles of 100 ms
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from kernel.onboard.braking import stops_before
-from kernel.onboard.odometry import Loss
+from kernel.onboard.braking import slows_before, stops_before
+from kernel.onboard.odometry import Loss, Motion
 from models.onboard.brake_demand import Deciding, Train, decide
 from proofs.theory import Theory, by_name
 
@@ -38,6 +38,22 @@ def an_overspeed_brakes(site: Train, system: Deciding) -> bool:
         0 <= motion.speed_most_mm_s <= speeds.line_mm_s
         and (not in_curve or motion.speed_most_mm_s <= speeds.curve_mm_s)
         and (not at_turnout or motion.speed_most_mm_s <= speeds.turnout_mm_s)
+    )
+
+
+def a_restriction_ahead_brakes(site: Train, system: Deciding) -> bool:
+    """A train that might be too fast when it enters a listed curve or turnout brakes (T12)."""
+    motion, ahead, speeds = system.known.motion, system.known.ahead, site.limits.speeds
+    return system.brake.applied or (
+        slows_or_need_not(site, motion, ahead.curve_mm, speeds.curve_mm_s)
+        and slows_or_need_not(site, motion, ahead.turnout_mm, speeds.turnout_mm_s)
+    )
+
+
+def slows_or_need_not(site: Train, motion: Motion, from_mm: int, restricted_mm_s: int) -> bool:
+    """Tell so of one kind, by the farthest and the fastest that the train's range has."""
+    return restricted_mm_s >= site.limits.speeds.line_mm_s or slows_before(
+        site.limits.brake, motion.front_most_mm, motion.speed_most_mm_s, from_mm, restricted_mm_s
     )
 
 
@@ -84,6 +100,7 @@ SAFETY = (
     a_broken_bound_brakes,
     reverse_movement_brakes,
     an_overspeed_brakes,
+    a_restriction_ahead_brakes,
     a_split_brakes,
     an_overdue_tag_brakes,
     an_order_that_does_not_let_it_proceed_brakes,

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from kernel.onboard import braking
+from models.onboard import slowing
 from models.onboard.braking import (
     Approach,
     Vehicle,
+    list_none,
+    list_tag,
     run_a_cycle,
-    slows_mm_s2,
     take_end,
     the_brake_slows,
     withhold_end,
 )
-from models.onboard.units import LONGEST_MS, NM_A_MM, larger
+from models.onboard.slowing import Nearest, slows_mm_s2
+from models.onboard.units import LONGEST_MS, NM_A_MM, NO_SPEED_MM_S, UM_A_MM, larger, smaller
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -31,6 +34,7 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and not system.demanded
         and not system.released_amiss
         and not system.wanted
+        and system.slowing == slowing.at_rest(system.head_nm, system.brake.end_mm)
     )
 
 
@@ -55,6 +59,26 @@ def no_end_is_held_beyond_the_one_wanted(site: Vehicle, system: Approach) -> boo
 def no_brake_is_released_before_the_train_stands(site: Vehicle, system: Approach) -> bool:
     """Once applied it goes off only of a train that stands, acknowledged, while nobody demands it (T12)."""
     return not system.released_amiss
+
+
+def no_train_enters_a_listed_restriction_faster_than_permitted(site: Vehicle, system: Approach) -> bool:
+    """Beyond a listed curve or turnout the head is no faster than it allows, nor in the cycle in which it gets there.
+
+    It was listed before the brake was let off with an end of authority beyond it (T12).
+    """
+    return is_entered_slowly(site, system, system.slowing.curve, site.table.curve_mm_s) and is_entered_slowly(
+        site, system, system.slowing.turnout, site.table.turnout_mm_s
+    )
+
+
+def is_entered_slowly(site: Vehicle, system: Approach, nearest: Nearest, restricted_mm_s: int) -> bool:
+    """Tell whether the head is not there, or the train slow; what the line's own speed allows is no restriction."""
+    slow_um_s = UM_A_MM * larger(0, restricted_mm_s)
+    return (
+        restricted_mm_s >= site.table.line_mm_s
+        or system.head_nm <= nearest.kept_nm
+        or (system.speed_um_s <= slow_um_s and system.slowing.from_um_s <= slow_um_s)
+    )
 
 
 # ---- what they rest on
@@ -102,7 +126,62 @@ def the_way_left_lies_before_the_end(site: Vehicle, system: Approach) -> bool:
 
 def the_way_left_is_enough(site: Vehicle, system: Approach) -> bool:
     """The guaranteed brake stops the train from the worst speed within the way left: u² <= 2 b s (T12)."""
-    return system.worst_um_s * system.worst_um_s <= 2 * slows_mm_s2(site) * system.left_nm
+    return system.worst_um_s * system.worst_um_s <= 2 * slows_mm_s2(site.bounds) * system.left_nm
+
+
+# ---- what slowing down rests on
+
+
+def no_listed_restriction_lies_nearer(site: Vehicle, system: Approach) -> bool:
+    """Whatever truly restricts the train, and is listed, is known to the unit no farther away than it is (T1, T12)."""
+    ahead = system.slowing.ahead
+    return (
+        NM_A_MM * ahead.curve_mm <= system.slowing.curve.listed_nm
+        and NM_A_MM * ahead.turnout_mm <= system.slowing.turnout.listed_nm
+    )
+
+
+def a_train_that_slows_gets_no_faster(site: Vehicle, system: Approach) -> bool:
+    """Until the brake has responded the speed stays below what was reckoned with when it was last off (T12)."""
+    slows = system.slowing
+    return (
+        slows.response_cycles >= 0
+        and slows.worst_um_s >= 0
+        and (system.brake.applied or slows.response_cycles == site.bounds.response_cycles)
+        and larger(0, system.speed_um_s) + slows.response_cycles * LONGEST_MS * site.bounds.gains_mm_s2
+        <= slows.worst_um_s
+    )
+
+
+def a_train_that_slows_gets_no_farther(site: Vehicle, system: Approach) -> bool:
+    """Until then the head stays short of the place that was reckoned with (T12)."""
+    slows = system.slowing
+    return system.head_nm + slows.response_cycles * LONGEST_MS * slows.worst_um_s <= slows.reach_nm
+
+
+def the_way_to_a_restriction_lies_before_it(site: Vehicle, system: Approach) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the restriction (T12)."""
+    slows = system.slowing
+    to_nm = slows.reach_nm + LONGEST_MS * slows.worst_um_s
+    return to_nm + slows.curve.left_nm <= slows.curve.kept_nm and to_nm + slows.turnout.left_nm <= slows.turnout.kept_nm
+
+
+def the_way_to_a_restriction_is_enough(site: Vehicle, system: Approach) -> bool:
+    """The guaranteed brake slows the train within the way left to what is allowed there: u² - v² <= 2 b s (T12)."""
+    return is_way_enough(site, system, system.slowing.curve, site.table.curve_mm_s) and is_way_enough(
+        site, system, system.slowing.turnout, site.table.turnout_mm_s
+    )
+
+
+def is_way_enough(site: Vehicle, system: Approach, nearest: Nearest, restricted_mm_s: int) -> bool:
+    """Tell so of one; a speed is between 0 and 200 m/s (ours)."""
+    fast_um_s = system.slowing.worst_um_s
+    slow_um_s = UM_A_MM * larger(0, smaller(restricted_mm_s, NO_SPEED_MM_S))
+    return (
+        restricted_mm_s >= site.table.line_mm_s
+        or fast_um_s <= slow_um_s
+        or fast_um_s * fast_um_s - slow_um_s * slow_um_s <= 2 * slows_mm_s2(site.bounds) * nearest.left_nm
+    )
 
 
 INITIAL = (the_train_stands_inside_its_authority,)
@@ -111,6 +190,7 @@ SAFETY = (
     a_demanded_brake_is_applied,
     no_brake_is_released_before_the_train_stands,
     no_end_is_held_beyond_the_one_wanted,
+    no_train_enters_a_listed_restriction_faster_than_permitted,
 )
 INVARIANTS = (
     *SAFETY,
@@ -121,9 +201,14 @@ INVARIANTS = (
     it_gets_no_farther_before_the_response,
     the_way_left_lies_before_the_end,
     the_way_left_is_enough,
+    no_listed_restriction_lies_nearer,
+    a_train_that_slows_gets_no_faster,
+    a_train_that_slows_gets_no_farther,
+    the_way_to_a_restriction_lies_before_it,
+    the_way_to_a_restriction_is_enough,
 )
 PREMISES = (the_brake_slows,)
-STEPS = (run_a_cycle, take_end, withhold_end)
+STEPS = (run_a_cycle, take_end, withhold_end, list_tag, list_none)
 
 THEORY = Theory(
     "braking",

@@ -23,6 +23,7 @@ from models.onboard.train import (
     come_apart,
     find_whole,
     locate_anew,
+    note_listed,
     note_place,
     put_into_service,
     read_a_tag,
@@ -36,6 +37,7 @@ from models.onboard.train import (
 from models.onboard.train_nature import (
     Train,
     Whole,
+    approach,
     before,
     braked,
     line,
@@ -57,6 +59,8 @@ from proofs.onboard.train_parts import (
     a_narrow_range_finds_what_the_head_missed,
     a_tail_over_a_missed_tag_is_known_too_widely,
     a_train_that_keeps_is_no_faster_than_the_limit,
+    a_train_that_slows_gets_no_farther,
+    a_train_that_slows_gets_no_faster,
     a_trusted_wheel_has_not_slipped,
     a_trusted_wheel_is_known_as_it_was_shown,
     a_wheel_that_agrees_keeps_pace,
@@ -66,10 +70,13 @@ from proofs.onboard.train_parts import (
     anchor_contained_front,
     it_gets_no_farther_before_the_response,
     it_gets_no_faster_before_the_response,
+    no_fix_was_false,
+    no_listed_restriction_lies_nearer,
     no_restriction_ends_before_the_rear_has_passed,
     range_contains_front,
     speed_range_contains_speed,
     the_brake_holds_the_wanted_end_or_the_one_before,
+    the_brake_responds_once_it_was_commanded_for_long_enough,
     the_gradient_estimate_is_no_steeper_than_the_line,
     the_heads_last_eight_are_remembered,
     the_response_ends,
@@ -77,6 +84,8 @@ from proofs.onboard.train_parts import (
     the_watch_counts_no_more_than_the_brake,
     the_way_left_is_enough,
     the_way_left_lies_before_the_end,
+    the_way_to_a_restriction_is_enough,
+    the_way_to_a_restriction_lies_before_it,
     what_agrees_is_known_as_it_was_shown,
     what_is_caught_is_broken,
     what_is_not_preset_is_broken,
@@ -114,6 +123,7 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.held
         and speed_limit.nothing_is_known_of_the_track(profile(site), system.passing)
         and system.computer.known.limit == system.passing.limit
+        and system.computer.known.ahead == system.approach.slowing.ahead
     )
 
 
@@ -264,6 +274,14 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> 
     return not system.runs or system.computer.brake.applied or speed_limit.keeps_to_its_track(profile(site), seen)
 
 
+def no_train_enters_a_listed_restriction_faster_than_permitted(site: Train, system: Whole) -> bool:
+    """Beyond a listed curve or turnout the front is no faster than it allows, nor in the cycle in which it gets there.
+
+    It was listed before the brake was let off with an end of authority beyond it (T12).
+    """
+    return braking.no_train_enters_a_listed_restriction_faster_than_permitted(braked(site), approach(system))
+
+
 def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
     """What is told of a train at rest is so, and if it is told to be held its brake holds it (P7, T9, T12)."""
     at, slow_um_s = computer.standstill(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
@@ -318,8 +336,9 @@ def the_computer_has_the_proved_odometry(site: Train, system: Whole) -> bool:
 
 
 def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
-    """Its brake is the one of the brake control's proof."""
-    return system.computer.brake == system.approach.brake
+    """Its brake, and what it knows of restrictions ahead, is that of the brake control's proof."""
+    brake, ahead = system.computer.brake, system.computer.known.ahead
+    return brake == system.approach.brake and ahead == system.approach.slowing.ahead
 
 
 def the_computer_has_the_proved_watch(site: Train, system: Whole) -> bool:
@@ -340,20 +359,6 @@ def the_computer_has_the_proved_spacing(site: Train, system: Whole) -> bool:
 def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
     """What it knows of its track is what the proof of the speed limit does."""
     return system.computer.known.limit == system.passing.limit
-
-
-def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
-    """The response that the brake control still waits for is over when the command is as old (T12)."""
-    response_cycles = site.limits.train.brake.response_cycles
-    cycles = system.watched.cycles + 1 if system.runs else system.watched.cycles
-    return 0 <= system.watched.cycles <= response_cycles and cycles + system.approach.response_cycles >= response_cycles
-
-
-def no_fix_was_false(site: Train, system: Whole) -> bool:
-    """While a range is claimed every fix contained the front (P7)."""
-    return system.running.motion.loss != Loss.NONE or (
-        system.running.false_by_nm <= 0 and not system.running.contradicted
-    )
 
 
 def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
@@ -393,6 +398,7 @@ SAFETY = (
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,
+    no_train_enters_a_listed_restriction_faster_than_permitted,
     a_standstill_that_is_told_is_one,
     the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
@@ -426,6 +432,11 @@ INVARIANTS = (
     it_gets_no_farther_before_the_response,
     the_way_left_lies_before_the_end,
     the_way_left_is_enough,
+    no_listed_restriction_lies_nearer,
+    a_train_that_slows_gets_no_faster,
+    a_train_that_slows_gets_no_farther,
+    the_way_to_a_restriction_lies_before_it,
+    the_way_to_a_restriction_is_enough,
     a_train_that_keeps_is_no_faster_than_the_limit,
     the_watch_counts_no_more_than_the_brake,
     what_is_not_preset_is_broken,
@@ -460,6 +471,7 @@ STEPS = (
     put_into_service,
     await_tag,
     await_none,
+    note_listed,
     find_whole,
 )
 

@@ -86,6 +86,49 @@ def the_way_left_is_enough(site: Train, system: Whole) -> bool:
     return braking.the_way_left_is_enough(braked(site), approach(system))
 
 
+def no_listed_restriction_lies_nearer(site: Train, system: Whole) -> bool:
+    """Whatever truly restricts the train, and is listed, is known no farther away than it is (T1, T12)."""
+    return braking.no_listed_restriction_lies_nearer(braked(site), approach(system))
+
+
+def a_train_that_slows_gets_no_faster(site: Train, system: Whole) -> bool:
+    """Until the brake has responded the speed stays below what was reckoned with when it was last off (T12)."""
+    return braking.a_train_that_slows_gets_no_faster(braked(site), approach(system))
+
+
+def a_train_that_slows_gets_no_farther(site: Train, system: Whole) -> bool:
+    """Until then the head stays short of the place that was reckoned with (T12)."""
+    return braking.a_train_that_slows_gets_no_farther(braked(site), approach(system))
+
+
+def the_way_to_a_restriction_lies_before_it(site: Train, system: Whole) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the restriction (T12)."""
+    return braking.the_way_to_a_restriction_lies_before_it(braked(site), approach(system))
+
+
+def the_way_to_a_restriction_is_enough(site: Train, system: Whole) -> bool:
+    """The guaranteed brake slows the train within the way left to what is allowed there: u² - v² <= 2 b s (T12)."""
+    return braking.the_way_to_a_restriction_is_enough(braked(site), approach(system))
+
+
+def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
+    """The response that the brake control still waits for is over when the command is as old (T12)."""
+    response_cycles = site.limits.train.brake.response_cycles
+    cycles = system.watched.cycles + 1 if system.runs else system.watched.cycles
+    return (
+        0 <= system.watched.cycles <= response_cycles
+        and cycles + system.approach.response_cycles >= response_cycles
+        and cycles + system.approach.slowing.response_cycles >= response_cycles
+    )
+
+
+def no_fix_was_false(site: Train, system: Whole) -> bool:
+    """While a range is claimed every fix contained the front (P7)."""
+    return system.running.motion.loss != Loss.NONE or (
+        system.running.false_by_nm <= 0 and not system.running.contradicted
+    )
+
+
 def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -> bool:
     """While the bounds are kept, the train is no faster than the limit; what is faster is found out (T12)."""
     return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds, stops_before, supervise, take_end
+from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds, slows_before, stops_before, supervise, take_end
 
 BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
 ON, OFF = Brake(applied=True, end_mm=1_000_000), Brake(applied=False, end_mm=1_000_000)
@@ -19,6 +19,26 @@ def an_end_behind_is_never_stopped_before(front_mm: int, speed_mm_s: int) -> Non
     assert front_mm >= 0
     assert 0 <= speed_mm_s <= 200_000
     assert not stops_before(BOUNDS, front_mm, speed_mm_s, 0)
+
+
+def a_train_that_stays_slow_is_slow_everywhere(front_mm: int, place_mm: int, speed_mm_s: int) -> None:
+    """16 cycles at the most that it gains come to 1.9584 m/s, and 23.041 m/s with them to less than 25 (T12)."""
+    assert -(10**9) <= front_mm <= 10**9
+    assert 0 <= speed_mm_s <= 23_041
+    assert slows_before(BOUNDS, front_mm, speed_mm_s, place_mm, 25_000)
+
+
+def a_restriction_that_is_passed_is_kept_by_a_slow_train_alone(front_mm: int, speed_mm_s: int) -> None:
+    """As far as its front may be (T12)."""
+    assert 0 < front_mm <= 10**9
+    assert 23_042 <= speed_mm_s <= 200_000
+    assert not slows_before(BOUNDS, front_mm, speed_mm_s, 0, 25_000)
+
+
+def the_way_to_slow_down_is_needed(front_mm: int) -> None:
+    """From 36 m/s to 25: 17 cycles at 37.9584 m/s, 65.820 m, and the brake's way, 607.024 m (T12)."""
+    assert -(10**9) <= front_mm <= 10**9
+    assert slows_before(BOUNDS, front_mm, 36_000, 0, 25_000) == (front_mm <= -672_844)
 
 
 def a_demand_is_obeyed(applied: bool, acknowledged: bool) -> None:

@@ -15,7 +15,7 @@ from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
 from models.onboard.braking import Vehicle
 from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
-from proofs.onboard.witnesses.braking import BOUNDS, END_MM, WITNESSES, running, standing
+from proofs.onboard.witnesses.braking import BOUNDS, END_MM, TABLE, WITNESSES, running, standing
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
@@ -40,7 +40,7 @@ class World:
 
     def __init__(self, bounds: BrakeBounds, end_mm: int) -> None:
         self.bounds = bounds
-        self.play = Play(THEORY, Vehicle(bounds), standing(end_mm=end_mm))
+        self.play = Play(THEORY, Vehicle(bounds, TABLE), standing(end_mm=end_mm))
 
     def cycle(
         self, speed_um_s: int, *, wide_mm: int = 0, demanded: bool = False, acknowledged: bool = False, way: int = 100

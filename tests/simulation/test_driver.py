@@ -33,11 +33,11 @@ def test_a_driver_does_not_creep_towards_the_end_of_authority(behind_mm: int, wi
     """It starts far enough from its end to stop; then it comes to rest, in a time that fits its speed."""
     end_mm, front_mm, gained = 1_500_000, 0.0, 0.0
     motion = odometry.located(-wider_mm, behind_mm, 0)
-    shown, reached_s, cycle = shown_mm_s(PLAN.brake, motion, end_mm), 0.0, 0
+    shown, reached_s, cycle = shown_mm_s(PLAN.brake, motion, end_mm, 0), 0.0, 0
     while cycle < 6_000:
         cycle += 1
         motion = replace(motion, front_least_mm=round(front_mm) - wider_mm, front_most_mm=round(front_mm) + behind_mm)
-        shown = shown_mm_s(PLAN.brake, motion, end_mm)
+        shown = shown_mm_s(PLAN.brake, motion, end_mm, 0)
         asked = asked_mm_s2(speed_mm_s, end_mm - margin_mm(motion) - front_mm, shown)
         gained = gained_mm_s2(gained, asked, False)
         before, speed_mm_s = speed_mm_s, max(0.0, speed_mm_s + gained * CYCLE_S)

@@ -8,6 +8,7 @@ import pytest
 
 from kernel.names import Block, Car, Route, Run, Serial, Train, UnitLife
 from kernel.onboard import computer
+from kernel.onboard.tag_kind import PLAIN
 from kernel.unit import NO_BLOCKS, NO_EVIDENCE, Order, Unit
 from models.concrete.rails import Piece
 from models.concrete.train import CAR_MM, OnRails
@@ -62,7 +63,7 @@ class Stand:
             NO_EVIDENCE,
         )
         self.unit = Unit(UnitLife(1), None, NO_BLOCKS, None, {run: self.order}, False, None, None, None, NO_BLOCKS)
-        self.vehicle.board.lists[run] = ahead(layout, rails, train, run, {})
+        self.vehicle.board.lists[run] = ahead(layout, rails, train, run, {}, dict.fromkeys(layout.tag_in, PLAIN))
         self.end_mm = self.vehicle.board.lists[run].ends_mm[layout.destination[ROUTE]]
         self.staff = Staff(self.vehicle, rails, Diary())
         self.rest()

@@ -8,6 +8,7 @@ from kernel.onboard import brake_watch, odometry, reverse_movement, split, tag_w
 from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.onboard.odometry import Loss
+from kernel.onboard.restriction_ahead import NONE_LISTED
 from kernel.onboard.speed_limit import SpeedLimit, SpeedTable
 from kernel.onboard.split import SplitLimits
 from models.onboard.brake_demand import Deciding, Train
@@ -29,6 +30,7 @@ WELL = Known(
     limit=SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=0, turnout_until_mm=0),
     wholeness=split.made_up(SplitLimits(500, 3_000, 500, 600, 1_000, 10_000)),
     window=tag_window.NONE_AWAITED,
+    ahead=NONE_LISTED,
 )
 """A train at 20 m/s of which nothing bad is known."""
 AT_REST = replace(WELL, motion=replace(MOTION, speed_least_mm_s=-20, speed_most_mm_s=20))

@@ -6,15 +6,18 @@ from dataclasses import replace
 
 from kernel.onboard import braking as machine
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
+from kernel.onboard.speed_limit import SpeedTable
+from models.onboard import slowing
 from models.onboard.braking import Approach, Vehicle
 from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
-from proofs.onboard.witnesses import braking_history
+from proofs.onboard.witnesses import braking_ahead, braking_history
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
 BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
-SITE = Vehicle(BOUNDS)
+TABLE = SpeedTable(line_mm_s=60_000, curve_mm_s=25_000, turnout_mm_s=12_000)
+SITE = Vehicle(BOUNDS, TABLE)
 END_MM = 3_000_000
 
 
@@ -32,6 +35,7 @@ def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
         brake=Brake(applied=True, end_mm=end_mm, withheld=True),
         wanted=False,
         wanted_mm=0,
+        slowing=slowing.at_rest(head_mm * NM_A_MM, end_mm),
     )
 
 
@@ -79,7 +83,8 @@ class Train(Play[Vehicle, Approach]):
         """As fast as it can: gaining until the brake responds, then slowing by what is guaranteed and no more."""
         gained = self.system.speed_um_s + 102 * BOUNDS.gains_mm_s2
         slowed = max(0, self.system.speed_um_s - 98 * BOUNDS.slows_mm_s2)
-        responds = self.brakes() and self.system.response_cycles == 0
+        waits = min(self.system.response_cycles, self.system.slowing.response_cycles)
+        responds = self.brakes() and waits == 0
         self.cycle(slowed if responds else gained, acknowledged=acknowledged)
 
     def brakes(self) -> bool:
@@ -469,4 +474,5 @@ WITNESSES = (
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,
     *braking_history.WITNESSES,
+    *braking_ahead.WITNESSES,
 )

@@ -10,10 +10,15 @@ from unittest.mock import patch
 
 from kernel.onboard import braking as machine
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.speed_limit import SpeedTable
 from models.onboard import braking as world
+from models.onboard import slowing
 from models.onboard.braking import Approach, Vehicle
 
-SITE = Vehicle(BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25))
+SITE = Vehicle(
+    BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25),
+    SpeedTable(line_mm_s=60_000, curve_mm_s=25_000, turnout_mm_s=12_000),
+)
 END_MM = 3_000_000
 OFF = Brake(applied=False, end_mm=END_MM)
 BRAKED = Approach(
@@ -28,6 +33,7 @@ BRAKED = Approach(
     brake=Brake(applied=True, end_mm=END_MM),
     wanted=True,
     wanted_mm=END_MM,
+    slowing=slowing.at_rest(0, END_MM),
 )
 """A train at rest far before its end, its brake on."""
 

@@ -20,6 +20,7 @@ from kernel.onboard.tag_kind import PLAIN
 from kernel.onboard.tag_window import WindowLimits
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
+from models.onboard.slowing import at_rest as slowing_at_rest
 from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
     Train,
@@ -73,7 +74,20 @@ def at_rest() -> Whole:
         from_um_s=0,
         runs=False,
         running=AT_POWER_ON,
-        approach=Approach(front_nm, 0, 0, 0, front_nm, 0, False, False, begun.brake, False, 0),
+        approach=Approach(
+            front_nm,
+            0,
+            0,
+            0,
+            front_nm,
+            0,
+            False,
+            False,
+            begun.brake,
+            False,
+            0,
+            slowing_at_rest(front_nm, begun.brake.end_mm),
+        ),
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
@@ -170,7 +184,7 @@ def approaching(tag_mm: int) -> Ride:
     ride = Ride()
     ride.start()
     ride.gather(5_000)
-    ride.step("await_tag", place_mm=tag_mm)
+    ride.step("await_tag", place_mm=tag_mm, uid=tag_mm, **PLAIN_TRACK)
     ride.until(tag_mm + 4_000)
     assert not ride.system.computer.known.window.passed
     return ride

@@ -33,9 +33,16 @@ from proofs.onboard.witnesses.one_train import (
     read_at,
 )
 from proofs.onboard.witnesses.rolling_stock import START_MM
+from proofs.onboard.witnesses.train_as_it_is_said import (
+    a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust,
+    nothing_is_said_of_a_train_that_runs,
+    what_is_said_too_late_of_a_train_is_not_taken,
+)
 from proofs.onboard.witnesses.train_on_its_track import (
+    a_listed_turnout_is_entered_no_faster_than_it_allows,
     a_tag_that_hides_a_curve_is_none_of_this_world,
     the_track_is_what_the_tags_say_for_the_whole_train,
+    what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
 )
 
 # ---- it runs
@@ -246,7 +253,7 @@ def a_cycle_is_run_and_sensed_in_turn() -> None:
     ride.step("read_a_tag", uid=at_mm - 4_000, place_mm=at_mm - 4_000, read_at_nm=front_nm, **PLAIN_TRACK)
     ride.step("read_unlisted", read_at_nm=front_nm, in_curve=True, at_turnout=True)
     ride.step("read_by_the_tail", uid=at_mm - 116_000, read_at_nm=front_nm)
-    ride.step("await_tag", place_mm=at_mm)
+    ride.step("await_tag", place_mm=at_mm, uid=at_mm, **PLAIN_TRACK)
     ride.step("await_none")
     ride.step("find_whole")
     ride.step("locate_anew", least_mm=at_mm - 1, most_mm=at_mm + 1)
@@ -331,37 +338,6 @@ def a_train_whose_brake_has_yet_to_hold_it_is_not_located() -> None:
     assert ride.system != held
 
 
-def a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust() -> None:
-    """The range is narrowed by what is said of a train at rest, and of no other place than where it is (P7, T8)."""
-    ride = Ride()
-    ride.start()
-    ride.draw_up()
-    front_mm = ride.system.front_nm // NM_A_MM
-    before = ride.system
-    ride.step("note_place", least_mm=front_mm + 1, most_mm=front_mm + 2_000)
-    assert ride.system == before
-    ride.step("note_place", least_mm=front_mm, most_mm=front_mm + 10**6)
-    said = ride.system.computer
-    assert said.known.motion.front_least_mm == front_mm
-    assert said.known.motion.front_most_mm == before.computer.known.motion.front_most_mm
-    assert said.known.motion.trusted == before.computer.known.motion.trusted
-    assert said == replace(before.computer, known=replace(before.computer.known, motion=said.known.motion))
-    ride.cycle(0)
-    assert front_mm - ride.system.computer.known.motion.front_least_mm <= SITE.limits.sensors.pulse_mm + 1
-    assert ride.system.computer.known.motion.trusted
-
-
-def nothing_is_said_of_a_train_that_runs() -> None:
-    """Nobody sees it stand, and what was said before a cycle counts before it is sensed (P7, T8)."""
-    ride = Ride()
-    ride.start()
-    ride.run(100)
-    at_mm = ride.system.front_nm // NM_A_MM
-    under_way = ride.system
-    ride.step("note_place", least_mm=at_mm - 1_000, most_mm=at_mm + 1_000)
-    assert ride.system is under_way
-
-
 # ---- what the computer is told
 
 
@@ -414,7 +390,7 @@ def a_brake_that_is_put_on_again_waits_for_its_response() -> None:
 def a_computer_is_told_of_tags_and_of_its_train() -> None:
     """Which tag it awaits from where, that it awaits none, and that staff has found the train whole (T5, P5)."""
     ride = Ride()
-    ride.step("await_tag", place_mm=START_MM + 100_000)
+    ride.step("await_tag", place_mm=START_MM + 100_000, uid=START_MM + 100_000, **PLAIN_TRACK)
     told = ride.system.computer
     assert told.from_mm == START_MM - 1_000 - 2_000, "behind the train, by its range and the tolerance"
     assert told.known.window == Window(expected=True, least_mm=107_000, most_mm=107_000, passed=False)
@@ -461,6 +437,8 @@ WITNESSES = (
     an_awaited_tag_that_does_not_come_brakes_the_train,
     a_tag_listed_elsewhere_says_nothing,
     the_track_is_what_the_tags_say_for_the_whole_train,
+    what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
+    a_listed_turnout_is_entered_no_faster_than_it_allows,
     a_tag_that_hides_a_curve_is_none_of_this_world,
     a_fix_that_contradicts_leaves_the_track_unknown,
     a_tail_that_follows_as_preset_counts,
@@ -476,6 +454,7 @@ WITNESSES = (
     a_train_whose_brake_has_yet_to_hold_it_is_not_located,
     a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust,
     nothing_is_said_of_a_train_that_runs,
+    what_is_said_too_late_of_a_train_is_not_taken,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
     a_brake_that_is_put_on_again_waits_for_its_response,
     a_computer_is_told_of_tags_and_of_its_train,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import computer
+from kernel.onboard.restriction_ahead import NONE_LISTED, Ahead
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
-from kernel.onboard.tag_kind import CURVE, PLAIN
+from kernel.onboard.tag_kind import CURVE, PLAIN, TURNOUT
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import LIMITS, approaching, read_at
+from proofs.onboard.witnesses.one_train import LIMITS, Ride, approaching, read_at
 from proofs.onboard.witnesses.rolling_stock import START_MM
 
 
@@ -50,3 +51,55 @@ def a_tag_that_hides_a_curve_is_none_of_this_world() -> None:
     assert ride.system.passing.in_curve
     assert ride.system.computer.known.limit.in_curve
     assert not ride.system.computer.known.limit.at_turnout
+
+
+def a_listed_turnout_is_entered_no_faster_than_it_allows() -> None:
+    """The brake comes on before it, though the driver goes on gathering speed, and stays on to a standstill (T12)."""
+    ride = Ride()
+    ride.start()
+    tag_mm, turnout_mm = START_MM + 20_000, START_MM + 230_000
+    plain = {"kind": PLAIN, "in_curve": False, "at_turnout": False}
+    ride.step("await_tag", place_mm=tag_mm, uid=tag_mm, **plain)
+    assert ride.system.computer.known.ahead == NONE_LISTED
+    turnout = {"kind": TURNOUT, "in_curve": False, "at_turnout": True}
+    ride.step("note_listed", place_mm=turnout_mm, uid=turnout_mm, **turnout | {"kind": PLAIN})
+    ride.step("note_listed", place_mm=turnout_mm, uid=turnout_mm + 201, **turnout)
+    assert ride.system.computer.known.ahead == NONE_LISTED, "no list hides it, nor has it elsewhere"
+    ride.step("note_listed", place_mm=turnout_mm, uid=turnout_mm, **turnout)
+    from_mm = turnout_mm + 4_000 - 700
+    assert ride.system.computer.known.ahead == Ahead(NONE_LISTED.curve_mm, from_mm), "where it is read at the earliest"
+    ride.gather(5_000)
+    ride.until(tag_mm + 4_000)
+    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    curve = {"kind": CURVE, "in_curve": True, "at_turnout": False}
+    ride.step("await_tag", place_mm=turnout_mm, uid=turnout_mm, **turnout)
+    ride.step("note_listed", place_mm=turnout_mm + 90_000, uid=turnout_mm + 90_000, **curve)
+    assert ride.system.computer.known.ahead == Ahead(from_mm + 90_000, from_mm)
+    while ride.system.front_nm < (from_mm - 25_000) * NM_A_MM:
+        ride.cycle(min(14_000, ride.system.speed_um_s // 1_000 + 100))
+    while not ride.system.computer.brake.applied:
+        ride.cycle(ride.system.speed_um_s // 1_000 + 100)
+    assert ride.system.speed_um_s < 15_000_000, "no faster than a turnout allows, but it might become so"
+    assert ride.system.front_nm < from_mm * NM_A_MM
+    ride.stop()
+
+
+def what_is_listed_is_forgotten_with_the_tag_that_is_awaited() -> None:
+    """And the brake lets a train run as fast as the line that awaits none (T4, T12)."""
+    ride = Ride()
+    ride.start()
+    tag_mm = START_MM + 100_000
+    curve = {"kind": CURVE, "in_curve": True, "at_turnout": False}
+    ride.step("await_tag", place_mm=tag_mm, uid=tag_mm, **curve)
+    assert ride.system.computer.known.ahead != NONE_LISTED
+    ride.step("await_none")
+    assert ride.system.computer.known.ahead == NONE_LISTED
+    ride.step("await_tag", place_mm=tag_mm, uid=tag_mm, **curve | {"kind": PLAIN})
+    assert not ride.system.computer.known.window.expected, "no list hides what is written in the tag"
+    ride.step("await_tag", place_mm=tag_mm, uid=tag_mm, **curve)
+    ride.step("withhold_end")
+    for _ in range(5):
+        ride.cycle(0, may_proceed=False)
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.step("locate_anew", least_mm=front_mm, most_mm=front_mm + 1_000)
+    assert ride.system.computer.known.ahead == NONE_LISTED

@@ -146,9 +146,10 @@ class Host:
         most_mm = self.front_mm[1] + self.limits.window.tolerance_mm
         ahead = [place for place in places_mm if place + ANTENNA_MM > most_mm]
         self.awaited = ahead[0] if ahead else None
-        self.computer = (
-            computer.await_tag(self.limits, self.computer, ahead[0]) if ahead else computer.await_none(self.computer)
-        )
+        if not ahead:
+            self.computer = computer.await_none(self.computer)
+            return
+        self.computer = computer.await_tag(self.limits, self.computer, ahead[0], PLAIN_TRACK)
 
     def head_reads(self, number: int, place_mm: int, now_ms: int) -> bool:
         """The head reads a tag that the list has; whether it is where it should be."""

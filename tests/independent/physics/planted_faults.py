@@ -102,7 +102,7 @@ def _gravity_forgotten(bounds: SensorBounds, readings: Readings) -> int:
     return readings.inertial_mm_s2 - bounds.inertial_mm_s2
 
 
-def _window_before_the_read(limits: Limits, state: Computer, place_mm: int) -> Computer:
+def _window_before_the_read(limits: Limits, state: Computer, place_mm: int, kind: int) -> Computer:
     begun = replace(state, from_mm=state.known.motion.front_most_mm)
     away_mm = computer.way_to_tag_mm(limits, begun, place_mm) - 1_500
     known: Known = replace(begun.known, window=tag_window.await_tag(0, max(0, away_mm)))
