@@ -369,7 +369,7 @@ def days(
     Examples:
 
     * `heisoku days crossing --days 20`
-    * `heisoku days alarm --days 20 --beyond gps_frozen`
+    * `heisoku days alarm --days 20 --beyond gps_creeps`
     """
     from models.days.campaign import live_all, noticed, outcome
     from models.days.kept import KeptDays

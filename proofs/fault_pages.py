@@ -24,7 +24,7 @@ WHERE: Sequence[tuple[str, str, str]] = (
         "`head_reversed`, `left_reversed`, `right_reversed`: beyond",
         "`inertial sensor mounted in reverse`",
     ),
-    ("Frozen GPS with fresh time stamps", "days of the alarm, `gps_frozen`: beyond", ""),
+    ("Frozen GPS with fresh time stamps", "days of the alarm, `gps_frozen`: within", ""),
 )
 """A fault as an engineer calls it, where the rides or days have it, and what it is called elsewhere."""
 

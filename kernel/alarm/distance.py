@@ -103,6 +103,15 @@ def older_worker(fix: WorkerFix, elapsed_ms: int) -> WorkerFix:
     return replace(fix, age_ms=older_ms(fix.age_ms, elapsed_ms))
 
 
+def fix_of_the_unit(held: TrainFix, told: TrainFix) -> TrainFix:
+    """Give the fix that the unit on board holds and sends, after its receiver has told one with a new stamp (A1; ours).
+
+    A place told again, to the mm, is no new fix: the receiver hangs, and so may the speed and direction that it tells.
+    It is as old as when it was told first, and goes on until it is too old to count.  ``held``: as old as it is now.
+    """
+    return replace(told, age_ms=held.age_ms) if told.place_mm == held.place_mm else told
+
+
 def train_off_um(bounds: AlarmBounds, fix: TrainFix) -> int:
     """Give how far the antenna may be from where it was told: error, and age times greatest speed (A1)."""
     return UM_A_MM * bounds.train_error_mm + bounds.train_mm_s * fix.age_ms

@@ -30,6 +30,8 @@ class Lookout:
     ``worker_um``: where the worker is.
     ``told``: history: what was told of the train last, as old as it truly is by the age it was told with.
     ``train``, ``worker``: what the handset holds of both.
+    ``received_mm``: history: what the receiver on board told last.
+    ``unit``: what the unit on board holds of its own train, and sends.
     """
 
     antenna_um: int
@@ -38,6 +40,8 @@ class Lookout:
     told: TrainFix
     train: TrainFix
     worker: WorkerFix
+    received_mm: int
+    unit: TrainFix
 
 
 def is_report(place_mm: int, age_ms: int) -> bool:
@@ -85,6 +89,13 @@ def the_worker_keeps_a_walking_speed(site: Line, from_um: int, to_um: int, elaps
     return apart(to_um, from_um) <= site.bounds.worker_mm_s * elapsed_ms
 
 
+def a_receiver_is_right_or_hangs(site: Line, system: Lookout, place_mm: int) -> bool:
+    """The receiver on board tells a place within its error of where the antenna is now, or the same as before (A1)."""
+    return place_mm == system.received_mm or (
+        apart(system.antenna_um, UM_A_MM * place_mm) <= UM_A_MM * site.bounds.train_error_mm
+    )
+
+
 def a_train_fix_is_within_its_error(site: Line, fix: TrainFix, at_um: int) -> bool:
     """A fix that is one was within the error of where the antenna was; the traffic display watches it (A1, A2)."""
     return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.bounds.train_error_mm
@@ -123,7 +134,17 @@ def run_on(site: Line, system: Lookout, elapsed_ms: int, to_um: int, heading: Di
         told=told,
         train=distance.older_train(system.train, elapsed_ms),
         worker=distance.older_worker(system.worker, elapsed_ms),
+        received_mm=system.received_mm,
+        unit=distance.older_train(system.unit, elapsed_ms),
     )
+
+
+def receive(site: Line, system: Lookout, place_mm: int, direction: Direction, is_running: bool) -> Lookout:
+    """The receiver on board tells a place, stamped with this moment, whether it is of this moment or not (A1)."""
+    if not a_receiver_is_right_or_hangs(site, system, place_mm):
+        return system
+    told = TrainFix(place_mm=place_mm, age_ms=0, direction=direction, is_running=is_running)
+    return replace(system, received_mm=place_mm, unit=distance.fix_of_the_unit(system.unit, told))
 
 
 def take_train_fix(site: Line, system: Lookout, fix: TrainFix, at_um: int) -> Lookout:

@@ -30,19 +30,23 @@ FAULTS = (
     Fault("backwards", "a train told the wrong direction", 0.0, 600, 3_600, "-", 0, 0, "ours: a cable swapped",
           "no_train_turns_sooner"),
     # ---- drawn from numbers of its own, so that the days on record stay what they are otherwise
-    Fault("gps_frozen", "a train's fixes stayed the same, with fresh time stamps", 0.0, 60, 1_800, "-", 0, 0,
-          "ours: a receiver or its program that repeats its last fix", "a_wrong_fix_is_contradicted"),
+    Fault("gps_frozen", "a train's receiver told the same fix again, with fresh time stamps", 0.3, 60, 1_800, "-", 0, 0,
+          "ours: a receiver or its program that repeats its last fix"),
     Fault("joined", "a line joined, and no list had its trains", 0.1, 61_200, 61_200, "m", 1_500, 38_500,
           "practice: a branch, a break of kilometrage, the next line"),
+    Fault("gps_creeps", "a train's fixes went off slowly", 0.0, 600, 3_600, "m", 300, 1_500,
+          "practice: a receiver that loses satellites one by one", "a_wrong_fix_is_contradicted"),
+    Fault("gps_parallel", "a train's fixes were put on a line beside, longer or shorter", 0.0, 600, 3_600, "%", 5, 30,
+          "ours: the nearer line of two in the conversion", "a_wrong_fix_is_contradicted"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
 OF_A_TRAIN = (
     "gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards",
-    "gps_frozen",
+    "gps_frozen", "gps_creeps", "gps_parallel",
 )  # fmt: skip
 """Those that begin while the train is under way."""
-OF_THEIR_OWN = frozenset({"gps_frozen", "joined"})
+OF_THEIR_OWN = frozenset({"gps_frozen", "joined", "gps_creeps", "gps_parallel"})
 """Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}
 WITHIN = tuple(fault for fault in FAULTS if not fault.breaks)

@@ -12,8 +12,8 @@ from models.alarm.moving import noise
 from models.alarm.network import is_of
 from models.compiled import compiled
 
-OUT, JUMP, DRIFT, BACKWARDS, FROZEN = (
-    KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards", "gps_frozen")
+OUT, JUMP, DRIFT, BACKWARDS, FROZEN, CREEPS, PARALLEL = (
+    KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards", "gps_frozen", "gps_creeps", "gps_parallel")
 )
 KEEPS, TRAIN_M, TRAIN_MOST_M, WORKER_M, WORKER_MOST_M = 0.95, 6.0, 19.9, 5.0, 14.9
 """An error that follows its last value; one deviation and the most for train and worker, rounding to mm aside."""
@@ -53,6 +53,10 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
     for kind in (JUMP, DRIFT):
         if is_of(day, kind, train, second):
             off_m += day.size[kind]
+    if is_of(day, CREEPS, train, second):
+        off_m += day.size[CREEPS] * (second - day.begin_s[CREEPS]) / (day.end_s[CREEPS] - day.begin_s[CREEPS])
+    if is_of(day, PARALLEL, train, second):
+        off_m += day.size[PARALLEL] * (place_m - stretch_mm(place_m)[0] / 1_000) / 100
     return int(np.floor(1_000 * (place_m + off_m) + 0.5))
 
 

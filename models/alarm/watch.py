@@ -51,6 +51,7 @@ older, note_list, note_named, note_gone = (
 note_fix, note_display = MADE.tone.note_fix, MADE.tone.note_display
 note_worker, note_battery = MADE.tone.note_worker, MADE.tone.note_battery
 TrainFix, WorkerFix, Display = MADE.tone.TrainFix, MADE.tone.WorkerFix, MADE.tone.Display
+older_train, fix_of_the_unit = MADE.distance.older_train, MADE.distance.fix_of_the_unit
 CLOCK, UNLISTED, OWN_DRIFT, OWN_OUT = (KIND[name] for name in ("clock", "unlisted", "own_drift", "own_gps_out"))
 TRAIN_SILENT, HANDSET_SILENT, DISPLAY_OUT = (KIND[name] for name in ("train_silent", "handset_silent", "display_out"))
 ILL, BATTERY = KIND["servers_ill"], KIND["battery"]
@@ -114,11 +115,13 @@ def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
 class Sent(NamedTuple):
     """What was so at each of the last seconds, a row for each train.
 
+    ``age_ms``: how old its unit knew the place to be.
     ``fix_s``, ``shown_s``, ``list_s``: in which second arrives what was sent then, first and again; -1 for never.
     """
 
     place_m: Any
     told_mm: Any
+    age_ms: Any
     has_fix: Any
     direction: Any
     runs: Any
@@ -133,6 +136,7 @@ def nothing_sent() -> Sent:
     """Give what was told before the day began."""
     return Sent(
         np.zeros((TRAINS, RING)),
+        np.zeros((TRAINS, RING), np.int64),
         np.zeros((TRAINS, RING), np.int64),
         np.zeros((TRAINS, RING), np.bool_),
         np.zeros((TRAINS, RING), np.int64),
@@ -149,6 +153,15 @@ def is_named(day: Any, trains: Any, train: int, second: int) -> bool:
     """Tell whether the server's list has a train (A2)."""
     on_s = trains.came_s[train] - COMES_AFTER_S + NAMED_AFTER_S
     return on_s <= second < trains.left_s[train] + 10 and not is_of(day, UNLISTED, train, second)
+
+
+@compiled(forceinline=True)
+def note_age(sent: Sent, train: int, second: int) -> None:
+    """The unit knows how old the place is that its receiver told in this second, with its stamp (A1)."""
+    now, before = second % RING, (second - 1) % RING
+    direction, runs = sent.direction[train, now], sent.runs[train, now]
+    held = older_train(TrainFix(sent.told_mm[train, before], sent.age_ms[train, before], direction, runs), 1_000)
+    sent.age_ms[train, now] = fix_of_the_unit(held, TrainFix(sent.told_mm[train, now], 0, direction, runs)).age_ms
 
 
 @compiled(forceinline=True)
@@ -178,13 +191,14 @@ def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
                 sent.has_fix[train, before],
             )
             sent.direction[train, now], sent.runs[train, now] = sent.direction[train, before], sent.runs[train, before]
+        note_age(sent, train, second)
 
 
 @compiled(forceinline=True)
 def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a fix as it arrives; a wrong clock makes it younger (A1)."""
     at = sent_s % RING
-    age_ms = 1_000 * (second - sent_s)
+    age_ms = 1_000 * (second - sent_s) + sent.age_ms[train, at]
     if is_of(day, CLOCK, train, sent_s):
         age_ms = max(0, age_ms - 1_000 * abs(day.size[CLOCK]))
     return TrainFix(sent.told_mm[train, at], age_ms, sent.direction[train, at], sent.runs[train, at])

@@ -11,6 +11,7 @@ from models.alarm.alarm_distance import (
     is_report,
     no_train_is_longer_than_written,
     no_train_turns_sooner,
+    receive,
     run_on,
     take_train_fix,
     take_worker_fix,
@@ -30,6 +31,8 @@ def nothing_was_told(site: Line, system: Lookout) -> bool:
         not is_report(system.train.place_mm, system.train.age_ms)
         and not is_report(system.worker.place_mm, system.worker.age_ms)
         and not is_report(system.told.place_mm, system.told.age_ms)
+        and not is_report(system.unit.place_mm, system.unit.age_ms)
+        and system.unit.place_mm == system.received_mm
     )
 
 
@@ -50,6 +53,18 @@ def a_departing_train_has_passed_and_goes_away(site: Line, system: Lookout) -> b
         return True
     away = Direction.DOWN if system.antenna_um > system.worker_um else Direction.UP
     return gap_um(site, system.antenna_um, system.worker_um) >= UM_A_MM * 100_000 and system.heading == away
+
+
+def a_place_is_no_older_than_the_unit_says(site: Line, system: Lookout) -> bool:
+    """What the unit sends is within its error and its age's way of where the train is, though its receiver hangs (A1).
+
+    A stamp is believed of a place that is new alone; for how long a place may count is the handset's to say.
+    """
+    unit = system.unit
+    return not is_report(unit.place_mm, unit.age_ms) or (
+        apart(system.antenna_um, UM_A_MM * unit.place_mm)
+        <= UM_A_MM * site.bounds.train_error_mm + site.bounds.train_mm_s * unit.age_ms
+    )
 
 
 # ---- what it rests on
@@ -80,22 +95,32 @@ def what_is_held_was_told(site: Line, system: Lookout) -> bool:
     return not is_report(system.train.place_mm, system.train.age_ms) or system.train == system.told
 
 
+def the_unit_holds_what_was_received(site: Line, system: Lookout) -> bool:
+    """The unit holds the place that its receiver told last (A1)."""
+    return system.unit.place_mm == system.received_mm
+
+
 def a_told_direction_still_holds(site: Line, system: Lookout) -> bool:
     """While it counts, the direction told is not against that of the train (A3)."""
     return no_train_turns_sooner(site, system.told, system.heading)
 
 
 INITIAL = (nothing_was_told,)
-SAFETY = (no_train_is_nearer_than_reckoned, a_departing_train_has_passed_and_goes_away)
+SAFETY = (
+    no_train_is_nearer_than_reckoned,
+    a_departing_train_has_passed_and_goes_away,
+    a_place_is_no_older_than_the_unit_says,
+)
 INVARIANTS = (
     *SAFETY,
     the_train_is_within_reach_of_its_fix,
     the_worker_is_within_reach_of_his_fix,
     what_is_held_was_told,
+    the_unit_holds_what_was_received,
     a_told_direction_still_holds,
 )
 PREMISES = (no_train_is_longer_than_written,)
-STEPS = (run_on, take_train_fix, take_worker_fix)
+STEPS = (run_on, receive, take_train_fix, take_worker_fix)
 
 THEORY = Theory(
     "alarm_distance",

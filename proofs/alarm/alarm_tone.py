@@ -19,6 +19,7 @@ from models.alarm.worksite import (
     is_list_fresh,
     is_of_the_line,
     is_report,
+    is_told_alike,
 )
 from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
@@ -94,6 +95,25 @@ def a_train_in_a_tunnel_counts_at_its_outer_end(site: Railway, system: Worksite)
 def in_a_section_not_to_be_used_no_tone_is_normal(site: Railway, system: Worksite) -> bool:
     """A worker who has a fix, and is in such a section, hears the fault tone or the alarm (A4, A5, A6)."""
     return system.heard.tone in (Tone.ALARM, Tone.FAULT) or not system.heard.not_to_be_used
+
+
+def agreement_is_worth_the_stretch(site: Railway, system: Worksite) -> bool:
+    """A fix that the display agrees with is off by the stretch shown at the most, whatever GPS did (A2).
+
+    By its length, and what may be outside of it: the tolerance, the display's error and the way since.  That is
+    kilometres where a stretch is; no more is claimed of a fix that nothing else contradicts.
+    """
+    register = site.register
+    return all(
+        apart(body.antenna_um, UM_A_MM * system.told.trains[train].fix.place_mm)
+        <= UM_A_MM * (system.told.trains[train].display.to_mm - system.told.trains[train].display.from_mm)
+        + UM_A_MM * (register.tolerance_mm + register.display_error_mm)
+        + register.bounds.train_mm_s * system.told.trains[train].display.age_ms
+        for train, body in system.bodies.items()
+        if train in system.told.trains
+        and is_told_alike(site, system.told.trains[train])
+        and is_of_the_line(body, system.told.trains[train].display.age_ms)
+    )
 
 
 # ---- what it rests on
@@ -204,6 +224,7 @@ SAFETY = (
     a_departing_train_never_masks_an_approaching_one,
     a_train_in_a_tunnel_counts_at_its_outer_end,
     in_a_section_not_to_be_used_no_tone_is_normal,
+    agreement_is_worth_the_stretch,
 )
 INVARIANTS = (
     *SAFETY,

@@ -110,27 +110,33 @@ def test_a_fault_beyond_what_is_assumed_is_counted_against_its_assumption(fault:
     assert total(rows, ASSUMPTIONS) > 0
 
 
-def test_a_frozen_gps_tells_the_same_place_with_a_fresh_stamp() -> None:
+def test_a_frozen_gps_tells_a_place_that_grows_old_in_the_unit() -> None:
     kind, seconds = KIND["gps_frozen"], 0
     for day in range(3):
         plain, began = (drawn(SEED, day, beyond, sound=True) for beyond in ((), ("gps_frozen",)))
         assert all(np.array_equal(one, other) for one, other in zip(began[1:9], plain[1:9], strict=True)), "same day"
         train, first, lasts = began.train[kind], began.begin_s[kind], began.end_s[kind] - began.begin_s[kind]
-        sound, frozen = (trace(places=True, first_s=first, told_s=lasts) for _ in range(2))
-        for of_day, kept in ((plain, sound), (began, frozen)):
-            watch(of_day, REGISTERED, REGISTERED, ALARM_TONE, NOTHING, np.zeros(len(COLUMNS), np.int64), kept)
-        told, true = frozen.told[20:, train], sound.told[20:, train]
+        frozen = trace(places=True, first_s=first, told_s=lasts)
+        watch(began, REGISTERED, REGISTERED, ALARM_TONE, NOTHING, np.zeros(len(COLUMNS), np.int64), frozen)
+        told = frozen.told[20:, train]
         runs = np.abs(np.diff(frozen.places[first + 19 : first + lasts, train])) > 5
-        stays = (told[1:, 9] == told[:-1, 9]) & (told[1:, 0] == 1) & (told[1:, 10] < 5_000)
-        seconds += int((stays & runs[1:] & (true[1:, 9] != told[1:, 9])).sum())
-    assert seconds > 60, "a train ran on, and its newest fix stayed and was no older than 5 s"
+        stays = (told[1:, 1] == told[:-1, 1]) & (told[1:, 0] == 1) & runs[1:]
+        assert (told[1:, 2] - told[:-1, 2] == 1_000)[stays].all(), "each second a second older"
+        seconds += int((stays & (told[1:, 2] > REGISTER.fresh.fix_ms)).sum())
+    assert seconds > 60, "a train ran on, and its place was too old to count"
 
 
-def test_what_notices_a_frozen_gps_is_counted() -> None:
+def test_a_frozen_gps_breaks_no_claim_and_is_a_fault() -> None:
+    """No assumption either: a place that is too old is no fix, and its train not known as it should be (A1)."""
     without, rows = (SYSTEM.simulate(SEED, range(6), *beyond) for beyond in ((), ("gps_frozen",)))
+    assert total(rows, CLAIMS) == total(rows, ASSUMPTIONS) == 0
+    assert total(rows, ["mismatch_s"]) > total(without, ["mismatch_s"])
+
+
+def test_what_notices_a_gps_that_creeps_off_is_counted() -> None:
+    without, rows = (SYSTEM.simulate(SEED, range(6), *beyond) for beyond in ((), ("gps_creeps",)))
     found = noticed(SYSTEM, without, rows)
     assert found.days > 3
-    assert found.noticed["mismatch_s"] > 0
     assert set(found.noticed) == set(SYSTEM.monitors)
     assert found.unexplained == 0
     assert noticed(SYSTEM, without, without).days == 0

@@ -36,7 +36,9 @@ class Watch(Play[Line, Lookout]):
         """Begin: nothing was told."""
         at_um = UM_A_MM * train_mm
         super().__init__(
-            THEORY, site, Lookout(at_um, heading, UM_A_MM * WORKER_MM, NO_TRAIN_FIX, NO_TRAIN_FIX, NO_WORKER_FIX)
+            THEORY,
+            site,
+            Lookout(at_um, heading, UM_A_MM * WORKER_MM, NO_TRAIN_FIX, NO_TRAIN_FIX, NO_WORKER_FIX, 0, NO_TRAIN_FIX),
         )
 
     def run(self, elapsed_ms: int, heading: Direction, *, speed_mm_s: int = 27_000, walks_mm_s: int = 0) -> None:
@@ -304,7 +306,30 @@ def what_is_no_report_never_becomes_one() -> None:
     assert watch.system.told == fix
 
 
+def a_receiver_that_hangs_makes_no_new_fix() -> None:
+    """Its place grows old, running or not, until it is none; the first place that is another is new (A1)."""
+    day = Watch(1_000_000)
+    for place_mm, running in ((1_000_000, True), (1_000_000, True), (1_000_000, False)):
+        day.step("receive", place_mm=place_mm, direction=DOWN, is_running=running)
+        age_ms = (day.system.antenna_um - UM_A_MM * 1_000_000) // 27_000
+        assert day.system.unit == TrainFix(place_mm, age_ms, DOWN, running)
+        day.run(1_000, DOWN)
+    here_mm = day.system.antenna_um // UM_A_MM
+    day.step("receive", place_mm=here_mm, direction=UP, is_running=False)
+    assert day.system.unit == TrainFix(here_mm, 0, UP, is_running=False)
+    before = day.system
+    for off_mm in (-20_001, 20_001):
+        assert day.step("receive", place_mm=here_mm + off_mm, direction=DOWN, is_running=True) == before
+    day.run(GREATEST_AGE_MS + 1, UNKNOWN)
+    day.step("receive", place_mm=here_mm, direction=DOWN, is_running=True)
+    assert day.system.unit == TrainFix(here_mm, GREATEST_AGE_MS + 1, DOWN, is_running=True)
+    for off_mm in (-20_000, 20_000):
+        day.step("receive", place_mm=here_mm + off_mm, direction=DOWN, is_running=True)
+        assert day.system.unit.age_ms == 0
+
+
 WITNESSES = (
+    a_receiver_that_hangs_makes_no_new_fix,
     what_is_no_report_never_becomes_one,
     a_train_comes_passes_and_goes,
     the_deductions_are_all_made,
