@@ -24,8 +24,10 @@ from kernel.onboard import (
     split,
     tag_fix,
     tag_window,
+    train_length,
 )
 from kernel.onboard.antenna_spacing import Spacing
+from kernel.onboard.arithmetic import larger
 from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
 from kernel.onboard.limits import Limits
@@ -36,8 +38,13 @@ from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
 from kernel.onboard.tag_window import NONE_AWAITED
+from kernel.onboard.train_length import UNMEASURED, Length, Passing, PointKind
 from kernel.onboard.way import Way
 from kernel.standstill import Standstill, ThroughLine, is_braked, is_held
+
+BY_HEAD_MS, BY_TAIL_MS = 0, 1
+"""One unit takes the reads of both antennas, each as it comes: the tail's of a tag is later than any that the head had
+of it, whatever a clock says."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +55,7 @@ class Computer:
     ``before``: what the odometry knew a cycle earlier; it claims nothing once the train has been located anew.
     ``from_mm``: the way to the awaited tag is counted from this place.
     ``spacing``: what is known of the two antennas.
+    ``length``: what is known of the train's length, measured by tags that both have read.
     ``brake``: what the brake control knows.
     """
 
@@ -55,6 +63,7 @@ class Computer:
     before: Motion
     from_mm: int
     spacing: Spacing
+    length: Length
     brake: Brake
 
 
@@ -77,6 +86,7 @@ def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
         before=odometry.past(motion),
         from_mm=0,
         spacing=antenna_spacing.preset(limits.antennas_mm),
+        length=UNMEASURED,
         brake=braking.stand_still(most_mm),
     )
 
@@ -226,6 +236,7 @@ def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, ki
         fixed,
         known=replace(fixed.known, limit=speed_limit.note_tag(computer.known.limit, kind, at.known, at.most_mm)),
         spacing=antenna_spacing.note_head_read(computer.spacing, uid, at),
+        length=train_length.note_head_pass(limits.length, computer.length, tag_passed(fixed, uid, BY_HEAD_MS)),
     )
 
 
@@ -236,23 +247,46 @@ def read_unlisted(computer: Computer) -> Computer:
 
 
 def read_by_tail(limits: Limits, computer: Computer, uid: int) -> Computer:
-    """Take a tag that the tail read within the newest cycle: is it as far behind the head as preset (T13, T3)?"""
-    at = place_of_read(computer)
-    return replace(computer, spacing=antenna_spacing.note_tail_read(limits.spacing, computer.spacing, uid, at))
+    """Take a tag that the tail read within the newest cycle: is it as far behind the head as preset (T13, T3)?
+
+    If it is, that tells how long the train is; by another's antenna nothing is measured (P4).
+    """
+    spacing = antenna_spacing.note_tail_read(limits.spacing, computer.spacing, uid, place_of_read(computer))
+    compared = replace(computer, spacing=spacing)
+    if not antenna_spacing.is_healthy(spacing):
+        return compared
+    passed = tag_passed(computer, uid, BY_TAIL_MS)
+    return replace(compared, length=train_length.note_tail_pass(limits.length, computer.length, passed))
+
+
+def tag_passed(computer: Computer, uid: int, time_ms: int) -> Passing:
+    """Give what the length is measured by, when an antenna read a tag within the newest cycle (P4, T3)."""
+    at, before, motion = place_of_read(computer), computer.before, computer.known.motion
+    return Passing(
+        kind=PointKind.TAG,
+        point=uid,
+        time_ms=time_ms,
+        known=at.known,
+        front_least_mm=at.least_mm,
+        front_most_mm=at.most_mm,
+        speed_most_mm_s=larger(0, larger(before.speed_most_mm_s, motion.speed_most_mm_s)),
+    )
 
 
 def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLine:
     """Give what is known of the way to the tail; ``answers``: its signal comes over the line (T3, T13, P5).
 
     The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).  Nor
-    does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.
+    does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.  Nor
+    that of a train which was measured as another than is written: it is not the train that was found whole (P4).
     """
     return ThroughLine(
         answers=answers,
         is_intact=split.is_intact(limits.split, computer.known.wholeness),
         fits=antenna_spacing.is_healthy(computer.spacing)
         and not computer.known.movement.reversed
-        and finds_a_missed_tag(limits, computer),
+        and finds_a_missed_tag(limits, computer)
+        and is_as_long_as_written(limits, computer),
     )
 
 
@@ -261,6 +295,12 @@ def finds_a_missed_tag(limits: Limits, computer: Computer) -> bool:
     before = computer.before
     width_mm = before.front_most_mm - before.front_least_mm
     return odometry.is_located(before) and width_mm <= limits.window.tail_width_mm
+
+
+def is_as_long_as_written(limits: Limits, computer: Computer) -> bool:
+    """Tell whether no measurement shows the train longer than is written, or another than it was (P4)."""
+    length = computer.length
+    return not train_length.contradicts_the_line(limits.length, length) and not train_length.contradicts_itself(length)
 
 
 # ---- what is told
@@ -272,6 +312,7 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
         computer,
         known=replace(computer.known, wholeness=split.made_up(limits.split)),
         spacing=antenna_spacing.preset(limits.antennas_mm),
+        length=train_length.note_formation_changed(computer.length),
     )
 
 
@@ -295,8 +336,8 @@ def withhold_end(computer: Computer) -> Computer:
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
 
-    What was found of motors, brake, wholeness and antennas stays.  Restrictions lay on the kilometrage of before:
-    until the next tag all of them hold.
+    What was found of motors, brake, wholeness, antennas and length stays.  Restrictions lay on the kilometrage of
+    before: until the next tag all of them hold.
     """
     if not is_braked(standstill(limits, computer)):
         return computer
@@ -314,5 +355,6 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
         before=odometry.past(motion),
         from_mm=0,
         spacing=antenna_spacing.turned(computer.spacing),
+        length=train_length.note_kilometrage_changed(computer.length),
         brake=braking.stand_still(most_mm),
     )

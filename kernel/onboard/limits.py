@@ -16,6 +16,7 @@ from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_window import WindowLimits
+from kernel.onboard.train_length import GREATEST_MEASURE_MM, LengthBounds
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,7 @@ class Limits:
     """What is written of the train, its sensors and its line, for each machine.
 
     ``antennas_mm``: from the head's antenna to the tail's, as preset (T3).
+    ``length``: how the train's length is measured; the length of ``train`` is the greatest that it may have.
     """
 
     sensors: SensorBounds
@@ -33,6 +35,7 @@ class Limits:
     tags: TagLimits
     spacing: SpacingLimits
     antennas_mm: int
+    length: LengthBounds
 
 
 @dataclass(frozen=True)
@@ -118,6 +121,25 @@ def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
     )
 
 
+def is_length_lawful(limits: Limits, surveyed: Surveyed) -> bool:
+    """Tell whether one length is written everywhere, no less than antennas and overhangs are, and may be measured (P4).
+
+    A train that was found whole is no longer than that, however its antennas' distance was preset.
+    """
+    bounds = limits.length
+    return (
+        bounds.line_maximum_mm == limits.train.length_mm
+        and bounds.front_overhang_mm == limits.tags.antenna_mm
+        and limits.antennas_mm + surveyed.preset_within_mm + bounds.front_overhang_mm + bounds.rear_overhang_mm
+        <= bounds.line_maximum_mm
+        and 2 * surveyed.read_within_mm <= bounds.window_mm <= GREATEST_MEASURE_MM
+        and 0 <= bounds.front_overhang_mm <= GREATEST_MEASURE_MM
+        and 0 <= bounds.rear_overhang_mm <= GREATEST_MEASURE_MM
+        and 0 <= bounds.last_vehicle_mm <= GREATEST_MEASURE_MM
+        and bounds.width_mm <= GREATEST_MEASURE_MM
+    )
+
+
 def is_split_lawful(limits: SplitLimits, surveyed: Surveyed) -> bool:
     """Tell whether no limit of split detection is below zero, and the threshold leaves whole trains alone (P5)."""
     return (
@@ -139,5 +161,6 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         and is_window_lawful(limits.window, limits.train.speeds.line_mm_s, limits.antennas_mm, surveyed)
         and is_spacing_lawful(limits.spacing, surveyed)
         and is_split_lawful(limits.split, surveyed)
+        and is_length_lawful(limits, surveyed)
         and limits.reverse.roll_back_mm >= 0
     )

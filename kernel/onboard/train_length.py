@@ -16,7 +16,8 @@ place of L_c, and the reader's window for the sensor; one unit reads both, so no
 
 Until both have passed one point, the line's greatest length is used; so it is after any change of the
 formation.  Due before the main line (3.3); ours: a length measured later is as good.  Ours: what is
-measured above the line's greatest length is used as it is, and shown as a contradiction.
+measured above the line's greatest length is used as it is, and shown as a contradiction where it is more with
+all errors taken off.
 
 Ours: at every later point the length is measured again, and held against the one in use.  If no length
 is within the errors of both, a bound was broken, or vehicles were coupled untold: the line's greatest
@@ -37,6 +38,7 @@ from enum import Enum
 from kernel.onboard.arithmetic import CYCLE_MS, GREATEST_SPEED_MM_S, divided_up, larger
 
 GREATEST_PLACE_MM = 10_000_000_000
+GREATEST_MEASURE_MM = 1_000_000
 AVERAGING_MM = 782
 """Paper 001, table 2, says 0.78 m; here 2.5 km/h/s · (1.5 s)² / 2, rounded up (P8)."""
 SENSOR_MM = 5_000
@@ -56,7 +58,8 @@ class PointKind(Enum):
 class LengthBounds:
     """The written measures and bounds, each from 0 to a kilometre (P4, T3).
 
-    ``line_maximum_mm``: no train of the line is longer: the operator's duty; it may be more.
+    ``line_maximum_mm``: no train of the line is longer, nor this one, if its own length is written: the operator's
+    duty; it may be more.
     ``last_vehicle_mm``: L_c.
     ``front_overhang_mm``, ``rear_overhang_mm``: from the antennas to the train's ends.
     ``window_mm``: how far apart one tag's reads by the two antennas may be from where the tag lies.
@@ -209,5 +212,5 @@ def contradicts_itself(state: Length) -> bool:
 
 
 def contradicts_the_line(bounds: LengthBounds, state: Length) -> bool:
-    """Tell whether more was measured than any train of the line may have: a monitor (P4; ours)."""
-    return length_mm(bounds, state) > bounds.line_maximum_mm
+    """Tell whether even the least that was measured is more than a train of the line may have: a monitor (P4; ours)."""
+    return state.measured and state.least_mm > bounds.line_maximum_mm

@@ -9,13 +9,24 @@ from dataclasses import replace
 
 from kernel.onboard import brake_demand, computer
 from kernel.onboard import braking as brake_control
+from kernel.onboard.antenna_spacing import is_healthy
 from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
-from models.onboard import antenna_spacing, brake_watch, braking, odometry, slowing, speed_limit, tag_window
+from models.onboard import (
+    antenna_spacing,
+    brake_watch,
+    braking,
+    odometry,
+    slowing,
+    speed_limit,
+    tag_window,
+    train_length,
+)
 from models.onboard.antenna_spacing import Trailing
 from models.onboard.braking import Approach
 from models.onboard.speed_limit import Passage
+from models.onboard.train_length import Formation
 from models.onboard.train_nature import (
     Train,
     Whole,
@@ -31,10 +42,13 @@ from models.onboard.train_nature import (
     a_wheel_that_keeps_pace_rolls,
     approach,
     braked,
+    formation,
     leaving_the_creep_takes_a_jolt,
+    length_nm,
     line,
     passage,
     profile,
+    railway,
     running,
     stretch,
     tail_comes_over,
@@ -209,6 +223,9 @@ def read_a_tag(
         seen,
         running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
         trailing=antenna_spacing.head_reads(track(site), there, uid, computer.place_of_read(told)),
+        formation=train_length.head_passes(
+            railway(site), formation(system), read_at_nm, 0, computer.tag_passed(told, uid, computer.BY_HEAD_MS)
+        ),
     )
 
 
@@ -252,16 +269,32 @@ def read_by_the_tail(site: Train, system: Whole, uid: int, read_at_nm: int) -> W
     if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
         return system
     there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
-    return replace(
+    told = computer.read_by_tail(site.limits, system.computer, uid)
+    read = replace(
         system,
         trailing=antenna_spacing.tail_reads(track(site), there, uid, computer.place_of_read(system.computer)),
-        computer=computer.read_by_tail(site.limits, system.computer, uid),
+        computer=told,
+    )
+    if not is_healthy(told.spacing):
+        return read
+    passed = computer.tag_passed(system.computer, uid, computer.BY_TAIL_MS)
+    off_nm = read_at_nm - system.formation.front_nm - system.trailing.apart_nm
+    seen_off_nm = off_nm if train_length.ends_pass_one_point(formation(system), passed) else 0
+    return replace(
+        read,
+        formation=train_length.tail_passes(
+            railway(site), formation(system), read_at_nm, 0, 0, 0, 0, seen_off_nm, passed
+        ),
     )
 
 
 def come_apart(site: Train, system: Whole, apart_nm: int) -> Whole:
     """From now on another antenna speaks for the tail, or the same one elsewhere (T3, P5)."""
-    return replace(system, trailing=antenna_spacing.come_apart(track(site), system.trailing, apart_nm))
+    return replace(
+        system,
+        trailing=antenna_spacing.come_apart(track(site), system.trailing, apart_nm),
+        formation=train_length.change_formation_untold(railway(site), formation(system), length_nm(site, apart_nm)),
+    )
 
 
 def take_end(site: Train, system: Whole, end_mm: int) -> Whole:
@@ -305,7 +338,8 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
     if located == system.computer:
         return system
     turned = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
-    return _at_rest(site, replace(system, trailing=turned, computer=located), least_mm, most_mm)
+    length = train_length.change_kilometrage(railway(site), formation(system))
+    return _at_rest(site, replace(system, trailing=turned, formation=length, computer=located), least_mm, most_mm)
 
 
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -339,6 +373,7 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         system,
         watched=replace(system.watched, kept=True, too_fast=False),
         trailing=_preset(site, system),
+        formation=_made_up(site, system),
         computer=begun,
     )
     return _at_rest(site, inspected, least_mm, most_mm)
@@ -437,10 +472,21 @@ def find_whole(site: Train, system: Whole) -> Whole:
         return system
     if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
         return system
-    return replace(system, trailing=_preset(site, system), computer=computer.made_up(site.limits, system.computer))
+    return replace(
+        system,
+        trailing=_preset(site, system),
+        formation=_made_up(site, system),
+        computer=computer.made_up(site.limits, system.computer),
+    )
 
 
 def _preset(site: Train, system: Whole) -> Trailing:
     """The antennas are preset where the train is."""
     there = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
     return antenna_spacing.preset(track(site), there, site.limits.antennas_mm)
+
+
+def _made_up(site: Train, system: Whole) -> Formation:
+    """The train is as long as it is, and its unit begins to measure it anew."""
+    there = formation(system)
+    return train_length.change_formation(railway(site), there, length_nm(site, system.trailing.apart_nm))

@@ -1,6 +1,6 @@
 """A train of some length, its ends passing points, and the machine that measures it (P4, T3, P8).
 
-Places and ways are in µm, since mm/s times ms is µm: nothing is divided, so nothing is rounded.  Errors are
+Places and ways are in nm, as in ``models.onboard.odometry``: nothing is divided, so nothing is rounded.  Errors are
 the paper's, or as measured of the train and written; none is the machine's.
 """
 
@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 
 from kernel.onboard import train_length as machine
 from kernel.onboard.train_length import Length, LengthBounds, Passing, PointKind
+from models.onboard.units import NM_A_MM, UM_A_MM
 
-UM_A_MM = 1_000
 SAMPLING_MS = 100
 """Paper 001, table 2: sampled every 100 ms; at 130 km/h a train runs 3.61 m in that time."""
-AVERAGING_UM = 781_250
+AVERAGING_NM = 781_250_000
 """2.5 km/h/s · (1.5 s)² / 2, what the speed changes in the average; paper 001, table 2, says 0.78 m."""
-SENSOR_UM = 5_000_000
+SENSOR_NM = 5_000_000_000
 """Paper 001, table 2."""
 
 
@@ -31,26 +31,27 @@ class Railway:
 class Formation:
     """One moment of a train.
 
-    ``length_um``: how long it is.
+    ``length_nm``: how long it is.
     ``state``: what the machine knows.
     The rest is history of this formation and of this life of its unit.
     ``head_passed``: the head has passed a point: ``kind``, ``point``, noted for ``time_ms``, when the front
-    was at ``front_um`` and the train ran ``speed_mm_s``; odometry claimed (``was_known``) a range ``width_mm`` wide,
+    was at ``front_nm`` and the train ran ``speed_mm_s``; odometry claimed (``was_known``) a range ``width_mm`` wide,
     and at most ``told_mm_s``.
     ``tail_passed``: the tail has passed some point.  ``both_passed``: one that the head had passed last.
-    ``untold``: since the length in use was measured, vehicles were coupled or set out, and the unit was not told.
-    ``measured_um``: how long the train was when that length was measured, which the errors of that measurement
-    leave open by ``open_um``.
+    ``untold``: since the length in use was measured, vehicles were coupled or set out, and the unit was not told; or
+    since it was forgotten the train is longer than the line allows.
+    ``measured_nm``: how long the train was when that length was measured, which the errors of that measurement
+    leave open by ``open_nm``.
     ``differed``: measured again, it was longer or shorter than that, by more than both measurements leave open.
     """
 
-    length_um: int
+    length_nm: int
     state: Length
     head_passed: bool
     kind: PointKind
     point: int
     time_ms: int
-    front_um: int
+    front_nm: int
     speed_mm_s: int
     was_known: bool
     width_mm: int
@@ -58,8 +59,8 @@ class Formation:
     tail_passed: bool
     both_passed: bool
     untold: bool
-    measured_um: int
-    open_um: int
+    measured_nm: int
+    open_nm: int
     differed: bool
 
 
@@ -90,14 +91,14 @@ def vehicles_are_of_this_world(site: Railway) -> bool:
 # ---- assumptions
 
 
-def no_train_is_longer_than_the_line_allows(site: Railway, system: Formation, length_um: int) -> bool:
+def no_train_is_longer_than_the_line_allows(site: Railway, system: Formation, length_nm: int) -> bool:
     """The operator lets no longer train onto the line (paper 001, 3.3; P4)."""
-    return length_um <= UM_A_MM * site.bounds.line_maximum_mm
+    return length_nm <= NM_A_MM * site.bounds.line_maximum_mm
 
 
-def the_range_contains_the_front(site: Railway, system: Formation, front_um: int, passing: Passing) -> bool:
+def the_range_contains_the_front(site: Railway, system: Formation, front_nm: int, passing: Passing) -> bool:
     """The front is within the range that odometry claims, if it claims one: `range_contains_train` (P7)."""
-    return not passing.known or (UM_A_MM * passing.front_least_mm <= front_um <= UM_A_MM * passing.front_most_mm)
+    return not passing.known or (NM_A_MM * passing.front_least_mm <= front_nm <= NM_A_MM * passing.front_most_mm)
 
 
 def the_speed_is_no_more_than_told(site: Railway, system: Formation, speed_mm_s: int, passing: Passing) -> bool:
@@ -115,31 +116,33 @@ def higher(one: int, other: int) -> int:
     return one if one >= other else other
 
 
-def sampling_is_off_by_one_cycle_at_most(site: Railway, system: Formation, speed_mm_s: int, sampling_um: int) -> bool:
+def sampling_is_off_by_one_cycle_at_most(site: Railway, system: Formation, speed_mm_s: int, sampling_nm: int) -> bool:
     """A pass is noted in the cycle in which it happens (paper 001, table 2; P8)."""
-    return within(sampling_um, SAMPLING_MS * higher(system.speed_mm_s, speed_mm_s))
+    return within(sampling_nm, SAMPLING_MS * UM_A_MM * higher(system.speed_mm_s, speed_mm_s))
 
 
 def starts_are_off_by_one_cycle_at_most(
-    site: Railway, system: Formation, kind: PointKind, speed_mm_s: int, skew_um: int
+    site: Railway, system: Formation, kind: PointKind, speed_mm_s: int, skew_nm: int
 ) -> bool:
     """Both ends' cycles follow one another at once; tags are read by one unit (paper 001, table 2; P8, T3)."""
-    return within(skew_um, 0 if kind == PointKind.TAG else SAMPLING_MS * higher(system.speed_mm_s, speed_mm_s))
+    return within(
+        skew_nm, 0 if kind == PointKind.TAG else SAMPLING_MS * UM_A_MM * higher(system.speed_mm_s, speed_mm_s)
+    )
 
 
 def averaging_puts_a_pass_off_within_its_bound(
-    site: Railway, system: Formation, kind: PointKind, averaging_um: int
+    site: Railway, system: Formation, kind: PointKind, averaging_nm: int
 ) -> bool:
     """The moving average delays both ends alike, but for what the speed changes in it (P8; ours).
 
     The paper's 0.78 m is a·t²/2 of 2.5 km/h/s and 1.5 s; tags are not averaged.
     """
-    return within(averaging_um, 0 if kind == PointKind.TAG else AVERAGING_UM)
+    return within(averaging_nm, 0 if kind == PointKind.TAG else AVERAGING_NM)
 
 
-def a_sensor_sees_the_point_within_its_bound(site: Railway, system: Formation, kind: PointKind, sensor_um: int) -> bool:
+def a_sensor_sees_the_point_within_its_bound(site: Railway, system: Formation, kind: PointKind, sensor_nm: int) -> bool:
     """Both sensors see the curve within 5 m of one another, both antennas the tag within the window (P8, T16)."""
-    return within(sensor_um, UM_A_MM * site.bounds.window_mm if kind == PointKind.TAG else SENSOR_UM)
+    return within(sensor_nm, NM_A_MM * site.bounds.window_mm if kind == PointKind.TAG else SENSOR_NM)
 
 
 def ends_pass_one_point(system: Formation, passing: Passing) -> bool:
@@ -153,12 +156,12 @@ def ends_pass_one_point(system: Formation, passing: Passing) -> bool:
 
 
 def the_way_between_is_the_sensors_distance(
-    site: Railway, system: Formation, front_um: int, off_um: int, passing: Passing
+    site: Railway, system: Formation, front_nm: int, off_nm: int, passing: Passing
 ) -> bool:
     """From one end's pass of a point to the other's the train runs as far as its sensors are apart (P4, T3).
 
     They are apart as long as the train is, less the last vehicle's length (paper 001, 3.3, formula 3) or both
-    overhangs, which are measured in the depot; ``off_um`` is the sum of the errors.  Nothing is said of passes
+    overhangs, which are measured in the depot; ``off_nm`` is the sum of the errors.  Nothing is said of passes
     of two points, nor of a tail's pass before the head's.
     """
     beyond_mm = (
@@ -168,7 +171,7 @@ def the_way_between_is_the_sensors_distance(
     )
     return (
         not ends_pass_one_point(system, passing)
-        or front_um - system.front_um == system.length_um - UM_A_MM * beyond_mm + off_um
+        or front_nm - system.front_nm == system.length_nm - NM_A_MM * beyond_mm + off_nm
     )
 
 
@@ -183,39 +186,39 @@ def can_be_compared(site: Railway, system: Formation, passing: Passing) -> bool:
         and passing.known
         and system.width_mm <= site.bounds.width_mm
         and passing.front_most_mm - passing.front_least_mm <= site.bounds.width_mm
-        and within(system.front_um, NEAR_UM)
-        and within(UM_A_MM * passing.front_least_mm, NEAR_UM)
-        and within(UM_A_MM * passing.front_most_mm, NEAR_UM)
+        and within(system.front_nm, NEAR_NM)
+        and within(NM_A_MM * passing.front_least_mm, NEAR_NM)
+        and within(NM_A_MM * passing.front_most_mm, NEAR_NM)
         and system.told_mm_s <= FASTEST_MM_S
         and passing.speed_most_mm_s <= FASTEST_MM_S
     )
 
 
-NEAR_UM = 9_000_000_000_000
+NEAR_NM = 9_000_000_000_000_000
 """Places of which the line has any: 9,000 km; the machine's numbers end at 10,000 km."""
 FASTEST_MM_S = 200_000
 """200 m/s; no train of the line gets there."""
 
 
-def left_open_um(site: Railway, system: Formation, passing: Passing) -> int:
+def left_open_nm(site: Railway, system: Formation, passing: Passing) -> int:
     """Give how far apart two lengths can be that one measurement leaves open: the ranges, E(v) twice, rounding."""
-    cycle_um = SAMPLING_MS * higher(system.told_mm_s, passing.speed_most_mm_s)
-    curve_um = 2 * cycle_um + AVERAGING_UM + SENSOR_UM
-    error_um = cycle_um + UM_A_MM * site.bounds.window_mm if passing.kind == PointKind.TAG else curve_um
+    cycle_nm = SAMPLING_MS * UM_A_MM * higher(system.told_mm_s, passing.speed_most_mm_s)
+    curve_nm = 2 * cycle_nm + AVERAGING_NM + SENSOR_NM
+    error_nm = cycle_nm + NM_A_MM * site.bounds.window_mm if passing.kind == PointKind.TAG else curve_nm
     ranges_mm = system.width_mm + passing.front_most_mm - passing.front_least_mm
-    return UM_A_MM * ranges_mm + 2 * (error_um + ROUNDING_UM)
+    return NM_A_MM * ranges_mm + 2 * (error_nm + ROUNDING_NM)
 
 
-ROUNDING_UM = 3_000
+ROUNDING_NM = 3_000_000
 """Three terms of E(v), each less than a millimetre too much."""
 
 
 # ---- what happens
 
 
-def head_passes(site: Railway, system: Formation, front_um: int, speed_mm_s: int, passing: Passing) -> Formation:
+def head_passes(site: Railway, system: Formation, front_nm: int, speed_mm_s: int, passing: Passing) -> Formation:
     """The head passes a point, or believes so: any point, at any time told (P4, T3)."""
-    if not the_range_contains_the_front(site, system, front_um, passing):
+    if not the_range_contains_the_front(site, system, front_nm, passing):
         return system
     if not the_speed_is_no_more_than_told(site, system, speed_mm_s, passing):
         return system
@@ -226,7 +229,7 @@ def head_passes(site: Railway, system: Formation, front_um: int, speed_mm_s: int
         kind=passing.kind,
         point=passing.point,
         time_ms=passing.time_ms,
-        front_um=front_um,
+        front_nm=front_nm,
         speed_mm_s=speed_mm_s,
         was_known=passing.known,
         width_mm=passing.front_most_mm - passing.front_least_mm,
@@ -237,32 +240,32 @@ def head_passes(site: Railway, system: Formation, front_um: int, speed_mm_s: int
 def tail_passes(
     site: Railway,
     system: Formation,
-    front_um: int,
+    front_nm: int,
     speed_mm_s: int,
-    sampling_um: int,
-    skew_um: int,
-    averaging_um: int,
-    sensor_um: int,
+    sampling_nm: int,
+    skew_nm: int,
+    averaging_nm: int,
+    sensor_nm: int,
     passing: Passing,
 ) -> Formation:
     """A telegram that the tail has passed a point arrives: late, again, of any point, or never (P4, T3).
 
-    ``front_um``: where the front was when the tail noted its pass.
+    ``front_nm``: where the front was when the tail noted its pass.
     """
-    if not the_range_contains_the_front(site, system, front_um, passing):
+    if not the_range_contains_the_front(site, system, front_nm, passing):
         return system
     if not the_speed_is_no_more_than_told(site, system, speed_mm_s, passing):
         return system
-    if not sampling_is_off_by_one_cycle_at_most(site, system, speed_mm_s, sampling_um):
+    if not sampling_is_off_by_one_cycle_at_most(site, system, speed_mm_s, sampling_nm):
         return system
-    if not starts_are_off_by_one_cycle_at_most(site, system, passing.kind, speed_mm_s, skew_um):
+    if not starts_are_off_by_one_cycle_at_most(site, system, passing.kind, speed_mm_s, skew_nm):
         return system
-    if not averaging_puts_a_pass_off_within_its_bound(site, system, passing.kind, averaging_um):
+    if not averaging_puts_a_pass_off_within_its_bound(site, system, passing.kind, averaging_nm):
         return system
-    if not a_sensor_sees_the_point_within_its_bound(site, system, passing.kind, sensor_um):
+    if not a_sensor_sees_the_point_within_its_bound(site, system, passing.kind, sensor_nm):
         return system
-    off_um = sampling_um + skew_um + averaging_um + sensor_um
-    if not the_way_between_is_the_sensors_distance(site, system, front_um, off_um, passing):
+    off_nm = sampling_nm + skew_nm + averaging_nm + sensor_nm
+    if not the_way_between_is_the_sensors_distance(site, system, front_nm, off_nm, passing):
         return system
     after = replace(
         system,
@@ -270,27 +273,29 @@ def tail_passes(
         tail_passed=True,
         both_passed=system.both_passed or ends_pass_one_point(system, passing),
     )
-    open_um = left_open_um(site, system, passing)
+    open_nm = left_open_nm(site, system, passing)
     if system.state.measured:
-        far = not within(system.length_um - system.measured_um, system.open_um + open_um)
+        far = not within(system.length_nm - system.measured_nm, system.open_nm + open_nm)
         return replace(after, differed=system.differed or (far and can_be_compared(site, system, passing)))
     if not after.state.measured:
         return after
-    return replace(after, untold=False, measured_um=system.length_um, open_um=open_um, differed=False)
+    return replace(after, untold=False, measured_nm=system.length_nm, open_nm=open_nm, differed=False)
 
 
-def change_formation(site: Railway, system: Formation, length_um: int) -> Formation:
+def change_formation(site: Railway, system: Formation, length_nm: int) -> Formation:
     """Vehicles are coupled or split, and the unit is told (P4, T3)."""
-    if not no_train_is_longer_than_the_line_allows(site, system, length_um):
+    if not no_train_is_longer_than_the_line_allows(site, system, length_nm):
         return system
-    return replace(begun(system), length_um=length_um, state=machine.note_formation_changed(system.state))
+    changed = replace(system, length_nm=length_nm, state=machine.note_formation_changed(system.state))
+    return begun(site, changed)
 
 
-def change_formation_untold(site: Railway, system: Formation, length_um: int) -> Formation:
-    """Vehicles are coupled at the rear or set out there, and nobody tells the unit: a fault of staff (P4, T3)."""
-    if not no_train_is_longer_than_the_line_allows(site, system, length_um):
-        return system
-    return replace(system, length_um=length_um, untold=True)
+def change_formation_untold(site: Railway, system: Formation, length_nm: int) -> Formation:
+    """Vehicles are coupled at the rear or set out there, however many, and nobody tells the unit (P4, T3).
+
+    So it is, too, where another antenna than the train's last speaks for the tail: it ends there for its unit.
+    """
+    return replace(system, length_nm=length_nm, untold=True)
 
 
 def change_kilometrage(site: Railway, system: Formation) -> Formation:
@@ -300,18 +305,18 @@ def change_kilometrage(site: Railway, system: Formation) -> Formation:
 
 def restart(site: Railway, system: Formation) -> Formation:
     """The unit restarts and has forgotten all (P4, T8)."""
-    return replace(begun(system), state=machine.UNMEASURED)
+    return replace(begun(site, system), state=machine.UNMEASURED)
 
 
-def begun(system: Formation) -> Formation:
+def begun(site: Railway, system: Formation) -> Formation:
     """Begin the history anew."""
     return replace(
         system,
         head_passed=False,
         tail_passed=False,
         both_passed=False,
-        untold=False,
-        measured_um=system.length_um,
-        open_um=0,
+        untold=not no_train_is_longer_than_the_line_allows(site, system, system.length_nm),
+        measured_nm=system.length_nm,
+        open_nm=0,
         differed=False,
     )

@@ -12,7 +12,16 @@ from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
-from models.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit, tag_fix, tag_window
+from models.onboard import (
+    antenna_spacing,
+    brake_watch,
+    braking,
+    odometry,
+    speed_limit,
+    tag_fix,
+    tag_window,
+    train_length,
+)
 from models.onboard.antenna_spacing import Track, Trailing
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
@@ -20,6 +29,7 @@ from models.onboard.odometry import Line, Running
 from models.onboard.speed_limit import Passage, Profile
 from models.onboard.tag_fix import Antenna
 from models.onboard.tag_window import Expecting, Stretch
+from models.onboard.train_length import Formation, Railway
 from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM
 
 
@@ -49,8 +59,9 @@ class Whole:
 
     ``front_nm``, ``speed_um_s``: where the front is, and how fast; ``from_nm``, ``from_um_s``: when the cycle began.
     ``runs``: the train has run for a cycle that its computer has yet to sense.
-    ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``, ``passing``: the train as odometry, brake
-    control, brake watch, the window for the next tag, the antennas' spacing and the speed limit are proved with it.
+    ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``, ``passing``, ``formation``: the train as
+    odometry, brake control, brake watch, the window for the next tag, the antennas' spacing, the speed limit and the
+    train's length are proved with it.
     ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
     ``astern``: history: in the newest cycle the tail of a whole train, which ran at no more than twice the speed of its
     line, came over the tag that was awaited then, and which was not overdue.
@@ -69,6 +80,7 @@ class Whole:
     expecting: Expecting
     trailing: Trailing
     passing: Passage
+    formation: Formation
     awaited_mm: int
     astern: bool
     asked: Brake
@@ -126,6 +138,16 @@ def profile(site: Train) -> Profile:
     return Profile(table=site.limits.train.speeds, length_mm=site.length_mm)
 
 
+def railway(site: Train) -> Railway:
+    """Give the site of the world of the train's length: the line, for it, allows the length that is written of it."""
+    return Railway(bounds=site.limits.length)
+
+
+def length_nm(site: Train, apart_nm: int) -> int:
+    """Give how long the train is to its unit, whose antennas are so far apart: with both overhangs (T3, P4)."""
+    return apart_nm + NM_A_MM * (site.limits.length.front_overhang_mm + site.limits.length.rear_overhang_mm)
+
+
 def running(system: Whole) -> Running:
     """Give the train as the odometry's world saw it before the newest cycle, or sees it after (P7)."""
     return replace(before(system), motion=system.computer.known.motion)
@@ -163,6 +185,11 @@ def watched(system: Whole) -> Watched:
 def passage(system: Whole, front_nm: int) -> Passage:
     """Give it as the world of the speed limit sees it with its front there (T12)."""
     return replace(system.passing, front_nm=front_nm, speed_um_s=system.speed_um_s, limit=system.computer.known.limit)
+
+
+def formation(system: Whole) -> Formation:
+    """Give it as the world of the train's length sees it (P4)."""
+    return replace(system.formation, state=system.computer.length)
 
 
 def way_nm(system: Whole, front_nm: int) -> int:
@@ -219,6 +246,26 @@ def the_windows_bounds_fit(site: Train) -> bool:
 def the_spacings_bounds_fit(site: Train) -> bool:
     """What the proof of the antennas' spacing asks of the written bounds (T3)."""
     return antenna_spacing.the_tolerance_covers_preset_and_read_window(track(site))
+
+
+def the_lengths_bounds_fit(site: Train) -> bool:
+    """What the proof of the train's length asks of the written bounds, and of what reads tags (P4, T3)."""
+    bounds = site.limits.length
+    return (
+        train_length.bounds_are_not_negative(railway(site))
+        and train_length.vehicles_are_of_this_world(railway(site))
+        and bounds.window_mm >= 2 * site.read_within_mm
+        and bounds.front_overhang_mm == site.limits.tags.antenna_mm
+    )
+
+
+def one_length_is_written_and_it_covers_the_antennas(site: Train) -> bool:
+    """Antennas as far apart as written, overhangs and the error of presetting make no longer train (P4, T3)."""
+    most_nm = length_nm(site, NM_A_MM * (site.limits.antennas_mm + site.preset_within_mm))
+    return (
+        most_nm <= NM_A_MM * site.limits.train.length_mm
+        and site.limits.length.line_maximum_mm == site.limits.train.length_mm
+    )
 
 
 def the_antennas_lie_farther_apart_than_the_window_is_long(site: Train) -> bool:

@@ -189,15 +189,19 @@ class OnBoard:
 
 def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> OnBoard:
     """The machines of a train that stands, located and found whole, and what runs their cycles."""
+    written_mm = length_mm + SURVEYED.preset_within_mm
     limits = Limits(
         sensors=PLAN.sensors,
-        train=TrainLimits(PLAN.brake, PLAN.speeds, length_mm),
+        train=TrainLimits(PLAN.brake, PLAN.speeds, written_mm),
         reverse=PLAN.reverse,
         split=PLAN.split,
         window=PLAN.window,
         tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
         spacing=PLAN.spacing,
         antennas_mm=length_mm - 2 * ANTENNA_MM,
+        length=replace(
+            PLAN.length, line_maximum_mm=written_mm, front_overhang_mm=ANTENNA_MM, rear_overhang_mm=ANTENNA_MM
+        ),
     )
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"

@@ -41,10 +41,12 @@ from models.onboard.train_nature import (
     before,
     braked,
     line,
+    one_length_is_written_and_it_covers_the_antennas,
     profile,
     stretch,
     the_antennas_lie_farther_apart_than_the_window_is_long,
     the_brakes_bounds_fit,
+    the_lengths_bounds_fit,
     the_odometrys_bounds_fit,
     the_spacings_bounds_fit,
     the_tags_bounds_fit,
@@ -54,7 +56,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
 from models.world.truth import is_overdue_first, only_the_last_speaks
-from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window
+from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_parts
 from proofs.onboard.train_parts import (
     a_narrow_range_finds_what_the_head_missed,
     a_tail_over_a_missed_tag_is_known_too_widely,
@@ -77,6 +79,7 @@ from proofs.onboard.train_parts import (
     speed_range_contains_speed,
     the_brake_holds_the_wanted_end_or_the_one_before,
     the_brake_responds_once_it_was_commanded_for_long_enough,
+    the_computer_was_located_a_cycle_ago,
     the_gradient_estimate_is_no_steeper_than_the_line,
     the_heads_last_eight_are_remembered,
     the_response_ends,
@@ -361,21 +364,7 @@ def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
     return system.computer.known.limit == system.passing.limit
 
 
-def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
-    """If a range is claimed, and was a cycle ago, the speed was in its range then (P1, P7).
-
-    What was claimed then is claimed no more once the train has been located anew.
-    """
-    then = system.computer.before
-    return (
-        system.runs
-        or system.computer.known.motion.loss != Loss.NONE
-        or then.loss != Loss.NONE
-        or UM_A_MM * then.speed_least_mm_s <= system.from_um_s <= UM_A_MM * then.speed_most_mm_s
-    )
-
-
-INITIAL = (the_train_stands_held_by_its_brake, the_antennas_are_not_preset_yet)
+INITIAL = (the_train_stands_held_by_its_brake, the_antennas_are_not_preset_yet, train_parts.nothing_is_measured)
 SAFETY = (
     the_front_stays_before_the_end,
     the_front_is_where_the_computer_says,
@@ -408,6 +397,7 @@ SAFETY = (
     the_computer_has_the_proved_window,
     the_computer_has_the_proved_spacing,
     the_computer_has_the_proved_limit,
+    *train_parts.OF_THE_LENGTH,
 )
 INVARIANTS = (
     *SAFETY,
@@ -448,6 +438,7 @@ INVARIANTS = (
     the_heads_last_eight_are_remembered,
     no_restriction_ends_before_the_rear_has_passed,
     what_the_head_is_on_is_known,
+    *train_parts.BEHIND_THE_LENGTH,
 )
 PREMISES = (
     the_odometrys_bounds_fit,
@@ -456,6 +447,8 @@ PREMISES = (
     the_windows_bounds_fit,
     the_spacings_bounds_fit,
     the_antennas_lie_farther_apart_than_the_window_is_long,
+    the_lengths_bounds_fit,
+    one_length_is_written_and_it_covers_the_antennas,
 )
 STEPS = (
     run_a_cycle,
@@ -484,5 +477,14 @@ THEORY = Theory(
     by_name(INVARIANTS),
     by_name(SAFETY),
     by_name(PREMISES),
-    parts=("odometry", "braking", "brake_watch", "tag_fix", "tag_window", "antenna_spacing", "speed_limit"),
+    parts=(
+        "odometry",
+        "braking",
+        "brake_watch",
+        "tag_fix",
+        "tag_window",
+        "antenna_spacing",
+        "speed_limit",
+        "train_length",
+    ),
 )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from kernel.onboard import train_length as machine
 from models.onboard import train_length as world
-from models.onboard.train_length import UM_A_MM, Formation, Railway
+from models.onboard.train_length import Formation, Railway
+from models.onboard.units import NM_A_MM, UM_A_MM
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -24,7 +25,7 @@ def nothing_is_measured(site: Railway, system: Formation) -> bool:
 
 def the_line_allows_the_train(site: Railway, system: Formation) -> bool:
     """The train is at most as long as the line allows (P4)."""
-    return world.no_train_is_longer_than_the_line_allows(site, system, system.length_um)
+    return world.no_train_is_longer_than_the_line_allows(site, system, system.length_nm)
 
 
 # ---- what is claimed
@@ -33,11 +34,28 @@ def the_line_allows_the_train(site: Railway, system: Formation) -> bool:
 def length_never_underestimated(site: Railway, system: Formation) -> bool:
     """The train is never longer than the length used (P4, T3).
 
-    But for vehicles coupled untold to a train that was measured, until it differs when measured again.
+    But for vehicles coupled untold, until it differs when measured again; or if it is longer than the line allows.
     """
+    allowed = world.no_train_is_longer_than_the_line_allows(site, system, system.length_nm)
+    return (system.untold and not (system.differed and allowed)) or system.length_nm <= NM_A_MM * machine.length_mm(
+        site.bounds, system.state
+    )
+
+
+def a_train_longer_than_the_line_allows_is_shown(site: Railway, system: Formation) -> bool:
+    """Measured, and longer by more than the measurement leaves open: it is shown (P4)."""
     return (
-        system.untold and system.state.measured and not system.differed
-    ) or system.length_um <= UM_A_MM * machine.length_mm(site.bounds, system.state)
+        not system.state.measured
+        or system.measured_nm <= NM_A_MM * site.bounds.line_maximum_mm + system.open_nm
+        or machine.contradicts_the_line(site.bounds, system.state)
+    )
+
+
+def a_train_that_the_line_allows_is_not_shown(site: Railway, system: Formation) -> bool:
+    """However large the errors, what is no longer than the line allows does not contradict it (P4; service)."""
+    return system.measured_nm > NM_A_MM * site.bounds.line_maximum_mm or not machine.contradicts_the_line(
+        site.bounds, system.state
+    )
 
 
 def another_length_is_noticed_when_measured_again(site: Railway, system: Formation) -> bool:
@@ -60,12 +78,12 @@ def no_length_is_below_the_last_vehicles(site: Railway, system: Formation) -> bo
 
 def no_length_is_known_worse_than_is_written(site: Railway, system: Formation) -> bool:
     """Nothing is measured from a range wider than is written: most and least are two of them and errors apart (P4)."""
-    widest_um = UM_A_MM * (2 * site.bounds.width_mm + 2 * site.bounds.window_mm)
-    errors_um = 4 * world.SAMPLING_MS * world.FASTEST_MM_S + 2 * world.AVERAGING_UM + 2 * world.SENSOR_UM
+    widest_nm = NM_A_MM * (2 * site.bounds.width_mm + 2 * site.bounds.window_mm)
+    errors_nm = 4 * world.SAMPLING_MS * UM_A_MM * world.FASTEST_MM_S + 2 * world.AVERAGING_NM + 2 * world.SENSOR_NM
     return (
         not system.state.measured
         or machine.contradicts_itself(system.state)
-        or UM_A_MM * (system.state.most_mm - system.state.least_mm) <= widest_um + errors_um + 2 * world.ROUNDING_UM
+        or NM_A_MM * (system.state.most_mm - system.state.least_mm) <= widest_nm + errors_nm + 2 * world.ROUNDING_NM
     )
 
 
@@ -99,8 +117,12 @@ FARTHEST_MM = 20_005_000_000
 
 
 def the_line_allows_every_train(site: Railway, system: Formation) -> bool:
-    """The train of this moment is at most as long as the line allows (P4)."""
-    return world.no_train_is_longer_than_the_line_allows(site, system, system.length_um)
+    """A train that is not measured is at most as long as the line allows, but for vehicles coupled untold (P4)."""
+    return (
+        system.untold
+        or system.state.measured
+        or world.no_train_is_longer_than_the_line_allows(site, system, system.length_nm)
+    )
 
 
 def the_noted_pass_is_the_heads(site: Railway, system: Formation) -> bool:
@@ -111,7 +133,7 @@ def the_noted_pass_is_the_heads(site: Railway, system: Formation) -> bool:
         and noted.kind == system.kind
         and noted.point == system.point
         and noted.time_ms == system.time_ms
-        and UM_A_MM * noted.front_least_mm <= system.front_um <= UM_A_MM * noted.front_most_mm
+        and NM_A_MM * noted.front_least_mm <= system.front_nm <= NM_A_MM * noted.front_most_mm
         and noted.front_most_mm - noted.front_least_mm == system.width_mm
         and noted.speed_most_mm_s == system.told_mm_s
         and 0 <= system.speed_mm_s <= noted.speed_most_mm_s
@@ -126,7 +148,7 @@ def a_pass_in_range_is_noted(site: Railway, system: Formation) -> bool:
         or not system.head_passed
         or not system.was_known
         or system.width_mm > site.bounds.width_mm
-        or not world.within(system.front_um, world.NEAR_UM)
+        or not world.within(system.front_nm, world.NEAR_NM)
         or system.told_mm_s > world.FASTEST_MM_S
     )
 
@@ -134,9 +156,10 @@ def a_pass_in_range_is_noted(site: Railway, system: Formation) -> bool:
 def the_length_was_between_its_bounds(site: Railway, system: Formation) -> bool:
     """When it was measured, the true length was between least and most; they are as far apart as is left open (P4)."""
     return not system.state.measured or (
-        (system.untold or system.measured_um == system.length_um)
-        and UM_A_MM * system.state.least_mm <= system.measured_um <= UM_A_MM * system.state.most_mm
-        and (system.state.contradicted or UM_A_MM * (system.state.most_mm - system.state.least_mm) <= system.open_um)
+        (system.untold or system.measured_nm == system.length_nm)
+        and NM_A_MM * system.state.least_mm <= system.measured_nm <= NM_A_MM * system.state.most_mm
+        and system.measured_nm <= NM_A_MM * system.state.least_mm + system.open_nm
+        and (system.state.contradicted or NM_A_MM * (system.state.most_mm - system.state.least_mm) <= system.open_nm)
     )
 
 
@@ -149,6 +172,8 @@ INITIAL = (nothing_is_measured, the_line_allows_the_train)
 PREMISES = (world.bounds_are_not_negative, world.vehicles_are_of_this_world)
 SAFETY = (
     length_never_underestimated,
+    a_train_longer_than_the_line_allows_is_shown,
+    a_train_that_the_line_allows_is_not_shown,
     another_length_is_noticed_when_measured_again,
     the_same_length_contradicts_nothing,
     no_length_is_below_the_last_vehicles,

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
+from kernel.onboard.train_length import PointKind
+from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard.train_nature import (
     Train,
     Whole,
     approach,
     braked,
+    length_nm,
     line,
     passage,
     profile,
+    railway,
     running,
     tail_comes_over,
     track,
     watched,
     watched_over,
 )
-from proofs.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit
+from models.onboard.units import NM_A_MM, UM_A_MM
+from proofs.onboard import antenna_spacing, brake_watch, braking, odometry, speed_limit, train_length
 
 
 def range_contains_front(site: Train, system: Whole) -> bool:
@@ -223,3 +228,144 @@ def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
         and system.watched.cycles >= site.limits.train.brake.response_cycles
         and (not system.runs or system.front_nm <= system.from_nm)
     )
+
+
+def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
+    """If a range is claimed, and was a cycle ago, the speed was in its range then (P1, P7).
+
+    What was claimed then is claimed no more once the train has been located anew.
+    """
+    then = system.computer.before
+    return (
+        system.runs
+        or system.computer.known.motion.loss != Loss.NONE
+        or then.loss != Loss.NONE
+        or UM_A_MM * then.speed_least_mm_s <= system.from_um_s <= UM_A_MM * then.speed_most_mm_s
+    )
+
+
+# ---- the train's length
+
+
+def nothing_is_measured(site: Train, system: Whole) -> bool:
+    """The length is not measured at the start, and is no longer than is written (P4, T8)."""
+    return (
+        train_length.nothing_is_measured(railway(site), system.formation)
+        and train_length.the_line_allows_the_train(railway(site), system.formation)
+        and system.formation.length_nm == length_nm(site, system.trailing.apart_nm)
+        and system.computer.length == system.formation.state
+    )
+
+
+def the_computer_has_the_proved_length(site: Train, system: Whole) -> bool:
+    """What it knows of the train's length is what the proof of that does."""
+    return system.computer.length == system.formation.state
+
+
+def length_never_underestimated(site: Train, system: Whole) -> bool:
+    """The train is never longer than the length used, but for what nobody has told (P4, T3)."""
+    return train_length.length_never_underestimated(railway(site), system.formation)
+
+
+def what_was_measured_was_as_far_apart_as_preset(site: Train, system: Whole) -> bool:
+    """No length was measured by another's antenna: it is near what the preset distance makes it (P4, T13)."""
+    preset_nm = length_nm(site, NM_A_MM * system.computer.spacing.preset_mm)
+    off_nm = system.formation.measured_nm - preset_nm
+    return not system.computer.length.measured or not world_of_antennas.is_off(track(site), off_nm)
+
+
+def a_train_longer_than_is_written_does_not_count(site: Train, system: Whole) -> bool:
+    """Of a train measured longer than written, by more than that leaves open, no read of the tail counts (P4, T3)."""
+    return (
+        not system.computer.length.measured
+        or system.formation.measured_nm <= NM_A_MM * site.limits.train.length_mm + system.formation.open_nm
+        or not computer.through_line(site.limits, system.computer, True).fits
+    )
+
+
+def a_train_of_another_length_does_not_count(site: Train, system: Whole) -> bool:
+    """Nor of one that was another when measured again, by more than both leave open, until staff has seen it (P4)."""
+    return not system.formation.differed or not computer.through_line(site.limits, system.computer, True).fits
+
+
+def a_train_as_it_is_written_is_not_accused_of_its_length(site: Train, system: Whole) -> bool:
+    """Of a train that nobody has changed untold, and no longer than is written, no measurement says else (P4)."""
+    return (
+        system.formation.untold
+        or system.formation.length_nm > NM_A_MM * site.limits.train.length_mm
+        or computer.is_as_long_as_written(site.limits, system.computer)
+    )
+
+
+def a_train_found_whole_is_no_longer_than_is_written(site: Train, system: Whole) -> bool:
+    """While it is as it was found, antennas and overhangs make no longer train than is written (P4, T3)."""
+    return not system.trailing.whole or (
+        system.formation.length_nm <= NM_A_MM * site.limits.train.length_mm and not system.formation.untold
+    )
+
+
+def it_is_as_long_as_its_antennas_are_apart(site: Train, system: Whole) -> bool:
+    """And both overhangs, whichever antenna speaks for the tail (T3)."""
+    return system.formation.length_nm == length_nm(site, system.trailing.apart_nm)
+
+
+def the_head_passed_a_tag_where_it_read_it(site: Train, system: Whole) -> bool:
+    """What the tail is awaited at is a tag, and the head's antenna was in the window of it (T3, T16)."""
+    off_nm = system.formation.front_nm - NM_A_MM * (system.formation.point + site.limits.tags.antenna_mm)
+    return not system.formation.head_passed or (
+        -NM_A_MM * site.read_within_mm <= off_nm <= NM_A_MM * site.read_within_mm
+        and system.formation.kind == PointKind.TAG
+    )
+
+
+def another_length_is_noticed_when_measured_again(site: Train, system: Whole) -> bool:
+    """Measured again, and beyond what both measurements leave open: it is shown (P4)."""
+    return train_length.another_length_is_noticed_when_measured_again(railway(site), system.formation)
+
+
+def the_line_allows_every_train(site: Train, system: Whole) -> bool:
+    """A train that is not measured is no longer than is written, but for what nobody has told (P4)."""
+    return train_length.the_line_allows_every_train(railway(site), system.formation)
+
+
+def the_noted_pass_is_the_heads(site: Train, system: Whole) -> bool:
+    """The pass awaiting the tail is the head's last one (P4)."""
+    return train_length.the_noted_pass_is_the_heads(railway(site), system.formation)
+
+
+def a_pass_in_range_is_noted(site: Train, system: Whole) -> bool:
+    """The head's last pass awaits the tail, unless the front was not well enough known (P4)."""
+    return train_length.a_pass_in_range_is_noted(railway(site), system.formation)
+
+
+def the_length_was_between_its_bounds(site: Train, system: Whole) -> bool:
+    """When it was measured, the true length was between least and most (P4)."""
+    return train_length.the_length_was_between_its_bounds(railway(site), system.formation)
+
+
+def what_is_not_measured_is_not_contradicted(site: Train, system: Whole) -> bool:
+    """Only what was measured is contradicted, or has differed (P4)."""
+    return train_length.what_is_not_measured_is_not_contradicted(railway(site), system.formation)
+
+
+OF_THE_LENGTH = (
+    length_never_underestimated,
+    what_was_measured_was_as_far_apart_as_preset,
+    a_train_longer_than_is_written_does_not_count,
+    a_train_of_another_length_does_not_count,
+    a_train_as_it_is_written_is_not_accused_of_its_length,
+    a_train_found_whole_is_no_longer_than_is_written,
+    the_computer_has_the_proved_length,
+)
+"""What is claimed of the train's length."""
+BEHIND_THE_LENGTH = (
+    it_is_as_long_as_its_antennas_are_apart,
+    the_head_passed_a_tag_where_it_read_it,
+    another_length_is_noticed_when_measured_again,
+    the_line_allows_every_train,
+    the_noted_pass_is_the_heads,
+    a_pass_in_range_is_noted,
+    the_length_was_between_its_bounds,
+    what_is_not_measured_is_not_contradicted,
+)
+"""And what that follows from."""

@@ -20,6 +20,7 @@ from kernel.onboard.limits import (
     are_sensors_lawful,
     are_tags_lawful,
     is_brake_lawful,
+    is_length_lawful,
     is_spacing_lawful,
     is_split_lawful,
     is_window_lawful,
@@ -30,12 +31,15 @@ from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_window import WindowLimits
+from kernel.onboard.train_length import LengthBounds
 from models.layouts.measures import ANTENNA_MM
 from models.onboard import antenna_spacing, reverse_movement, split, tag_window
 from models.onboard.train_nature import (
     Train,
+    one_length_is_written_and_it_covers_the_antennas,
     the_antennas_lie_farther_apart_than_the_window_is_long,
     the_brakes_bounds_fit,
+    the_lengths_bounds_fit,
     the_odometrys_bounds_fit,
     the_tags_bounds_fit,
 )
@@ -44,13 +48,14 @@ from models.rides.plan import PLAN, SURVEYED, TAG_ERROR_MM
 
 LAWFUL = Limits(
     sensors=PLAN.sensors,
-    train=TrainLimits(PLAN.brake, PLAN.speeds, 130_000),
+    train=TrainLimits(PLAN.brake, PLAN.speeds, 130_086),
     reverse=PLAN.reverse,
     split=PLAN.split,
     window=PLAN.window,
     tags=TagLimits(ANTENNA_MM, TAG_ERROR_MM),
     spacing=PLAN.spacing,
     antennas_mm=130_000 - 2 * ANTENNA_MM,
+    length=replace(PLAN.length, line_maximum_mm=130_086, front_overhang_mm=ANTENNA_MM, rear_overhang_mm=ANTENNA_MM),
 )
 SMALL = st.integers(-2, 40)
 SPEEDS = st.builds(SpeedTable, SMALL, SMALL, SMALL)
@@ -64,6 +69,7 @@ LIMITS = st.builds(
     tags=st.builds(TagLimits, SMALL, SMALL),
     spacing=st.builds(SpacingLimits, SMALL, SMALL),
     antennas_mm=SMALL,
+    length=st.builds(LengthBounds, *[SMALL] * len(fields(LengthBounds))),
 )
 SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL, SMALL, st.integers(-2, 200), SMALL)
 
@@ -98,6 +104,7 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         and leaves_whole_trains_alone(limits.split, surveyed.whole_mm_s2),
         "spacing": antenna_spacing.the_tolerance_covers_preset_and_read_window(track)
         and antenna_spacing.is_off(track, NM_A_MM * surveyed.vehicle_mm),
+        "length": the_lengths_bounds_fit(site) and one_length_is_written_and_it_covers_the_antennas(site),
         "reverse": reverse_movement.bounds_are_not_negative(wheel),
     }
 
@@ -111,6 +118,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "missed": is_window_lawful(limits.window, limits.train.speeds.line_mm_s, limits.antennas_mm, surveyed),
         "split": is_split_lawful(limits.split, surveyed),
         "spacing": is_spacing_lawful(limits.spacing, surveyed),
+        "length": is_length_lawful(limits, surveyed),
         "reverse": limits.reverse.roll_back_mm >= 0,
     }
 
@@ -123,6 +131,7 @@ def test_limits_are_lawful_where_every_premise_holds_of_them_and_only_there(limi
     assert said["tags and window"] == (asked["tags"] and asked["window"])
     assert said["split"] == asked["split"]
     assert said["spacing"] == asked["spacing"]
+    assert said["length"] == asked["length"] or surveyed.read_within_mm < 0
     assert are_lawful(limits, surveyed) == all(said.values())
     assert not are_lawful(limits, surveyed) or all(asked.values())
 

@@ -63,14 +63,14 @@ def test_any_passes_whatever_are_answered(history: list[tuple[int, Passing]]) ->
 @settings(max_examples=300, deadline=None)
 @given(st.data())
 def test_invariants_hold_in_drawn_worlds(data: st.DataObject) -> None:
-    length_um = data.draw(st.integers(30_000_000, 240_000_000))
-    play = Play(THEORY, SITE, replace(JUST_STARTED, length_um=length_um))
+    length_nm = data.draw(st.integers(30_000_000_000, 240_000_000_000))
+    play = Play(THEORY, SITE, replace(JUST_STARTED, length_nm=length_nm))
     for _ in range(data.draw(st.integers(1, 12))):
         what = data.draw(st.sampled_from(("head", "tail", "tail", "tail", "change", "untold", "jump", "restart")))
         if what == "change":
-            play.step("change_formation", length_um=data.draw(st.integers(30_000_000, 240_000_000)))
+            play.step("change_formation", length_nm=data.draw(st.integers(30_000_000_000, 240_000_000_000)))
         elif what == "untold":
-            play.step("change_formation_untold", length_um=data.draw(st.integers(30_000_000, 240_000_000)))
+            play.step("change_formation_untold", length_nm=data.draw(st.integers(30_000_000_000, 240_000_000_000)))
         elif what in ("jump", "restart"):
             play.step("change_kilometrage" if what == "jump" else "restart")
         else:
@@ -83,23 +83,23 @@ def pass_somewhere(data: st.DataObject, play: Play, head: bool) -> None:  # type
     kind = data.draw(KINDS)
     speed_mm_s = data.draw(st.integers(0, 40_000))
     told = Passing(kind, data.draw(st.integers(0, 1)), data.draw(st.integers(0, 10)), True, 0, 0, speed_mm_s)
-    cycle = 100 * max(speed_mm_s, system.speed_mm_s)
+    cycle = 100_000 * max(speed_mm_s, system.speed_mm_s)
     is_tag = kind == PointKind.TAG
     off = {
-        "sampling_um": data.draw(st.integers(-cycle, cycle)),
-        "skew_um": 0 if is_tag else data.draw(st.integers(-cycle, cycle)),
-        "averaging_um": 0 if is_tag else data.draw(st.integers(-781_250, 781_250)),
-        "sensor_um": data.draw(st.integers(-513_000, 513_000)) * (1 if is_tag else 9),
+        "sampling_nm": data.draw(st.integers(-cycle, cycle)),
+        "skew_nm": 0 if is_tag else data.draw(st.integers(-cycle, cycle)),
+        "averaging_nm": 0 if is_tag else data.draw(st.integers(-781_250_000, 781_250_000)),
+        "sensor_nm": data.draw(st.integers(-513_000_000, 513_000_000)) * (1 if is_tag else 9),
     }
-    beyond_um = 5_000_000 if is_tag else 20_000_000
-    there_um = system.front_um + system.length_um - beyond_um + sum(off.values())
-    front_um = data.draw(st.integers(0, 10**9)) if head else there_um
-    least_mm = front_um // 1_000 - data.draw(st.integers(0, 5_000))
-    most_mm = front_um // 1_000 + 1 + data.draw(st.integers(0, 5_000))
+    beyond_nm = 5_000_000_000 if is_tag else 20_000_000_000
+    there_nm = system.front_nm + system.length_nm - beyond_nm + sum(off.values())
+    front_nm = data.draw(st.integers(0, 10**12)) if head else there_nm
+    least_mm = front_nm // 1_000_000 - data.draw(st.integers(0, 5_000))
+    most_mm = front_nm // 1_000_000 + 1 + data.draw(st.integers(0, 5_000))
     passing = replace(told, front_least_mm=least_mm, front_most_mm=most_mm)
     if head:
-        after = play.step("head_passes", front_um=front_um, speed_mm_s=speed_mm_s, passing=passing)
+        after = play.step("head_passes", front_nm=front_nm, speed_mm_s=speed_mm_s, passing=passing)
         assert after.head_passed
     else:
-        after = play.step("tail_passes", front_um=front_um, speed_mm_s=speed_mm_s, passing=passing, **off)
+        after = play.step("tail_passes", front_nm=front_nm, speed_mm_s=speed_mm_s, passing=passing, **off)
         assert after.tail_passed

@@ -18,6 +18,7 @@ from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_kind import PLAIN
 from kernel.onboard.tag_window import WindowLimits
+from kernel.onboard.train_length import UNMEASURED, LengthBounds
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
 from models.onboard.slowing import at_rest as slowing_at_rest
@@ -32,6 +33,7 @@ from proofs.onboard.witnesses.antenna_spacing import JUST_STARTED
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.rolling_stock import AT_POWER_ON, BOUNDS, START_MM
 from proofs.onboard.witnesses.tag_window import AT_REST as NOTHING_AWAITED
+from proofs.onboard.witnesses.train_length import JUST_STARTED as NOTHING_MEASURED
 
 BRAKE = BrakeBounds(gains_mm_s2=1_300, slows_mm_s2=700, response_cycles=3, standstill_mm_s=50)
 LIMITS = Limits(
@@ -43,6 +45,14 @@ LIMITS = Limits(
     tags=TagLimits(4_000, 700),
     spacing=SpacingLimits(2_000, 20_000),
     antennas_mm=112_000,
+    length=LengthBounds(
+        line_maximum_mm=133_000,
+        last_vehicle_mm=20_000,
+        front_overhang_mm=4_000,
+        rear_overhang_mm=4_000,
+        window_mm=1_000,
+        width_mm=20_000,
+    ),
 )
 SITE = Train(
     LIMITS,
@@ -92,6 +102,7 @@ def at_rest() -> Whole:
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
         passing=Passage(front_nm, 0, False, True, front_nm, front_nm - 50_000 * NM_A_MM, NO_TRACK_KNOWN, True),
+        formation=replace(NOTHING_MEASURED, length_nm=120_000 * NM_A_MM, state=UNMEASURED),
         awaited_mm=0,
         astern=False,
         asked=begun.brake,

@@ -38,6 +38,12 @@ from proofs.onboard.witnesses.train_as_it_is_said import (
     nothing_is_said_of_a_train_that_runs,
     what_is_said_too_late_of_a_train_is_not_taken,
 )
+from proofs.onboard.witnesses.train_measured import (
+    a_tail_does_not_count_once_its_train_is_another_than_written,
+    a_train_is_measured_by_a_tag_that_both_antennas_read,
+    no_length_is_measured_by_anothers_antenna,
+    the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
+)
 from proofs.onboard.witnesses.train_on_its_track import (
     a_listed_turnout_is_entered_no_faster_than_it_allows,
     a_tag_that_hides_a_curve_is_none_of_this_world,
@@ -460,4 +466,8 @@ WITNESSES = (
     a_computer_is_told_of_tags_and_of_its_train,
     a_brake_is_asked_for_nothing_before_it_has_responded,
     a_wheel_that_slips_or_is_not_read_shows_what_it_likes,
+    a_train_is_measured_by_a_tag_that_both_antennas_read,
+    no_length_is_measured_by_anothers_antenna,
+    a_tail_does_not_count_once_its_train_is_another_than_written,
+    the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
 )

@@ -112,20 +112,21 @@ class Type:
         """All that is written of it."""
         return Limits(
             sensors=SENSORS,
-            train=TrainLimits(BRAKE, SpeedTable(50_000, 50_000, 50_000), self.length_mm),
+            train=TrainLimits(BRAKE, SpeedTable(50_000, 50_000, 50_000), self.length.line_maximum_mm),
             reverse=ReverseLimits(roll_back_mm=2_000),
             split=self.split,
             window=WindowLimits(tolerance_mm=2 * (LAID_MM + READ_MM), width_mm=1_000_000, tail_width_mm=25_000),
             tags=TagLimits(antenna_mm=ANTENNA_MM, error_mm=LAID_MM + READ_MM),
             spacing=SpacingLimits(tolerance_mm=PRESET_MM + 2 * READ_MM, width_mm=18_500),
             antennas_mm=self.length_mm - 2 * ANTENNA_MM,
+            length=self.length,
         )
 
     @property
     def length(self) -> LengthBounds:
         """What is written of how its length is measured."""
         return LengthBounds(
-            line_maximum_mm=400_000,
+            line_maximum_mm=self.length_mm + PRESET_MM,
             last_vehicle_mm=VEHICLE_MM,
             front_overhang_mm=ANTENNA_MM,
             rear_overhang_mm=ANTENNA_MM,

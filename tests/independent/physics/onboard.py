@@ -8,7 +8,6 @@ from kernel.onboard import antenna_spacing, braking, computer, limits, train_len
 from kernel.onboard.odometry import Readings, is_located
 from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
-from kernel.onboard.train_length import UNMEASURED, Passing, PointKind
 from kernel.standstill import is_braked
 from tests.independent.physics.declared import ANTENNA_MM, Type
 
@@ -22,8 +21,7 @@ class Host:
     def __init__(self, kind: Type, least_mm: int, most_mm: int) -> None:
         """Put it into service at rest."""
         assert limits.are_lawful(kind.limits, kind.surveyed)
-        self.limits, self.bounds = kind.limits, kind.length
-        self.length = UNMEASURED
+        self.limits = kind.limits
         self.computer = computer.put_into_service(self.limits, least_mm, most_mm)
         self.awaited: int | None = None
 
@@ -54,7 +52,7 @@ class Host:
     @property
     def length_mm(self) -> int:
         """How long the train is at the most."""
-        return train_length.length_mm(self.bounds, self.length)
+        return train_length.length_mm(self.limits.length, self.computer.length)
 
     @property
     def braked(self) -> bool:
@@ -151,25 +149,15 @@ class Host:
             return
         self.computer = computer.await_tag(self.limits, self.computer, ahead[0], PLAIN_TRACK)
 
-    def head_reads(self, number: int, place_mm: int, now_ms: int) -> bool:
+    def head_reads(self, number: int, place_mm: int) -> bool:
         """The head reads a tag that the list has; whether it is where it should be."""
         in_window = computer.reads_in_window(self.limits, self.computer, place_mm)
         self.computer = computer.read_by_head(self.limits, self.computer, number, place_mm, PLAIN_TRACK)
-        if not in_window:
-            return False
-        self.length = train_length.note_head_pass(self.bounds, self.length, self._passing(number, now_ms))
-        return True
+        return in_window
 
-    def tail_reads(self, number: int, now_ms: int) -> None:
-        """The tail does; it measures the length if it counts."""
+    def tail_reads(self, number: int) -> None:
+        """The tail does."""
         self.computer = computer.read_by_tail(self.limits, self.computer, number)
-        line = computer.through_line(self.limits, self.computer, True)
-        if line.is_intact and line.fits:
-            self.length = train_length.note_tail_pass(self.bounds, self.length, self._passing(number, now_ms))
-
-    def _passing(self, number: int, now_ms: int) -> Passing:
-        least_mm, most_mm = self.front_mm
-        return Passing(PointKind.TAG, number, now_ms, self.located, least_mm, most_mm, self.speed_mm_s[1])
 
     # ---- what is told
 
@@ -190,7 +178,6 @@ class Host:
     def locate(self, least_mm: int, most_mm: int, whole: bool, inspected: bool) -> None:
         """Staff says where the train is, and, having walked along it, that it is whole, and mended."""
         self.computer = computer.locate(self.limits, self.computer, least_mm, most_mm)
-        self.length = train_length.note_kilometrage_changed(self.length)
         if whole:
             self.computer = computer.made_up(self.limits, self.computer)
         if inspected:

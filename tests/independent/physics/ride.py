@@ -386,10 +386,9 @@ class Ride:
             if host.awaited is not None and place >= host.awaited:
                 self.missed.add(tag)
             return
-        now_ms = round(self.now_s * 1000)
         if is_head:
             self.out.counts["tags read"] += 1
-            taken = host.head_reads(tag + 1, place, now_ms)
+            taken = host.head_reads(tag + 1, place)
             if taken:
                 self.since_fix = [0.0, 0]
             elif host.located and not self.unjudged and host.front_mm[1] - host.front_mm[0] < 900_000:
@@ -401,7 +400,7 @@ class Ride:
                 self.await_next()
             return
         parts = next((f for f in self.faults if f.kind == faults.PARTED and not self.off_mm and self.now_s > 20), None)
-        host.tail_reads(tag + 1, now_ms)
+        host.tail_reads(tag + 1)
         if self.off_mm and host.counts_tail:
             self.hazard(FALSE_TAIL, self.off_mm)
         if parts is not None and self.rng.random() < 0.3 and self.type.length_mm > 4 * VEHICLE_MM:
