@@ -85,6 +85,13 @@ def _name(network: Network, block: str, mouth: Place) -> str:
 
 def beside(network: Network, route: Route, block: str, point: str) -> str:
     """How a point beside the path lies: so that what comes to it from outside does not come to the path."""
+    joins = network.junctions[point].joins
+    closing = closing_positions(network, route, block, point)
+    return min(closing or sorted(joins), key=lambda position: (_less_track(network, point, position), position))
+
+
+def closing_positions(network: Network, route: Route, block: str, point: str) -> list[str]:
+    """The positions of a point beside the path in which what comes to it from outside does not come to the path."""
     pieces, junctions = _path(network, route, block)
     outside = [place for name, place in network.mouths(block) if name in dict(_cuts(network, place))]
     faced = {leg for junction, leg in _rolls(network, outside, pieces, junctions) if junction == point}
@@ -96,7 +103,7 @@ def beside(network: Network, route: Route, block: str, point: str) -> str:
         away = [Place(track, network.lengths[track] if end else 0, -1 if end else 1) for track, end in led]
         if ("", "") not in set(_rolls(network, away, pieces, junctions)):
             closing.append(position)
-    return min(closing or sorted(joins), key=lambda position: (_less_track(network, point, position), position))
+    return closing
 
 
 def _cuts(network: Network, place: Place) -> Iterator[tuple[str, int]]:

@@ -9,7 +9,7 @@ from itertools import count
 from models.layouts.told import Told, Wanted
 from tests.independent.raw_graph import Network, Place, Route, Way
 from tests.independent.raw_measures import legs
-from tests.independent.raw_points import far_end
+from tests.independent.raw_points import closing_positions, far_end
 
 Rests = dict[tuple[str, bool], set[tuple[str, ...]]]
 """Kind, whether the file declares it -> the instances."""
@@ -44,9 +44,30 @@ def rests_again(
         ("start", True): {each for each in start if each[0] in told.laid_at_start},
         ("start", False): {each for each in start if each[0] not in told.laid_at_start},
         ("joint", False): set(_joints(network, told)),
+        ("position", False): {
+            (point, name)
+            for name, route in routes.items()
+            for point in _spare(network, route)
+            if point not in stated[name].positions and point not in stated[name].flank
+        },
         ("left out", False): {(name,) for name in stated if name not in routes},
     }
     return {kind: instances for kind, instances in found.items() if instances}
+
+
+def _spare(network: Network, route: Route) -> list[str]:
+    """The points beside the path that close it in every position, or in none."""
+    beside = [
+        (block, point)
+        for block in route.claims[1:]
+        for point in network.points_in.get(block, ())
+        if point not in route.passed
+    ]
+    return [
+        point
+        for block, point in beside
+        if len(closing_positions(network, route, block, point)) in (0, len(network.junctions[point].joins))
+    ]
 
 
 def _joints(network: Network, told: Told) -> list[tuple[str, ...]]:

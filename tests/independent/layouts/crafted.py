@@ -237,13 +237,13 @@ held_by_authority = "rest"
 tracks.line = { from = "w", to = "e", length_mm = 19_999, boundaries = { A = 5_000, B = 15_000 } }
 routes.r = { from = "A", direction = "forward", to = "B" }
 """
-METRES = KILOMETRES.replace("19_999", "20_000")
+METRES = KILOMETRES.replace("19_999", "20_000").replace("tracks.line", "longest_train_mm = 15_000\ntracks.line")
 
 RING = """
 format = "heisoku-layout-1"
 held_by_authority = []
 longest_train_mm = 699_999
-laid_at_start = ["P"]
+laid_at_start = ["Q"]
 [tracks]
 ring = { from = "P.normal", to = "Q.normal", length_mm = 1_000_000, boundaries = { A = 100_000, B = 900_000 } }
 side = { from = "P.reverse", to = "Q.reverse", length_mm = 1_000_000, boundaries = { S = 100_000, R = 900_000 } }
