@@ -1,7 +1,8 @@
 """The centre: all trams of a way, and the orders that follow from what they told (G4, G5, G6).
 
-Every tram is told to the centre before it comes onto the way: one that it does not know could be
-anywhere (ours).  In what order trams run is said then, and no report turns it round (002, 3.1.2).
+A tram comes onto the way after the centre has confirmed it.  Whether others are ahead is told by reports alone:
+neither the timetable nor a destination clears a way (ours).  After a start the centre knows nothing; the way is
+clear of what it does not know as far as a tram has run that came at the first stop since.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple, NewType
 
 from kernel.maps import Map
+from kernel.onboard.arithmetic import larger
 from kernel.tram import dispatching as machine
 from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report, View
 from kernel.tram.display import Display, taken
@@ -32,12 +34,33 @@ class Command(NamedTuple):
 class Centre:
     """All that the centre decides from.
 
-    ``now_ms``: GPS time.  ``trams``: what is known of each.  ``left_ms``: when each was told to have left a stop.
+    ``now_ms``: GPS time.  ``opens_ms``: no tram comes after that by a confirmation from before the start.
+    ``cleared``: the mark up to which no tram is that the centre does not know.
+    ``trams``: what is known of each.  ``left_ms``: when each was told to have left a stop.
+    ``shown``: pairs of trams, the first of which is shown to be ahead of the other.
+    ``elsewhere_ms``: when a tram has told from elsewhere last: another way, its depot.
     """
 
     now_ms: int
+    opens_ms: int
+    cleared: int
     trams: Map[Tram, Known]
     left_ms: Map[tuple[Tram, int], int]
+    shown: frozenset[tuple[Tram, Tram]]
+    elsewhere_ms: Map[Tram, int]
+
+
+def restarted(limits: DispatchLimits, centre: Centre, now_ms: int) -> Centre:
+    """Give the state after a start: nothing of it survives; trams may be anywhere, others still come (G6, ours)."""
+    return Centre(
+        now_ms=now_ms,
+        opens_ms=now_ms + limits.coming_ms,
+        cleared=machine.NOTHING_CLEARED,
+        trams={},
+        left_ms={},
+        shown=frozenset(),
+        elsewhere_ms={},
+    )
 
 
 def later(centre: Centre, elapsed_ms: int) -> Centre:
@@ -45,19 +68,53 @@ def later(centre: Centre, elapsed_ms: int) -> Centre:
     return replace(centre, now_ms=centre.now_ms + elapsed_ms)
 
 
-def may_come(centre: Centre, tram: Tram, turn: int, stop: int, leaves_at: int) -> bool:
-    """Tell whether a tram may be taken up in this turn: none behind it may yet run faster to that place (G5, ours)."""
-    return not any(
-        other != tram and known.turn >= turn and machine.may_recover_over(known, stop, leaves_at)
-        for other, known in centre.trams.items()
+def may_come(centre: Centre, tram: Tram, stop: int) -> bool:
+    """Tell whether a tram may be confirmed: it is not on the way, and none behind may run faster to there (G5, ours).
+
+    That it is not on the way it has told itself, from elsewhere.  At the first stop it comes behind all others.
+    """
+    if tram in centre.trams or tram not in centre.elsewhere_ms or stop < machine.FIRST_STOP:
+        return False
+    return stop == machine.FIRST_STOP or (
+        centre.cleared > machine.mark(stop, False)
+        and not any(machine.may_recover_over(known, stop) for _other, known in centre.trams.items())
     )
 
 
-def note_coming(centre: Centre, tram: Tram, turn: int, stop: int, leaves_at: int) -> Centre:
-    """Take up a tram that is to come onto the way, if it may (G5, ours)."""
-    if not may_come(centre, tram, turn, stop, leaves_at):
+def note_coming(centre: Centre, tram: Tram, stop: int, leaves_at: int) -> Centre:
+    """Take up a tram that is to come onto the way at a stop, if it may (G5, ours)."""
+    if not may_come(centre, tram, stop):
         return centre
-    return replace(centre, trams=centre.trams | {tram: machine.coming(centre.now_ms, turn, stop, leaves_at)})
+    ahead = {(other, tram) for other, known in centre.trams.items() if machine.is_before_who_comes(known, stop)}
+    return replace(
+        centre,
+        trams=centre.trams | {tram: machine.coming(centre.now_ms, stop, leaves_at)},
+        shown=centre.shown | ahead,
+    )
+
+
+def without(centre: Centre, tram: Tram, made_ms: int) -> Centre:
+    """Forget a tram's run, which has ended (G5, ours)."""
+    return replace(
+        centre,
+        trams={other: known for other, known in centre.trams.items() if other != tram},
+        shown=frozenset((ahead, behind) for ahead, behind in centre.shown if tram not in (ahead, behind)),
+        elsewhere_ms=centre.elsewhere_ms | {tram: made_ms},
+    )
+
+
+def note_elsewhere(centre: Centre, tram: Tram, made_ms: int) -> Centre:
+    """Take what a tram tells from elsewhere: its run has ended, if it was heard on it before (G5, ours)."""
+    if not centre.opens_ms < made_ms <= centre.now_ms:
+        return centre
+    if tram in centre.trams and not machine.is_off(centre.trams[tram], made_ms):
+        return centre
+    return without(centre, tram, made_ms)
+
+
+def note_taken_off(centre: Centre, tram: Tram) -> Centre:
+    """Take a person's word that a known tram is off the way, where its radio does not tell (G5, ours)."""
+    return without(centre, tram, centre.now_ms) if tram in centre.trams else centre
 
 
 def note_report(centre: Centre, tram: Tram, report: Report) -> Centre:
@@ -70,15 +127,39 @@ def note_report(centre: Centre, tram: Tram, report: Report) -> Centre:
         if machine.tells_a_departure(known, report)
         else centre.left_ms
     )
-    return replace(centre, trams=centre.trams | {tram: machine.reported(known, report)}, left_ms=left_ms)
+    ahead = {(other, tram) for other, farther in centre.trams.items() if machine.was_beyond(farther, report)}
+    told = machine.mark(report.stop, report.left)
+    return replace(
+        centre,
+        trams=centre.trams | {tram: machine.reported(known, report)},
+        left_ms=left_ms,
+        shown=centre.shown | ahead,
+        cleared=larger(centre.cleared, told) if known.clears else centre.cleared,
+    )
+
+
+# ---- in what order trams run
+
+
+def contradicts(centre: Centre, tram: Tram, other: Tram) -> bool:
+    """Tell whether two trams have been shown in either order: somebody tells what is not so (G2, G6)."""
+    return (tram, other) in centre.shown and (other, tram) in centre.shown
+
+
+def is_behind(centre: Centre, tram: Tram, other: Tram) -> bool:
+    """Tell whether a tram is shown to run behind this one, and nothing contradicts that (002, 3.1.2; G2, G5)."""
+    return (tram, other) in centre.shown and not contradicts(centre, tram, other)
 
 
 # ---- the order for a tram
 
 
 def is_clear(centre: Centre, tram: Tram, own: Known) -> bool:
-    """Tell whether no tram may be before the next stop, or at it (G5)."""
-    return all(other == tram or not machine.may_be_in_the_way(own, known) for other, known in centre.trams.items())
+    """Tell whether no tram may be before the next stop, or at it: not knowing counts as present (G5)."""
+    return machine.is_cleared(own, centre.cleared) and all(
+        other == tram or machine.has_passed(own, known) or is_behind(centre, tram, other)
+        for other, known in centre.trams.items()
+    )
 
 
 def is_present(limits: DispatchLimits, centre: Centre, tram: Tram, own: Known) -> bool:

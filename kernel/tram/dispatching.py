@@ -4,9 +4,9 @@ Data and commands pass only at stops (paper 002, 2.2), so that nothing is ahead 
 departures alone.  Trams do not run backwards: where one was reported it is now, or farther on.  So a
 report that is late, or lost, makes a tram count as present for longer, and never for less long.
 
-The way is a row of stops, numbered as they follow; the section after a stop bears its number.  A tram of
-another destination leaves the way at some stop, and matters no farther than there (4.2).  Times are those
-of GPS, in ms.  Reckoned in 64 bits for stops and turns to 2**61 and times to 2**62.
+The way is a row of stops, numbered from 0 as they follow; the section after a stop bears its number.  Neither
+the timetable's order nor a destination says that a way is clear: a wrong setting is routine.  Times are those
+of GPS, in ms.  Reckoned in 64 bits for stops to 2**61 and times to 2**62.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ class DispatchLimits:
     ``recovery_ms``: it may recover if the one ahead left this stop as long ago, or longer.
     ``fresh_ms``: so old a report still counts for a command (G3, ours: 11 s).
     ``order_ms``: so old a command still counts for a tram at a stop (G3, ours).
+    ``coming_ms``: so long after it was confirmed a tram comes onto the way at the latest (G5, ours).
     """
 
     ahead_hold_ms: int
@@ -35,21 +36,21 @@ class DispatchLimits:
     recovery_ms: int
     fresh_ms: int
     order_ms: int
+    coming_ms: int
 
 
 @dataclass(frozen=True)
 class Known:
     """What the centre knows of a tram on the way (G2, G4, G5).
 
-    ``turn``: its place in the order of trams, the first ahead; no report changes that (002, 3.1.2).
-    ``leaves_at``: the last stop of this way that it comes to, by its destination.
+    ``leaves_at``: the last stop of this way that it comes to, by the farthest destination that was told.
     ``since_ms``: since when the centre has known of this run; what was told before is of another one.
     ``stop``, ``left``: it has reached that stop, and left it.  ``stands``: it stood there.
     ``arrived_ms``: when that was told first.  ``told_ms``: when it was told last.
     ``recovery_to``: the stop to which it was last ordered to recover; one that it has reached if to none.
+    ``clears``: it comes at the first stop, so all trams that the centre does not know run ahead of it.
     """
 
-    turn: int
     leaves_at: int
     since_ms: int
     stop: int
@@ -58,6 +59,7 @@ class Known:
     arrived_ms: int
     told_ms: int
     recovery_to: int
+    clears: bool
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,9 @@ class Report:
 class View:
     """What a decision for a tram rests on beside itself (G4, G5).
 
-    ``is_clear``: every tram ahead that shares the way is known to have left the next stop.
-    ``is_present``: one of them is known to be before it.
+    ``is_clear``: every tram has told that it left the next stop, or is shown to run behind; and so must those
+    that the centre does not know.
+    ``is_present``: one ahead is known to be before the next stop.
     ``ahead_is_far``: none was told to have left this stop too lately; ``ahead_is_near``: one was, for the hold.
     ``behind_is_far``: there are trams behind, and none of them near.
     """
@@ -86,6 +89,12 @@ class View:
     ahead_is_far: bool
     ahead_is_near: bool
     behind_is_far: bool
+
+
+FIRST_STOP = 0
+"""Where the way begins: who comes here comes behind all that are on it."""
+NOTHING_CLEARED = -1
+"""Below every mark: after a start trams that the centre does not know may be anywhere."""
 
 
 class Hand(Enum):
@@ -116,10 +125,9 @@ def mark(stop: int, left: bool) -> int:
     return 2 * stop + (1 if left else 0)
 
 
-def coming(now_ms: int, turn: int, stop: int, leaves_at: int) -> Known:
+def coming(now_ms: int, stop: int, leaves_at: int) -> Known:
     """Give what is known of a tram that is to come onto the way at a stop (G5; ours)."""
     return Known(
-        turn=turn,
         leaves_at=leaves_at,
         since_ms=now_ms,
         stop=stop,
@@ -128,6 +136,7 @@ def coming(now_ms: int, turn: int, stop: int, leaves_at: int) -> Known:
         arrived_ms=now_ms,
         told_ms=now_ms,
         recovery_to=stop,
+        clears=stop == FIRST_STOP,
     )
 
 
@@ -174,14 +183,43 @@ def tells_a_departure(known: Known, report: Report) -> bool:
 # ---- one tram beside another
 
 
+def is_heard(known: Known) -> bool:
+    """Tell whether a tram has told something on this run (G2)."""
+    return known.told_ms > known.since_ms
+
+
+def was_beyond(ahead: Known, report: Report) -> bool:
+    """Tell whether a tram had told that it was beyond a stop before another one stood there: so it is ahead (G2).
+
+    None overtakes on one track, so it stays ahead (002, 3.1.2).
+    """
+    is_farther = mark(ahead.stop, ahead.left) > mark(report.stop, False)
+    return report.stands and is_farther and is_heard(ahead) and ahead.told_ms < report.made_ms
+
+
+def is_before_who_comes(known: Known, stop: int) -> bool:
+    """Tell whether a tram on the way is ahead of one that is confirmed to come at a stop (G2, ours).
+
+    It has told that it is beyond that stop; at the first one a tram comes behind all others.
+    """
+    is_farther = stop == FIRST_STOP or mark(known.stop, known.left) > mark(stop, False)
+    return is_heard(known) and is_farther
+
+
 def is_ahead(own: Known, other: Known) -> bool:
-    """Tell whether another tram is ahead; where the order does not say it is, too (G2)."""
-    return other.turn <= own.turn
+    """Tell whether a tram is ahead for a hold: reported farther on, or standing at the stop since before (G4)."""
+    at_own, at_other = mark(own.stop, own.left), mark(other.stop, other.left)
+    return at_other > at_own or (at_other == at_own and other.arrived_ms <= own.arrived_ms)
 
 
 def shares_the_way(own: Known, other: Known) -> bool:
-    """Tell whether another tram runs on beyond the stop where this one stands (002, 4.2; G5)."""
+    """Tell whether another tram, as it says, runs on beyond the stop where this one stands (002, 4.2; G4)."""
     return other.leaves_at > own.stop
+
+
+def is_beyond_its_destination(known: Known) -> bool:
+    """Tell whether a tram has told that it is beyond where its destination has it leave: a wrong setting (002, 4.2)."""
+    return mark(known.stop, known.left) > mark(known.leaves_at, False)
 
 
 def has_passed(own: Known, other: Known) -> bool:
@@ -189,9 +227,9 @@ def has_passed(own: Known, other: Known) -> bool:
     return mark(other.stop, other.left) > mark(own.stop + 1, False)
 
 
-def may_be_in_the_way(own: Known, other: Known) -> bool:
-    """Tell whether another tram may be before the next stop, or at it: not knowing counts as present (G5)."""
-    return is_ahead(own, other) and shares_the_way(own, other) and not has_passed(own, other)
+def is_cleared(own: Known, cleared: int) -> bool:
+    """Tell whether all trams that the centre does not know have left the next stop (G5, ours)."""
+    return cleared > mark(own.stop + 1, False)
 
 
 def is_seen_in_the_way(limits: DispatchLimits, now_ms: int, own: Known, other: Known) -> bool:
@@ -200,15 +238,22 @@ def is_seen_in_the_way(limits: DispatchLimits, now_ms: int, own: Known, other: K
     Of one that was told to have left as long ago as recovery needs it is not known any more where it is: it
     forbids recovery, and is no reason to hold.
     """
-    if not (is_ahead(own, other) and shares_the_way(own, other)) or other.stop != own.stop:
+    runs_on = shares_the_way(own, other) or is_beyond_its_destination(other)
+    if not (is_ahead(own, other) and runs_on) or other.stop != own.stop:
         return False
     return now_ms - other.told_ms < limits.recovery_ms if other.left else is_fresh(limits, now_ms, other)
 
 
-def may_recover_over(own: Known, stop: int, leaves_at: int) -> bool:
+def may_recover_over(own: Known, stop: int) -> bool:
     """Tell whether a tram may still run, by its last order, over the stop at which another is to come (G5)."""
-    is_under_way = mark(own.stop, own.left) < mark(own.recovery_to, False)
-    return is_under_way and stop <= own.recovery_to and leaves_at >= own.recovery_to
+    return mark(own.stop, own.left) <= mark(stop, False) <= mark(own.recovery_to, False) and mark(
+        own.stop, own.left
+    ) < mark(own.recovery_to, False)
+
+
+def is_off(known: Known, made_ms: int) -> bool:
+    """Tell whether what a tram tells from elsewhere ends its run: it was heard on the way before that (G5, ours)."""
+    return is_heard(known) and made_ms > known.told_ms
 
 
 def is_known_since(known: Known, left_ms: int) -> bool:

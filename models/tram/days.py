@@ -7,11 +7,30 @@ import numpy as np
 from kernel.tram.dispatching import DispatchLimits
 from models.days.system import Numbers, System
 from models.tram import tally
-from models.tram.deciding import deliver_orders, deliver_reports, may_take_up
+from models.tram.deciding import (
+    confirm,
+    deliver_orders,
+    deliver_reports,
+    hear_elsewhere,
+    may_take_up,
+    restart_centre,
+    take_off_by_hand,
+)
 from models.tram.faults import FAULTS
 from models.tram.given import LIMITS, NO_PLANT, Given, given
-from models.tram.line import AT_STOP_MM, CLOSE_S, DEPOT, HOURS, OPEN_S, STOPS, TAKEN_UP_S, TRAMS, Whole
-from models.tram.machines import MADE, compiled
+from models.tram.line import (
+    AT_STOP_MM,
+    CLOSE_S,
+    DEPOT,
+    FIRST_S,
+    HOURS,
+    OPEN_S,
+    STOPS,
+    TAKEN_UP_S,
+    TRAMS,
+    Whole,
+)
+from models.tram.machines import compiled
 from models.tram.moving import (
     CLEAR_MM,
     RUN_OF_TURN,
@@ -25,10 +44,13 @@ from models.tram.moving import (
 )
 from models.tram.radio import CYCLE_S
 from models.tram.state import (
-    K_TURN,
+    CONFIRMED_S,
+    DUE_S,
+    K_IS,
     LEAVES,
     NEXT,
     OFF_S,
+    ON,
     PLACE,
     SPEED,
     TURN,
@@ -36,7 +58,7 @@ from models.tram.state import (
     Traffic,
     begun,
 )
-from models.tram.telling import ask, begin_unit, keep_known, see
+from models.tram.telling import ask, begin_unit, see
 from models.tram.watching import watch
 
 END_S = CLOSE_S + 2 * 3_600
@@ -44,36 +66,77 @@ END_S = CLOSE_S + 2 * 3_600
 DEPOT_EACH_S = 1_800
 AWAITED_S = 10**9
 """`OFF_S` of a vehicle that was taken up for a run, and has not come yet."""
-coming = MADE.dispatching.coming
+LATEST_BEGUN_S = 400
+"""So late a run begins at most that is late at the terminus; ours."""
+ELSEWHERE_S, ELSEWHERE_EACH_S = 60, 30
+"""So long after it has left the way a tram is heard elsewhere, and so often; practice: the next stop's station."""
+ASKED_AFTER_S = 600
+"""So long after it was due off the way the dispatcher asks for a tram that is not heard; ours."""
+RESTARTED_AFTER_S = 3_700
+"""So long after a start the centre starts anew once more; ours."""
+NO_RUN = 1
+"""`TURN` of a tram from the depot, which is in no timetable."""
 
 
 @compiled
-def take_up(day: Given, traffic: Traffic, now_s: int) -> None:
-    """Tell the centre of the next run of the timetable; ``size[2]``: so many were."""
-    run = traffic.size[2]
+def destination(day: Given, traffic: Traffic, tram: int) -> int:
+    """Give where a tram is set to leave: not always where it does."""
+    is_wrong = day.wrong_destination > 0 and tram == day.where.destination_tram
+    return int(day.wrong_destination if is_wrong else traffic.trams[tram, LEAVES])
+
+
+@compiled
+def take_up(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Tell the centre of the next run of the timetable; ``size[1]``: so many were."""
+    run = traffic.size[1]
     if run >= len(day.begins_s) or now_s < day.begins_s[run] - TAKEN_UP_S:
         return
     tram = free_tram(traffic, now_s)
-    turn = RUN_OF_TURN * (run + 1)
-    if tram < 0 or not may_take_up(traffic, tram, turn, 0, day.leaves_at[run]):
+    if tram < 0 or not may_take_up(traffic, tram, 0):
         return
     body = traffic.trams[tram]
-    body[TURN], body[LEAVES], body[OFF_S] = turn, day.leaves_at[run], AWAITED_S
-    keep_known(body, coming(1_000 * now_s, turn, 0, body[LEAVES]))
-    traffic.size[2] += 1
+    body[TURN], body[LEAVES], body[OFF_S] = RUN_OF_TURN * (run + 1), day.leaves_at[run], AWAITED_S
+    body[DUE_S] = day.begins_s[run] + (int(LATEST_BEGUN_S * rng.random()) if rng.random() < day.late_runs else 0)
+    body[CONFIRMED_S] = now_s
+    confirm(traffic, tram, 0, destination(day, traffic, tram), 1_000 * now_s)
+    traffic.size[1] += 1
 
 
 @compiled
 def begin_runs(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
-    """Let the next run begin that was taken up, in time, if the first stop is free; ``size[1]``: so many have."""
-    run = traffic.size[1]
-    if run >= traffic.size[2] or now_s < day.begins_s[run] or not is_free_at(traffic, 0, 2 * AT_STOP_MM):
-        return
+    """Let trams come that were taken up, in whatever order they are ready, if the first stop is free (G5).
+
+    Whose confirmation has lapsed asks anew: a person takes the tram off, and it is confirmed once more.
+    """
     for tram in range(len(traffic.trams)):
         body = traffic.trams[tram]
-        if body[TURN] == RUN_OF_TURN * (run + 1) and body[OFF_S] == AWAITED_S:
-            come(day, traffic, tram, traffic.size[0], 0, now_s, rng)
-    traffic.size[1] += 1
+        if body[OFF_S] != AWAITED_S or now_s < body[DUE_S] or not is_free_at(traffic, 0, 2 * AT_STOP_MM):
+            continue
+        if 1_000 * (now_s - body[CONFIRMED_S]) > day.limits.coming_ms:
+            take_off_by_hand(traffic, tram, 1_000 * now_s)
+            hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
+            if not confirm(traffic, tram, 0, destination(day, traffic, tram), 1_000 * now_s):
+                continue
+            body[CONFIRMED_S] = now_s
+            traffic.row[tally.CONFIRMED_ANEW] += 1
+        come(day, traffic, tram, traffic.size[0], 0, now_s, rng)
+        body[OFF_S] = now_s
+
+
+@compiled
+def tell_from_elsewhere(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Let trams that are off the way tell so, each half minute; who cannot is taken off by a person (G5)."""
+    where = day.where
+    for tram in range(len(traffic.trams)):
+        body = traffic.trams[tram]
+        if body[ON] == 1 or body[OFF_S] == AWAITED_S or (now_s + tram) % ELSEWHERE_EACH_S != 0:
+            continue
+        deaf = tram == where.deaf_tram and where.deaf_s <= now_s < where.deaf_s + day.tram_deaf_s
+        if not deaf and now_s - body[OFF_S] >= ELSEWHERE_S and rng.random() >= where.frames_lost:
+            hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
+        if body[K_IS] == 1 and now_s - body[OFF_S] >= ASKED_AFTER_S:
+            take_off_by_hand(traffic, tram, 1_000 * now_s)
+            traffic.row[tally.TAKEN_OFF] += 1
 
 
 @compiled
@@ -82,6 +145,7 @@ def come(
 ) -> None:
     """Let a tram come onto the way at a stop, and serve it."""
     body = traffic.trams[tram]
+    traffic.row[tally.UNANNOUNCED] += 1_000 * (now_s - body[CONFIRMED_S]) > day.limits.coming_ms
     body[PLACE], body[SPEED], body[NEXT], body[WAITS] = day.stops_mm[stop], 0, stop, 0
     put_on(traffic, place_in_line, tram)
     begin_unit(day, body, stop, 1_000 * now_s)
@@ -93,21 +157,16 @@ def come_from_the_depot(day: Given, traffic: Traffic, now_s: int, rng: np.random
     """Take up a tram at the depot's stop and let it come, if it may; whether it did (G5)."""
     tram = free_tram(traffic, now_s)
     place = depot_place(day, traffic)
-    if tram < 0 or place == 0 or place == traffic.size[0]:
+    if tram < 0:
         return False
     if not is_free_at(traffic, day.stops_mm[DEPOT], CLEAR_MM):
         return False
-    ahead = traffic.trams[traffic.line[place - 1], K_TURN]
-    behind = traffic.trams[traffic.line[place], K_TURN]
-    turn, leaves_at = (ahead + behind) // 2, STOPS - 1
-    if not ahead < turn < behind:
-        return False
-    if not may_take_up(traffic, tram, turn, DEPOT, leaves_at):
+    body = traffic.trams[tram]
+    body[TURN], body[LEAVES] = NO_RUN, STOPS - 1
+    if not confirm(traffic, tram, DEPOT, destination(day, traffic, tram), 1_000 * now_s):
         traffic.row[tally.NOT_TAKEN_UP] += 1
         return False
-    body = traffic.trams[tram]
-    body[TURN], body[LEAVES] = turn, leaves_at
-    keep_known(body, coming(1_000 * now_s, turn, DEPOT, leaves_at))
+    body[CONFIRMED_S] = now_s
     come(day, traffic, tram, place, DEPOT, now_s, rng)
     return True
 
@@ -130,21 +189,36 @@ def second(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -
             deliver_reports(day, traffic, tram, 1_000 * now_s, rng)
         if traffic.due_ms[1, tram] <= 1_000 * now_s:
             deliver_orders(day, traffic, tram, now_s, rng)
+    tell_from_elsewhere(day, traffic, now_s, rng)
     watch(day, traffic, 1_000 * now_s)
+
+
+@compiled
+def none_awaited(traffic: Traffic) -> bool:
+    """Whether no tram is still to come."""
+    awaited = 0
+    for tram in range(len(traffic.trams)):
+        awaited += traffic.trams[tram, OFF_S] == AWAITED_S
+    return awaited == 0
 
 
 @compiled
 def run_day(day: Given, traffic: Traffic, rng: np.random.Generator) -> None:
     """Run a day from the first tram to the last."""
     from_depot, depot_s = day.from_depot, day.where.depot_s
-    for now_s in range(OPEN_S - TAKEN_UP_S, END_S):
-        take_up(day, traffic, now_s)
+    restart_s, restarts = day.where.restart_s, day.restarts
+    restart_centre(day.limits, traffic, 1_000 * FIRST_S)
+    for now_s in range(FIRST_S, END_S):
+        if restarts > 0 and now_s >= restart_s:
+            restart_centre(day.limits, traffic, 1_000 * now_s)
+            restarts, restart_s = restarts - 1, now_s + RESTARTED_AFTER_S
+        take_up(day, traffic, now_s, rng)
         second(day, traffic, now_s, rng)
         begin_runs(day, traffic, now_s, rng)
         if from_depot > 0 and now_s >= depot_s and come_from_the_depot(day, traffic, now_s, rng):
             from_depot -= 1
             depot_s = now_s + DEPOT_EACH_S
-        if traffic.size[0] == 0 and traffic.size[1] >= len(day.begins_s):
+        if traffic.size[0] == 0 and traffic.size[1] >= len(day.begins_s) and none_awaited(traffic):
             return
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from kernel.tram import dispatching
 from models.compiled import packed
 from models.tram import tally
 from models.tram.given import LIMITS, NEVER_PRESENT, NEVER_STALE, NOT_ADDRESSED, Given
@@ -22,9 +23,10 @@ from models.tram.state import (
     G_BEHIND,
     G_MARK,
     G_TOLD,
+    K_CLEARS,
+    K_ELSEWHERE,
     K_IS,
     K_SINCE,
-    K_TURN,
     LATE_MS,
     NEVER_MS,
     O_DUE,
@@ -46,6 +48,7 @@ from models.tram.state import (
 from models.tram.telling import (
     LATEST_S,
     display_of,
+    is_behind,
     is_in_reach,
     is_lost,
     keep_display,
@@ -61,23 +64,78 @@ HOLD, LIFT = 1, 3
 Report, Order, View = MADE.dispatching.Report, MADE.dispatching.Order, MADE.dispatching.View
 mark, counts, reported = MADE.dispatching.mark, MADE.dispatching.counts, MADE.dispatching.reported
 stop_left, tells_a_departure = MADE.dispatching.stop_left, MADE.dispatching.tells_a_departure
-may_be_in_the_way, is_seen_in_the_way = MADE.dispatching.may_be_in_the_way, MADE.dispatching.is_seen_in_the_way
+has_passed, is_seen_in_the_way = MADE.dispatching.has_passed, MADE.dispatching.is_seen_in_the_way
 may_recover_over, is_known_since = MADE.dispatching.may_recover_over, MADE.dispatching.is_known_since
+is_beyond_its_destination = MADE.dispatching.is_beyond_its_destination
+coming, is_before_who_comes = MADE.dispatching.coming, MADE.dispatching.is_before_who_comes
+was_beyond, is_cleared, is_off = MADE.dispatching.was_beyond, MADE.dispatching.is_cleared, MADE.dispatching.is_off
 decided, ordered, is_ahead = MADE.dispatching.decided, MADE.dispatching.ordered, MADE.dispatching.is_ahead
 taken = MADE.display.taken
+NOTHING_CLEARED = dispatching.NOTHING_CLEARED
 REQUEST_MS = SLOTS.request_ms
 NEVER_STALE_LIMITS = packed(replace(LIMITS, fresh_ms=10**9))
 
 
 @compiled
-def may_take_up(traffic: Traffic, tram: int, turn: int, stop: int, leaves_at: int) -> bool:
+def may_take_up(traffic: Traffic, tram: int, stop: int) -> bool:
     """As :func:`kernel.tram.centre.may_come`."""
+    if traffic.trams[tram, K_IS] == 1 or traffic.trams[tram, K_ELSEWHERE] == NEVER_MS or stop < 0:
+        return False
+    if stop == 0:
+        return True
     for other in range(len(traffic.trams)):
         body = traffic.trams[other]
-        is_behind = other != tram and body[K_IS] == 1 and body[K_TURN] >= turn
-        if is_behind and may_recover_over(known_of(body), stop, leaves_at):
+        if body[K_IS] == 1 and may_recover_over(known_of(body), stop):
             return False
+    return bool(traffic.known[1] > mark(stop, False))
+
+
+@compiled
+def confirm(traffic: Traffic, tram: int, stop: int, leaves_at: int, now_ms: int) -> bool:
+    """As :func:`kernel.tram.centre.note_coming`; whether it was taken up."""
+    if not may_take_up(traffic, tram, stop):
+        return False
+    for other in range(len(traffic.trams)):
+        body = traffic.trams[other]
+        if body[K_IS] == 1 and is_before_who_comes(known_of(body), stop):
+            traffic.shown[other, tram] = 1
+    keep_known(traffic.trams[tram], coming(now_ms, stop, leaves_at))
     return True
+
+
+@compiled
+def forget(traffic: Traffic, tram: int, made_ms: int) -> None:
+    """As :func:`kernel.tram.centre.without`."""
+    traffic.shown[tram, :] = 0
+    traffic.shown[:, tram] = 0
+    traffic.trams[tram, K_IS], traffic.trams[tram, K_ELSEWHERE] = 0, made_ms
+
+
+@compiled
+def hear_elsewhere(traffic: Traffic, tram: int, made_ms: int, now_ms: int) -> None:
+    """As :func:`kernel.tram.centre.note_elsewhere`."""
+    body = traffic.trams[tram]
+    if traffic.known[0] < made_ms <= now_ms and (body[K_IS] == 0 or is_off(known_of(body), made_ms)):
+        forget(traffic, tram, made_ms)
+
+
+@compiled
+def take_off_by_hand(traffic: Traffic, tram: int, now_ms: int) -> None:
+    """As :func:`kernel.tram.centre.note_taken_off`."""
+    body = traffic.trams[tram]
+    if body[K_IS] == 1:
+        forget(traffic, tram, now_ms)
+        traffic.row[tally.TAKEN_OFF_THERE] += body[ON]
+
+
+@compiled
+def restart_centre(limits: Any, traffic: Traffic, now_ms: int) -> None:
+    """As :func:`kernel.tram.centre.restarted`."""
+    traffic.trams[:, K_IS] = 0
+    traffic.trams[:, K_ELSEWHERE] = NEVER_MS
+    traffic.left_ms[:] = NEVER_MS
+    traffic.shown[:] = 0
+    traffic.known[0], traffic.known[1] = now_ms + limits.coming_ms, NOTHING_CLEARED
 
 
 @compiled
@@ -90,20 +148,27 @@ def hear_report(traffic: Traffic, tram: int, report: Any, now_ms: int) -> None:
         return
     if tells_a_departure(known, report):
         traffic.left_ms[tram, stop_left(report)] = report.made_ms
+    for other in range(len(traffic.trams)):
+        ahead = traffic.trams[other]
+        if ahead[K_IS] == 1 and was_beyond(known_of(ahead), report):
+            traffic.shown[other, tram] = 1
+    if body[K_CLEARS] == 1:
+        traffic.known[1] = max(traffic.known[1], mark(report.stop, report.left))
     keep_known(body, reported(known, report))
+    traffic.row[tally.BEYOND_DESTINATION] += is_beyond_its_destination(known_of(body))
 
 
 @compiled
 def view_of(limits: Any, traffic: Traffic, tram: int, own: Any, now_ms: int) -> Any:
     """As :func:`kernel.tram.centre.view`."""
-    clear, present, near, recent = True, False, False, False
+    clear, present, near, recent = is_cleared(own, traffic.known[1]), False, False, False
     behind, behind_near = False, False
     for other in range(len(traffic.trams)):
         if traffic.trams[other, K_IS] == 0:
             continue
         known = known_of(traffic.trams[other])
         if other != tram:
-            clear = clear and not may_be_in_the_way(own, known)
+            clear = clear and (has_passed(own, known) or is_behind(traffic, tram, other))
             present = present or is_seen_in_the_way(limits, now_ms, own, known)
         left_ms = traffic.left_ms[other, own.stop]
         if left_ms != NEVER_MS and is_known_since(known, left_ms):

@@ -1,8 +1,9 @@
 """Trams on a way, what the centre knows of them, and what drivers are shown, beside what is really so (G4 to G6).
 
-Any number of trams and stops.  Trams move from stop to stop at will, held or not: what drivers are shown is
-an aid.  Reports come late, again, out of order or not at all, and so do orders; a tram loses its place at
-any time.  What is not so by nature stands below as an assumption.
+Any number of trams and stops.  Trams move from stop to stop at will, held or not, in whatever order they came,
+and as far as they like: what drivers are shown is an aid, and destinations are wrong.  Reports come late, again,
+out of order or not at all, and so do orders; a tram loses its place at any time; the centre and the units start
+anew at any moment.  What is not so by nature stands below as an assumption.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from kernel.maps import Map
 from kernel.tram import centre as machine
 from kernel.tram import display as on_board
 from kernel.tram.centre import Centre, Command, Tram
-from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report
+from kernel.tram.dispatching import DispatchLimits, Hand, Order, Report
 from kernel.tram.display import Display
 
 
@@ -26,29 +27,25 @@ class Way:
 
 @dataclass(frozen=True)
 class Body:
-    """A tram as it is, on the way or, once ``is_gone``, off it again.
+    """A tram on the way as it is.
 
-    ``turn``: its place in the order on the track.  ``stop``, ``left``: where it is.
-    ``leaves_at``: the stop where it leaves the way.  ``display``: what its driver is shown.
+    ``rank``: its place in the order on the track, the first ahead; nobody is told it.
+    ``stop``, ``left``: where it is.  ``display``: what its driver is shown.
     ``taken_at``: a history: where it stood when it took its last order.
     """
 
-    turn: int
+    rank: int
     stop: int
     left: bool
-    leaves_at: int
-    is_gone: bool
     display: Display
     taken_at: int
 
 
 @dataclass(frozen=True)
 class Run:
-    """What was confirmed to who lets trams onto the way, and when: a tram's turn, where it comes, its destination."""
+    """What was confirmed to who lets trams onto the way, and when: where a tram comes."""
 
-    turn: int
     stop: int
-    leaves_at: int
     at_ms: int
 
 
@@ -56,8 +53,7 @@ class Run:
 class Given:
     """A history: an order as it was made, and what was not known then.
 
-    ``own_unknown``: where the tram was; ``way_unknown``: whether a tram ahead that shares the way had left the
-    next stop.
+    ``own_unknown``: where the tram was; ``way_unknown``: whether each tram truly ahead had left the next stop.
     """
 
     holds: bool
@@ -68,15 +64,18 @@ class Given:
 
 @dataclass(frozen=True)
 class Traffic:
-    """One moment: GPS time, every tram, what the centre knows, every command ever sent, and the last order.
+    """One moment: GPS time, every tram on the way, what the centre knows, every message ever sent, and the last order.
 
-    ``runs``: for each tram the last run that was confirmed.
+    ``runs``: for each tram a run that was confirmed, until it comes.
+    ``told``, ``told_elsewhere``: what trams have told of the way, and when from elsewhere.
     """
 
     now_ms: int
     bodies: Map[Tram, Body]
     runs: Map[Tram, Run]
     centre: Centre
+    told: frozenset[tuple[Tram, Report]]
+    told_elsewhere: frozenset[tuple[Tram, int]]
     sent: frozenset[Command]
     given: Given
 
@@ -91,9 +90,9 @@ def place(body: Body) -> int:
     return mark(body.stop, body.left)
 
 
-def is_on_the_way(bodies: Map[Tram, Body], tram: Tram) -> bool:
-    """Tell whether a tram is on the way now."""
-    return tram in bodies and not bodies[tram].is_gone
+def may_still_come(site: Way, system: Traffic, tram: Tram) -> bool:
+    """Tell whether a tram may yet come onto the way by a confirmation that it has."""
+    return tram in system.runs and system.now_ms <= system.runs[tram].at_ms + site.limits.coming_ms
 
 
 def is_unknown(site: Way, system: Traffic, tram: Tram) -> bool:
@@ -102,9 +101,17 @@ def is_unknown(site: Way, system: Traffic, tram: Tram) -> bool:
     return tram not in trams or not trams[tram].stands or now_ms - trams[tram].told_ms > site.limits.fresh_ms
 
 
-def is_not_known_to_have_passed(own: Known, turn: int, leaves_at: int, at_mark: int) -> bool:
-    """Tell whether a tram ahead, by its turn, shares the way and has not been seen to leave the next stop (G5)."""
-    return turn <= own.turn and leaves_at > own.stop and at_mark <= mark(own.stop + 1, False)
+def is_way_unknown(system: Traffic, tram: Tram) -> bool:
+    """Tell whether a tram is truly ahead of this one that has not left the stop after the one reported (G5)."""
+    trams, bodies = system.centre.trams, system.bodies
+    return (
+        tram in trams
+        and tram in bodies
+        and any(
+            body.rank < bodies[tram].rank and place(body) <= mark(trams[tram].stop + 1, False)
+            for _other, body in bodies.items()
+        )
+    )
 
 
 # ---- assumptions
@@ -116,55 +123,42 @@ def time_runs_forward(elapsed_ms: int) -> bool:
 
 
 def clocks_keep_gps_time(system: Traffic, now_ms: int) -> bool:
-    """A tram that comes onto the way keeps GPS time (G3)."""
+    """A unit, and the centre, start with GPS time (G3)."""
     return now_ms == system.now_ms
 
 
-def only_what_has_left_is_taken_up_anew(system: Traffic, tram: Tram) -> bool:
-    """A tram that is on the way is not taken up for another run (ours)."""
-    return not is_on_the_way(system.bodies, tram)
-
-
-def the_centre_knows_it_before_it_comes(system: Traffic, tram: Tram, body: Body) -> bool:
-    """A tram comes onto the way, each time, after its run was confirmed, in that turn and with that destination.
-
-    Where it comes is where was said, or farther on.
-    """
-    if tram in system.bodies or tram not in system.runs:
-        return False
-    run = system.runs[tram]
+def a_tram_comes_where_and_when_it_was_confirmed(site: Way, system: Traffic, tram: Tram, body: Body) -> bool:
+    """A tram comes onto the way at the stop for which it was confirmed, before that lapses."""
     return (
-        body.turn == run.turn
-        and body.leaves_at <= run.leaves_at
-        and mark(run.stop, False) <= place(body) <= mark(body.leaves_at, False)
-        and not body.is_gone
+        tram not in system.bodies
+        and may_still_come(site, system, tram)
+        and place(body) == mark(system.runs[tram].stop, False)
     )
 
 
-def trams_are_in_their_turn(system: Traffic, tram: Tram, there: Body) -> bool:
+def who_begins_at_the_first_stop_is_last(system: Traffic, tram: Tram, body: Body) -> bool:
+    """The way begins at stop 0: who comes there comes behind all that are on the way."""
+    return system.runs[tram].stop != 0 or all(other.rank < body.rank for _other, other in system.bodies.items())
+
+
+def none_overtakes(bodies: Map[Tram, Body], tram: Tram, there: Body) -> bool:
     """A tram comes, and runs, behind those ahead of it and before those behind: none overtakes on one track (G2)."""
     return all(
         other == tram
-        or body.is_gone
-        or (body.turn < there.turn and place(body) >= place(there))
-        or (body.turn > there.turn and place(body) <= place(there))
-        for other, body in system.bodies.items()
+        or (body.rank < there.rank and place(body) >= place(there))
+        or (body.rank > there.rank and place(body) <= place(there))
+        for other, body in bodies.items()
     )
-
-
-def it_departs_up_to_its_destination(system: Traffic, tram: Tram) -> bool:
-    """A tram departs from a stop of the way; none runs on beyond where its destination has it leave (002, 4.2)."""
-    return is_on_the_way(system.bodies, tram) and system.bodies[tram].stop < system.bodies[tram].leaves_at
 
 
 def it_arrives_from_the_section(system: Traffic, tram: Tram) -> bool:
     """A tram arrives at a stop from the section before: it has departed from the stop before that."""
-    return is_on_the_way(system.bodies, tram) and system.bodies[tram].left
+    return tram in system.bodies and system.bodies[tram].left
 
 
-def it_leaves_the_way_at_a_stop(system: Traffic, tram: Tram) -> bool:
-    """A tram leaves the way, to turn off or to turn back, where there is a stop."""
-    return tram in system.bodies and not system.bodies[tram].left
+def who_is_taken_off_is_off_the_way(site: Way, system: Traffic, tram: Tram) -> bool:
+    """A person takes off only a tram that is not on the way, and has no confirmation to come (ours)."""
+    return tram not in system.bodies and not may_still_come(site, system, tram)
 
 
 def a_known_place_shows_the_stop(display: Display, noticed: bool) -> bool:
@@ -182,11 +176,29 @@ def it_knows_the_stop_that_it_comes_to(system: Traffic, tram: Tram, noticed: boo
     return not noticed or told_stop == system.bodies[tram].stop + 1
 
 
-def a_report_tells_where_it_was(system: Traffic, tram: Tram, report: Report) -> bool:
-    """What a tram has told since its run was confirmed is of this run: it has reached that place (G2, G3)."""
-    if tram not in system.runs or report.made_ms <= system.runs[tram].at_ms:
-        return True
-    return tram in system.bodies and mark(report.stop, report.left) <= place(system.bodies[tram])
+def a_report_tells_where_it_is(system: Traffic, tram: Tram, report: Report) -> bool:
+    """A tram on the way tells a place that it has reached, at the time that it is; who stands is at that stop (G2)."""
+    if tram not in system.bodies or report.made_ms != system.now_ms:
+        return False
+    body = system.bodies[tram]
+    if report.stands:
+        return not report.left and mark(report.stop, False) == place(body)
+    return mark(report.stop, report.left) <= place(body)
+
+
+def only_who_is_elsewhere_tells_so(system: Traffic, tram: Tram) -> bool:
+    """A tram that is on the way tells nothing of another way or of its depot (G3)."""
+    return tram not in system.bodies
+
+
+def only_what_was_told_is_heard(system: Traffic, tram: Tram, told: Report) -> bool:
+    """A report that passes the frame's checks was made by that tram (G3)."""
+    return (tram, told) in system.told
+
+
+def only_what_was_told_elsewhere_is_heard(system: Traffic, tram: Tram, made_ms: int) -> bool:
+    """And so was what comes from elsewhere (G3)."""
+    return (tram, made_ms) in system.told_elsewhere
 
 
 def the_frame_carries_the_order(tram: Tram, order: Order, command: Command) -> bool:
@@ -223,36 +235,38 @@ def pass_time(site: Way, system: Traffic, elapsed_ms: int) -> Traffic:
     )
 
 
-def take_up(site: Way, system: Traffic, tram: Tram, turn: int, stop: int, leaves_at: int) -> Traffic:
-    """Tell the centre of a tram that is to come, or to come again; a run that has ended is forgotten then (ours)."""
-    if not only_what_has_left_is_taken_up_anew(system, tram):
-        return system
-    is_taken = machine.may_come(system.centre, tram, turn, stop, leaves_at)
-    run = Run(turn, stop, leaves_at, system.now_ms)
+def take_up(site: Way, system: Traffic, tram: Tram, stop: int, leaves_at: int) -> Traffic:
+    """Ask the centre to confirm a tram that is to come, whoever asks, and wherever it is (ours)."""
+    is_confirmed = machine.may_come(system.centre, tram, stop)
     return replace(
         system,
-        bodies={other: body for other, body in system.bodies.items() if other != tram or not is_taken},
-        runs=system.runs | {tram: run} if is_taken else system.runs,
-        centre=machine.note_coming(system.centre, tram, turn, stop, leaves_at),
+        runs=system.runs | {tram: Run(stop, system.now_ms)} if is_confirmed else system.runs,
+        centre=machine.note_coming(system.centre, tram, stop, leaves_at),
     )
 
 
 def come(site: Way, system: Traffic, tram: Tram, body: Body, now_ms: int) -> Traffic:
     """A tram comes onto the way; its unit begins anew (G6)."""
-    if not the_centre_knows_it_before_it_comes(system, tram, body) or not clocks_keep_gps_time(system, now_ms):
+    if not clocks_keep_gps_time(system, now_ms):
         return system
-    if not trams_are_in_their_turn(system, tram, body):
+    if not a_tram_comes_where_and_when_it_was_confirmed(site, system, tram, body):
+        return system
+    if not who_begins_at_the_first_stop_is_last(system, tram, body) or not none_overtakes(system.bodies, tram, body):
         return system
     fresh = replace(body, display=on_board.begun(now_ms))
-    return replace(system, bodies=system.bodies | {tram: fresh})
+    return replace(
+        system,
+        bodies=system.bodies | {tram: fresh},
+        runs={other: run for other, run in system.runs.items() if other != tram},
+    )
 
 
 def depart(site: Way, system: Traffic, tram: Tram) -> Traffic:
-    """A tram departs, whatever its driver is shown."""
-    if not it_departs_up_to_its_destination(system, tram):
+    """A tram departs, whatever its driver is shown, and whatever its destination."""
+    if tram not in system.bodies:
         return system
     there = replace(system.bodies[tram], left=True)
-    if not trams_are_in_their_turn(system, tram, there):
+    if not none_overtakes(system.bodies, tram, there):
         return system
     return replace(system, bodies=system.bodies | {tram: there})
 
@@ -262,7 +276,7 @@ def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int
     if not it_arrives_from_the_section(system, tram):
         return system
     body = system.bodies[tram]
-    if not trams_are_in_their_turn(system, tram, replace(body, stop=body.stop + 1, left=False)):
+    if not none_overtakes(system.bodies, tram, replace(body, stop=body.stop + 1, left=False)):
         return system
     if not a_known_place_shows_the_stop(body.display, noticed):
         return system
@@ -274,11 +288,8 @@ def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int
 
 
 def leave(site: Way, system: Traffic, tram: Tram) -> Traffic:
-    """A tram leaves the way behind the stop of its destination."""
-    if not it_leaves_the_way_at_a_stop(system, tram):
-        return system
-    body = system.bodies[tram]
-    return replace(system, bodies=system.bodies | {tram: replace(body, left=True, is_gone=True)})
+    """A tram leaves the way, wherever it is: it turns off, turns back, is towed away."""
+    return replace(system, bodies={other: body for other, body in system.bodies.items() if other != tram})
 
 
 # ---- what is told
@@ -293,11 +304,57 @@ def take_place(site: Way, system: Traffic, tram: Tram, is_located: bool, told_st
     return replace(system, bodies=system.bodies | {tram: replace(body, display=display)})
 
 
+def restart_unit(site: Way, system: Traffic, tram: Tram, now_ms: int) -> Traffic:
+    """A unit on board starts anew (G6)."""
+    if tram not in system.bodies or not clocks_keep_gps_time(system, now_ms):
+        return system
+    body = system.bodies[tram]
+    return replace(system, bodies=system.bodies | {tram: replace(body, display=on_board.begun(now_ms))})
+
+
+def tell(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
+    """A tram makes a report, which may come at any time, again and again (G3)."""
+    if not a_report_tells_where_it_is(system, tram, report):
+        return system
+    return replace(system, told=system.told | {(tram, report)})
+
+
+def tell_elsewhere(site: Way, system: Traffic, tram: Tram) -> Traffic:
+    """A tram tells of another way, or from its depot; that too may come at any time (G3)."""
+    if not only_who_is_elsewhere_tells_so(system, tram):
+        return system
+    return replace(system, told_elsewhere=system.told_elsewhere | {(tram, system.now_ms)})
+
+
+# ---- the centre
+
+
+def restart_centre(site: Way, system: Traffic, now_ms: int) -> Traffic:
+    """The centre starts anew, and knows nothing; what it has sent is still on its way (G6)."""
+    if not clocks_keep_gps_time(system, now_ms):
+        return system
+    return replace(system, centre=machine.restarted(site.limits, system.centre, now_ms))
+
+
 def hear_report(site: Way, system: Traffic, tram: Tram, told: Report) -> Traffic:
     """A tram's report comes to the centre (G3)."""
-    if not a_report_tells_where_it_was(system, tram, told):
+    if not only_what_was_told_is_heard(system, tram, told):
         return system
     return replace(system, centre=machine.note_report(system.centre, tram, told))
+
+
+def hear_elsewhere(site: Way, system: Traffic, tram: Tram, made_ms: int) -> Traffic:
+    """What a tram told from elsewhere comes to the centre (G3)."""
+    if not only_what_was_told_elsewhere_is_heard(system, tram, made_ms):
+        return system
+    return replace(system, centre=machine.note_elsewhere(system.centre, tram, made_ms))
+
+
+def take_off(site: Way, system: Traffic, tram: Tram) -> Traffic:
+    """A person takes a tram off that has no radio (ours)."""
+    if not who_is_taken_off_is_off_the_way(site, system, tram):
+        return system
+    return replace(system, centre=machine.note_taken_off(system.centre, tram))
 
 
 def give_order(site: Way, system: Traffic, tram: Tram, hand: Hand, command: Command) -> Traffic:
@@ -305,7 +362,6 @@ def give_order(site: Way, system: Traffic, tram: Tram, hand: Hand, command: Comm
     order = machine.order(site.limits, system.centre, tram, hand)
     if not the_frame_carries_the_order(tram, order, command):
         return system
-    trams = system.centre.trams
     return replace(
         system,
         centre=machine.note_ordered(system.centre, tram, order),
@@ -314,13 +370,7 @@ def give_order(site: Way, system: Traffic, tram: Tram, hand: Hand, command: Comm
             holds=order.holds,
             recovers=order.recovers,
             own_unknown=is_unknown(site, system, tram),
-            way_unknown=tram in trams
-            and any(
-                other != tram
-                and not body.is_gone
-                and is_not_known_to_have_passed(trams[tram], body.turn, body.leaves_at, place(body))
-                for other, body in system.bodies.items()
-            ),
+            way_unknown=is_way_unknown(system, tram),
         ),
     )
 

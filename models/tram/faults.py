@@ -39,8 +39,19 @@ FAULTS = {
     "breakdown": Fault("one tram stands still for some time", 120, 1_200, "s", 0.4, "practice"),
     "heedless": Fault("one tram's driver heeds no hold", 1, 1, "1", 0.3, "ours: it is an aid"),
     "from_depot": Fault("trams come from the depot midway, so many", 1, 4, "1", 0.3, "practice: a defect is replaced"),
-    "wrong_destination": Fault("one tram shows another destination", 0, 23, "stop", 0.2, "ours"),
+    "wrong_destination": Fault(
+        "one tram is set to another destination", 0, 23, "stop", 0.2, "practice: a wrong setting"
+    ),
     "by_hand": Fault("the dispatcher orders by hand this share of times", 0.01, 0.3, "1", 0.5, "002, 3.2"),
+    "centre_restart": Fault("the centre starts anew, so many times", 1, 3, "1", 0.3, "ours: a defect, a new version"),
+    "late_at_terminus": Fault(
+        "this share of runs begins minutes late after it was confirmed, another one before it",
+        0.05,
+        0.3,
+        "1",
+        0.3,
+        "practice: a driver who is late, trams that change places",
+    ),
 }
 """By name, in the order in which they are drawn."""
 
@@ -75,6 +86,7 @@ class Where(NamedTuple):
     depot_s: int
     destination_tram: int
     frames_lost: float
+    restart_s: int
 
 
 def place(chance: np.random.Generator, line_mm: int) -> Where:
@@ -101,4 +113,5 @@ def place(chance: np.random.Generator, line_mm: int) -> Where:
         depot_s=second(),
         destination_tram=tram(),
         frames_lost=float(chance.uniform(*FRAMES_LOST)),
+        restart_s=second(),
     )

@@ -21,10 +21,17 @@ LIMITS = DispatchLimits(
     recovery_ms=240_000,
     fresh_ms=11_000,
     order_ms=18_000,
+    coming_ms=180_000,
 )
-"""Ours: half of the peak's interval, and all of it; an order counts for 11 s and one missed cycle."""
+"""Ours: half of the peak's interval, and all of it; an order counts for 11 s and one missed cycle; 3 min to come."""
 UNCONTROLLED = DispatchLimits(
-    ahead_hold_ms=0, behind_hold_ms=10**9, longest_hold_ms=0, recovery_ms=10**9, fresh_ms=0, order_ms=0
+    ahead_hold_ms=0,
+    behind_hold_ms=10**9,
+    longest_hold_ms=0,
+    recovery_ms=10**9,
+    fresh_ms=0,
+    order_ms=0,
+    coming_ms=180_000,
 )
 """As if there were no centre."""
 STOP_LIMITS = StopLimits(near_mm=line.AT_STOP_MM, held_mm=line.AT_STOP_MM + 2 * BOUND_MM)
@@ -59,6 +66,8 @@ class Given(NamedTuple):
     from_depot: int
     wrong_destination: int
     by_hand: float
+    restarts: int
+    late_runs: float
     plant: int
 
 
@@ -94,5 +103,7 @@ def given(
         from_depot=round(drawn["from_depot"]),
         wrong_destination=round(drawn["wrong_destination"]),
         by_hand=drawn["by_hand"],
+        restarts=round(drawn["centre_restart"]),
+        late_runs=drawn["late_at_terminus"],
         plant=plant,
     ), drawn

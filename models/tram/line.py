@@ -34,7 +34,8 @@ TRAMS = 40
 """Vehicle numbers; one is used again when the tram has been away for a quarter of an hour."""
 AWAY_S = 900
 TAKEN_UP_S = 60
-"""So long before it comes a tram is told to the centre, by the timetable."""
+FIRST_S = OPEN_S - 600
+"""So long before it comes a tram is told to the centre, by the timetable; and when the centre starts."""
 
 LENGTH_MM = 18_000
 """Practice: a tram of two cars."""

@@ -40,6 +40,7 @@ from models.tram.state import (
     H_ANSWERED,
     H_KNOWN,
     K_ARRIVED,
+    K_CLEARS,
     K_IS,
     K_LEAVES,
     K_LEFT,
@@ -48,7 +49,6 @@ from models.tram.state import (
     K_STANDS,
     K_STOP,
     K_TOLD,
-    K_TURN,
     LEAVES,
     NEVER_MS,
     PLACE,
@@ -86,7 +86,6 @@ note_answer, age_heard, note_cycle, is_heard, slot_begins_ms = (
 def known_of(body: Any) -> Any:
     """What the centre knows of a tram."""
     return Known(
-        body[K_TURN],
         body[K_LEAVES],
         body[K_SINCE],
         body[K_STOP],
@@ -95,6 +94,7 @@ def known_of(body: Any) -> Any:
         body[K_ARRIVED],
         body[K_TOLD],
         body[K_RECOVERY],
+        body[K_CLEARS] == 1,
     )
 
 
@@ -102,7 +102,6 @@ def known_of(body: Any) -> Any:
 def keep_known(body: Any, known: Any) -> None:
     """Keep it."""
     body[K_IS] = 1
-    body[K_TURN] = known.turn
     body[K_LEAVES] = known.leaves_at
     body[K_SINCE] = known.since_ms
     body[K_STOP] = known.stop
@@ -111,6 +110,7 @@ def keep_known(body: Any, known: Any) -> None:
     body[K_ARRIVED] = known.arrived_ms
     body[K_TOLD] = known.told_ms
     body[K_RECOVERY] = known.recovery_to
+    body[K_CLEARS] = known.clears
 
 
 @compiled
@@ -137,6 +137,12 @@ def keep_display(body: Any, display: Any) -> None:
     body[D_HOLDS] = display.holds
     body[D_RECOVERS] = display.recovers
     body[D_MADE] = display.made_ms
+
+
+@compiled
+def is_behind(traffic: Traffic, tram: int, other: int) -> bool:
+    """As :func:`kernel.tram.centre.is_behind`."""
+    return bool(traffic.shown[tram, other] == 1 and traffic.shown[other, tram] == 0)
 
 
 # ---- on board

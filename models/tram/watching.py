@@ -22,7 +22,6 @@ from models.tram.state import (
     G_MARK,
     G_TOLD,
     K_IS,
-    K_TURN,
     LEAVES,
     NEXT,
     ON,
@@ -32,6 +31,7 @@ from models.tram.state import (
     WAITS,
     Traffic,
 )
+from models.tram.telling import is_behind
 
 FRESH_MS = 11_000
 ORDER_MS = 18_000
@@ -47,12 +47,12 @@ def left_mm(day: Given, stop: int) -> int:
 
 @compiled
 def is_occupied(day: Given, traffic: Traffic, tram: int, stop: int) -> bool:
-    """Whether a tram is ahead of this one up to the next stop, or at it; one that turns off at this stop is not."""
+    """Whether a tram is ahead of this one up to the next stop, or at it, wherever it is bound for."""
     at_mm, until_mm = traffic.trams[tram, PLACE], left_mm(day, stop + 1)
     for place in range(traffic.size[0]):
         other = traffic.line[place]
         body = traffic.trams[other]
-        if other != tram and at_mm < body[PLACE] <= until_mm and body[LEAVES] > stop:
+        if other != tram and at_mm < body[PLACE] <= until_mm:
             return True
     return False
 
@@ -81,8 +81,9 @@ def judge(day: Given, traffic: Traffic, tram: int, own: Any, order: Any, now_ms:
         for place in range(traffic.size[0]):
             other = traffic.line[place]
             ahead = traffic.trams[other]
-            if other != tram and ahead[PLACE] > body[PLACE] and ahead[LEAVES] > order.stop:
-                row[tally.RECOVERY_UNKNOWN] += ahead[G_MARK] <= mark(order.stop + 1, False)
+            if other != tram and ahead[PLACE] > body[PLACE]:
+                had_told = ahead[K_IS] == 0 or ahead[G_MARK] > mark(order.stop + 1, False)
+                row[tally.RECOVERY_UNKNOWN] += not had_told or ahead[PLACE] <= left_mm(day, order.stop + 1)
     stands = body[DWELL_S] != FREE and body[NEXT] == order.stop and order.stop < body[LEAVES]
     if stands and not order.holds and not is_occupied(day, traffic, tram, order.stop):
         is_near = is_truly_near(day, traffic, tram, order.stop, now_ms, day.limits.recovery_ms)
@@ -117,13 +118,15 @@ def watch(day: Given, traffic: Traffic, now_ms: int) -> None:
         tram = traffic.line[place]
         body = traffic.trams[tram]
         row[tally.TRAM_S] += 1
-        row[tally.UNANNOUNCED] += body[K_IS] == 0
+        row[tally.NOT_KNOWN_S] += body[K_IS] == 0
         row[tally.CLOCK_BROKEN] += body[D_NOW] != now_ms
         stop_mm = day.stops_mm[body[U_STOP]]
         has_left = body[U_LEFT] == 1 and body[PLACE] <= stop_mm + AT_STOP_MM - BOUND_MM
         row[tally.REACHED_TOO_SOON] += has_left or body[PLACE] < stop_mm - AT_STOP_MM - BOUND_MM
         watch_orders(day, traffic, tram, now_ms)
         if place > 0:
-            ahead = traffic.trams[traffic.line[place - 1]]
+            leader = traffic.line[place - 1]
+            ahead = traffic.trams[leader]
             row[tally.OVERTAKEN] += ahead[PLACE] <= body[PLACE]
-            row[tally.ORDER_TURNED] += ahead[K_TURN] >= body[K_TURN]
+            are_known = ahead[K_IS] == 1 and body[K_IS] == 1
+            row[tally.ORDER_TURNED] += are_known and is_behind(traffic, tram, leader)

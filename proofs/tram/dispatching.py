@@ -1,23 +1,47 @@
-"""What is claimed of dispatching: none recovers towards a tram, none is held and recovers, none by guess (G4 to G6)."""
+"""What is claimed of dispatching: none recovers towards a tram, none is held and recovers, none by guess (G4 to G6).
+
+Neither the timetable's order nor a destination is trusted, and the centre starts anew at any moment.
+"""
 
 from __future__ import annotations
 
-from kernel.tram.centre import Tram
+from kernel.tram.centre import Command, Tram
 from models.tram import dispatching as world
-from models.tram.dispatching import Body, Traffic, Way, mark, place
+from models.tram.dispatching import Body, Traffic, Way, mark, may_still_come, place
 from proofs.theory import Theory, by_name
+
+
+def a_confirmation_counts_for_some_time(site: Way) -> bool:
+    """The time for which a confirmation counts is not below 0 (ours)."""
+    return site.limits.coming_ms >= 0
+
 
 # ---- the start
 
 
-def nothing_runs_yet(site: Way, system: Traffic) -> bool:
-    """At the start no tram is on the way, none is known, and nothing was sent."""
+def nothing_is_known_yet(site: Way, system: Traffic) -> bool:
+    """At the start the centre knows nothing, and nothing was told or sent; trams may be on the way, none overtaking."""
     return (
         system.centre.now_ms == system.now_ms
-        and all(False for _tram in system.bodies)
+        and system.centre.opens_ms == system.now_ms + site.limits.coming_ms
+        and system.centre.cleared == -1
         and all(False for _tram in system.runs)
         and all(False for _tram in system.centre.trams)
+        and all(False for _pair in system.centre.left_ms)
+        and all(False for _pair in system.centre.shown)
+        and all(False for _tram in system.centre.elsewhere_ms)
+        and all(False for _told in system.told)
+        and all(False for _told in system.told_elsewhere)
         and all(False for _command in system.sent)
+        and all(
+            not body.display.holds
+            and not body.display.recovers
+            and not body.display.is_located
+            and not body.display.stands
+            and body.display.now_ms == system.now_ms
+            for _tram, body in system.bodies.items()
+        )
+        and none_overtakes_another(site, system)
         and not system.given.holds
         and not system.given.recovers
     )
@@ -28,32 +52,16 @@ def nothing_runs_yet(site: Way, system: Traffic) -> bool:
 
 def is_out_of_the_way(body: Body, other: Body) -> bool:
     """Tell whether another tram is behind, or has left the next stop (G5)."""
-    is_behind = place(other) <= place(body) and (other.turn > body.turn or place(other) <= mark(body.stop, False))
-    return is_behind or place(other) > mark(body.stop + 1, False)
+    return other.rank > body.rank or place(other) > mark(body.stop + 1, False)
 
 
 def no_recovery_towards_an_occupied_section(site: Way, system: Traffic) -> bool:
-    """As long as a driver may recover no other tram is before him up to the next stop, nor at it (G5).
+    """As long as a driver may recover no other tram is ahead of him up to the next stop, nor at it (G5).
 
-    At his own stop there may be one that turns off there.
+    Whether the centre knows it or not, and whatever order and destination it was to have.
     """
     return all(
-        tram == other or body.is_gone or ahead.is_gone or not body.display.recovers or is_out_of_the_way(body, ahead)
-        for tram, body in system.bodies.items()
-        for other, ahead in system.bodies.items()
-    )
-
-
-def none_is_ahead_of_one_that_recovers(site: Way, system: Traffic) -> bool:
-    """Nor is there, up to the next stop, one that is ahead of him in order and shares the way (G5)."""
-    return all(
-        tram == other
-        or body.is_gone
-        or ahead.is_gone
-        or not body.display.recovers
-        or ahead.turn > body.turn
-        or ahead.leaves_at <= body.stop
-        or place(ahead) > mark(body.stop + 1, False)
+        tram == other or not body.display.recovers or is_out_of_the_way(body, ahead)
         for tram, body in system.bodies.items()
         for other, ahead in system.bodies.items()
     )
@@ -103,66 +111,38 @@ def only_who_stands_is_held(site: Way, system: Traffic) -> bool:
     return all(not body.display.holds or body.display.stands for _tram, body in system.bodies.items())
 
 
-def the_order_known_is_the_order_on_the_track(site: Way, system: Traffic) -> bool:
-    """Of two trams the one that the centre has ahead is not behind the other (002, 3.1.2; G2)."""
+def is_of_this_run(system: Traffic, tram: Tram, made_ms: int) -> bool:
+    """Tell whether a tram is known, and was taken up before that."""
+    return tram in system.centre.trams and made_ms > system.centre.trams[tram].since_ms
+
+
+def the_order_shown_is_the_order_on_the_track(site: Way, system: Traffic) -> bool:
+    """Of two trams the one that reports have shown ahead is ahead (002, 3.1.2; G2)."""
     return all(
-        tram == other
-        or body.is_gone
-        or ahead.is_gone
-        or system.centre.trams[other].turn >= system.centre.trams[tram].turn
-        or place(ahead) >= place(body)
-        for tram, body in system.bodies.items()
-        if tram in system.centre.trams
-        for other, ahead in system.bodies.items()
-        if other in system.centre.trams
+        ahead not in system.bodies
+        or behind not in system.bodies
+        or system.bodies[ahead].rank < system.bodies[behind].rank
+        for ahead, behind in system.centre.shown
     )
 
 
-# ---- what it rests on
-
-
-def trams_are_known_no_farther_on_than_they_are(site: Way, system: Traffic) -> bool:
-    """Each tram is known, in its turn, as having reached a place that it has reached (G2)."""
+def none_is_taken_up_anew_while_on_the_way(site: Way, system: Traffic) -> bool:
+    """Who may be confirmed is not on the way, nor about to come (G5, ours)."""
     return all(
-        tram in system.centre.trams
-        and system.centre.trams[tram].turn == body.turn
-        and system.centre.trams[tram].leaves_at >= body.leaves_at
-        and mark(system.centre.trams[tram].stop, system.centre.trams[tram].left) <= place(body)
-        for tram, body in system.bodies.items()
+        tram in system.centre.trams or (tram not in system.bodies and not may_still_come(site, system, tram))
+        for tram in system.centre.elsewhere_ms
     )
 
 
-def runs_that_were_confirmed_are_those_known(site: Way, system: Traffic) -> bool:
-    """The centre knows of each run that was confirmed, since then, and of no other (G2, G5; ours).
-
-    Until the tram has come, it knows it no farther on than where it is to come.
-    """
-    return all(
-        tram in system.centre.trams
-        and system.centre.trams[tram].since_ms == run.at_ms
-        and system.centre.trams[tram].turn == run.turn
-        and system.centre.trams[tram].leaves_at >= run.leaves_at
-        and (
-            tram in system.bodies
-            or mark(system.centre.trams[tram].stop, system.centre.trams[tram].left) <= mark(run.stop, False)
-        )
-        for tram, run in system.runs.items()
-    ) and all(tram in system.runs for tram in system.centre.trams)
+# ---- what nature keeps
 
 
-def none_is_beyond_its_destination(site: Way, system: Traffic) -> bool:
-    """No tram on the way has passed the stop where it leaves (002, 4.2)."""
-    return all(body.is_gone or place(body) <= mark(body.leaves_at, False) for _tram, body in system.bodies.items())
-
-
-def trams_run_in_their_turn(site: Way, system: Traffic) -> bool:
-    """No two trams have one turn, and a lower one is not behind (G2)."""
+def none_overtakes_another(site: Way, system: Traffic) -> bool:
+    """No two trams have one rank, and a lower one is not behind (G2)."""
     return all(
         tram == other
-        or body.is_gone
-        or ahead.is_gone
-        or (body.turn < ahead.turn and place(body) >= place(ahead))
-        or (body.turn > ahead.turn and place(body) <= place(ahead))
+        or (body.rank < ahead.rank and place(body) >= place(ahead))
+        or (body.rank > ahead.rank and place(body) <= place(ahead))
         for tram, body in system.bodies.items()
         for other, ahead in system.bodies.items()
     )
@@ -176,17 +156,17 @@ def clocks_agree(site: Way, system: Traffic) -> bool:
 
 
 def nothing_is_of_the_future(site: Way, system: Traffic) -> bool:
-    """Commands were made by now; and no tram was taken up later than now (G3)."""
-    return all(command.made_ms <= system.now_ms for command in system.sent) and all(
-        known.since_ms <= system.now_ms for _tram, known in system.centre.trams.items()
-    )
-
-
-def displays_are_of_this_run(site: Way, system: Traffic) -> bool:
-    """What is older than the taking up of a tram is not shown, and not taken (G6)."""
-    return all(
-        tram not in system.centre.trams or body.display.made_ms >= system.centre.trams[tram].since_ms
-        for tram, body in system.bodies.items()
+    """Nothing was sent, told, confirmed or taken up later than now (G3)."""
+    return (
+        all(command.made_ms <= system.now_ms for command in system.sent)
+        and all(report.made_ms <= system.now_ms for _tram, report in system.told)
+        and all(made_ms <= system.now_ms for _tram, made_ms in system.told_elsewhere)
+        and all(run.at_ms <= system.now_ms for _tram, run in system.runs.items())
+        and all(
+            system.centre.opens_ms < known.since_ms <= known.told_ms <= system.now_ms
+            for _tram, known in system.centre.trams.items()
+        )
+        and all(system.centre.opens_ms < at_ms <= system.now_ms for _tram, at_ms in system.centre.elsewhere_ms.items())
     )
 
 
@@ -199,31 +179,219 @@ def a_located_unit_has_its_stop(site: Way, system: Traffic) -> bool:
     )
 
 
+# ---- what the centre knows
+
+
+def trams_are_known_no_farther_on_than_they_are(site: Way, system: Traffic) -> bool:
+    """Each known tram on the way has reached the place that is known of it (G2)."""
+    return all(
+        tram not in system.centre.trams
+        or mark(system.centre.trams[tram].stop, system.centre.trams[tram].left) <= place(body)
+        for tram, body in system.bodies.items()
+    )
+
+
+def reports_of_this_run_were_true(site: Way, system: Traffic) -> bool:
+    """What a tram has told since it was taken up it has reached (G2)."""
+    return all(
+        tram not in system.centre.trams
+        or report.made_ms <= system.centre.trams[tram].since_ms
+        or tram not in system.bodies
+        or mark(report.stop, report.left) <= place(system.bodies[tram])
+        for tram, report in system.told
+    )
+
+
+def who_is_to_come_has_told_nothing(site: Way, system: Traffic) -> bool:
+    """Of a run that was confirmed, and has not begun, nothing is known but what was confirmed (G2, G5)."""
+    return all(
+        tram not in system.centre.trams
+        or (
+            system.centre.trams[tram].since_ms == run.at_ms
+            and system.centre.trams[tram].told_ms == run.at_ms
+            and system.centre.trams[tram].stop == run.stop
+            and not system.centre.trams[tram].left
+            and system.centre.trams[tram].clears == (run.stop == 0)
+        )
+        for tram, run in system.runs.items()
+    ) and all(tram not in system.runs or report.made_ms <= system.runs[tram].at_ms for tram, report in system.told)
+
+
+def what_is_not_known_comes_no_more(site: Way, system: Traffic) -> bool:
+    """A confirmation that the centre does not know of lapses before anything counts (G5, ours)."""
+    return all(
+        tram in system.centre.trams
+        or run.at_ms + site.limits.coming_ms <= system.centre.opens_ms
+        or not may_still_come(site, system, tram)
+        for tram, run in system.runs.items()
+    )
+
+
+def who_comes_is_confirmed_once(site: Way, system: Traffic) -> bool:
+    """No tram on the way has a run before it yet (G5)."""
+    return all(tram not in system.bodies for tram in system.runs)
+
+
+def what_told_from_elsewhere_was_off(site: Way, system: Traffic) -> bool:
+    """A tram that the centre does not know, and that told from elsewhere since all count, is off the way (G5, ours)."""
+    return all(
+        made_ms <= system.centre.opens_ms
+        or tram in system.centre.trams
+        or (tram not in system.bodies and not may_still_come(site, system, tram))
+        for tram, made_ms in system.told_elsewhere
+    )
+
+
+def a_run_that_told_and_then_from_elsewhere_has_ended(site: Way, system: Traffic) -> bool:
+    """A known tram that has told of the way, and from elsewhere after that, is off it (G5, ours)."""
+    return all(
+        tram not in system.centre.trams
+        or not (system.centre.trams[tram].since_ms < report.made_ms < made_ms)
+        or (tram not in system.bodies and tram not in system.runs)
+        for tram, made_ms in system.told_elsewhere
+        for other, report in system.told
+        if other == tram
+    )
+
+
+def a_run_that_was_heard_and_then_from_elsewhere_has_ended(site: Way, system: Traffic) -> bool:
+    """And so is one that the centre has heard before that (G5, ours)."""
+    return all(
+        tram not in system.centre.trams
+        or not (system.centre.trams[tram].since_ms < system.centre.trams[tram].told_ms < made_ms)
+        or (tram not in system.bodies and tram not in system.runs)
+        for tram, made_ms in system.told_elsewhere
+    )
+
+
+# ---- in what order trams run
+
+
+def who_told_from_beyond_is_ahead(site: Way, system: Traffic) -> bool:
+    """Who told that it was beyond a stop, before another told that it stood there, is ahead of that (G2)."""
+    return all(
+        not report.stands
+        or not (mark(beyond.stop, beyond.left) > mark(report.stop, False))
+        or not beyond.made_ms < report.made_ms
+        or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
+        or ahead not in system.bodies
+        or behind not in system.bodies
+        or system.bodies[ahead].rank < system.bodies[behind].rank
+        for ahead, beyond in system.told
+        for behind, report in system.told
+    )
+
+
+def who_was_heard_beyond_is_ahead(site: Way, system: Traffic) -> bool:
+    """And so is one that was heard from beyond before that (G2)."""
+    return all(
+        not report.stands
+        or not is_of_this_run(system, behind, report.made_ms)
+        or not (mark(known.stop, known.left) > mark(report.stop, False))
+        or not known.since_ms < known.told_ms < report.made_ms
+        or ahead not in system.bodies
+        or behind not in system.bodies
+        or system.bodies[ahead].rank < system.bodies[behind].rank
+        for ahead, known in system.centre.trams.items()
+        for behind, report in system.told
+    )
+
+
+def who_is_shown_ahead_of_one_to_come_is_beyond_where_it_comes(site: Way, system: Traffic) -> bool:
+    """Who is shown ahead has come; where another is to come midway, it is beyond that stop (G2, ours)."""
+    return all(
+        ahead in system.centre.trams
+        and behind in system.centre.trams
+        and ahead not in system.runs
+        and (
+            behind not in system.runs
+            or ahead not in system.bodies
+            or system.runs[behind].stop == 0
+            or place(system.bodies[ahead]) > mark(system.runs[behind].stop, False)
+        )
+        for ahead, behind in system.centre.shown
+    )
+
+
+# ---- what the centre does not know
+
+
+def what_is_not_known_runs_ahead_of_who_clears(site: Way, system: Traffic) -> bool:
+    """Trams that the centre does not know are ahead of each that came at the first stop since it started (G5)."""
+    return all(
+        not known.clears
+        or tram not in system.bodies
+        or other in system.centre.trams
+        or stranger.rank < system.bodies[tram].rank
+        for tram, known in system.centre.trams.items()
+        for other, stranger in system.bodies.items()
+    )
+
+
+def what_is_not_known_is_beyond_what_such_a_tram_told(site: Way, system: Traffic) -> bool:
+    """And so they are beyond what such a tram has told (G5)."""
+    return all(
+        tram not in system.centre.trams
+        or not system.centre.trams[tram].clears
+        or report.made_ms <= system.centre.trams[tram].since_ms
+        or other in system.centre.trams
+        or place(stranger) >= mark(report.stop, report.left)
+        for tram, report in system.told
+        for other, stranger in system.bodies.items()
+    )
+
+
+def the_way_is_cleared_of_what_is_not_known(site: Way, system: Traffic) -> bool:
+    """They are beyond what counts as cleared; before confirmations have lapsed nothing does (G5)."""
+    return (system.centre.cleared <= -1 or system.centre.opens_ms < system.now_ms) and all(
+        system.centre.cleared <= -1 or tram in system.centre.trams or place(body) >= system.centre.cleared
+        for tram, body in system.bodies.items()
+    )
+
+
+def stops_are_counted_from_0(site: Way, system: Traffic) -> bool:
+    """No tram is known before the first stop (G2)."""
+    return all(known.stop >= 0 for _tram, known in system.centre.trams.items())
+
+
+# ---- recoveries
+
+
+def may_be_taken(system: Traffic, command: Command) -> bool:
+    """Tell whether a command is newer than all that its tram, on the way, was shown, and the tram may be there yet."""
+    return (
+        command.tram in system.bodies
+        and command.recovers
+        and command.made_ms > system.bodies[command.tram].display.made_ms
+        and place(system.bodies[command.tram]) < mark(command.stop + 1, False)
+    )
+
+
+def displays_are_of_this_run(site: Way, system: Traffic) -> bool:
+    """What is older than the taking up of a tram is not shown, and not taken (G6)."""
+    return all(
+        tram not in system.centre.trams or body.display.made_ms >= system.centre.trams[tram].since_ms
+        for tram, body in system.bodies.items()
+    )
+
+
 def recoveries_are_ordered_one_stop_on(site: Way, system: Traffic) -> bool:
     """A tram is ordered to recover no farther than to the stop after the one reached (G5)."""
     return all(known.recovery_to <= known.stop + 1 for _tram, known in system.centre.trams.items())
 
 
-def is_alive(system: Traffic, tram: Tram, stop: int, made_ms: int) -> bool:
-    """Tell whether a recovery from a stop may still be taken: it is of this run, and the tram may be there yet."""
-    return (
-        tram in system.centre.trams
-        and made_ms > system.centre.trams[tram].since_ms
-        and mark(system.centre.trams[tram].stop, system.centre.trams[tram].left) < mark(stop + 1, False)
-    )
-
-
 def recoveries_sent_are_on_record(site: Way, system: Traffic) -> bool:
     """The centre has it on record as long as one may still be taken; none is from where a tram leaves (G5)."""
     return all(
-        not command.recovers
-        or not is_alive(system, command.tram, command.stop, command.made_ms)
+        not may_be_taken(system, command)
+        or command.tram not in system.centre.trams
+        or mark(system.centre.trams[command.tram].stop, system.centre.trams[command.tram].left)
+        >= mark(command.stop + 1, False)
         or (
             system.centre.trams[command.tram].recovery_to == command.stop + 1
             and system.centre.trams[command.tram].leaves_at > command.stop
         )
         for command in system.sent
-        if command.tram in system.centre.trams
     )
 
 
@@ -231,7 +399,8 @@ def recoveries_shown_are_on_record(site: Way, system: Traffic) -> bool:
     """And as long as one is shown (G5)."""
     return all(
         not body.display.recovers
-        or (tram in system.centre.trams and system.centre.trams[tram].recovery_to == body.stop + 1)
+        or tram not in system.centre.trams
+        or system.centre.trams[tram].recovery_to == body.stop + 1
         for tram, body in system.bodies.items()
     )
 
@@ -239,32 +408,27 @@ def recoveries_shown_are_on_record(site: Way, system: Traffic) -> bool:
 def recoveries_sent_have_a_clear_way(site: Way, system: Traffic) -> bool:
     """As long as one may still be taken, every tram ahead on the way has left the next stop (G5)."""
     return all(
-        not command.recovers
-        or not is_alive(system, command.tram, command.stop, command.made_ms)
+        not may_be_taken(system, command)
         or other == command.tram
-        or ahead.is_gone
-        or ahead.turn > system.centre.trams[command.tram].turn
-        or ahead.leaves_at <= command.stop
+        or ahead.rank > system.bodies[command.tram].rank
         or place(ahead) > mark(command.stop + 1, False)
         for command in system.sent
-        if command.tram in system.centre.trams
+        if command.tram in system.bodies
         for other, ahead in system.bodies.items()
     )
 
 
 def nor_will_one_come_before_one_sent(site: Way, system: Traffic) -> bool:
-    """Nor is one taken up that could come there (G5)."""
+    """Nor is one confirmed that could come there (G5)."""
     return all(
-        not command.recovers
-        or not is_alive(system, command.tram, command.stop, command.made_ms)
-        or other == command.tram
-        or other in system.bodies
-        or known.turn > system.centre.trams[command.tram].turn
-        or known.leaves_at <= command.stop
-        or mark(known.stop, known.left) > mark(command.stop + 1, False)
+        not may_be_taken(system, command)
+        or not may_still_come(site, system, other)
+        or run.stop == 0
+        or place(system.bodies[command.tram]) > mark(run.stop, False)
+        or run.stop > command.stop + 1
         for command in system.sent
-        if command.tram in system.centre.trams
-        for other, known in system.centre.trams.items()
+        if command.tram in system.bodies
+        for other, run in system.runs.items()
     )
 
 
@@ -272,18 +436,17 @@ def nor_will_one_come_before_one_shown(site: Way, system: Traffic) -> bool:
     """Nor before a tram that recovers already (G5)."""
     return all(
         not body.display.recovers
-        or body.is_gone
-        or other == tram
-        or other in system.bodies
-        or known.turn > body.turn
-        or known.leaves_at <= body.stop
-        or mark(known.stop, known.left) > mark(body.stop + 1, False)
-        for tram, body in system.bodies.items()
-        for other, known in system.centre.trams.items()
+        or not may_still_come(site, system, other)
+        or run.stop == 0
+        or place(body) > mark(run.stop, False)
+        or run.stop > body.stop + 1
+        for _tram, body in system.bodies.items()
+        for other, run in system.runs.items()
     )
 
 
-INITIAL = (nothing_runs_yet,)
+PREMISES = (a_confirmation_counts_for_some_time,)
+INITIAL = (nothing_is_known_yet,)
 SAFETY = (
     no_recovery_towards_an_occupied_section,
     none_recovers_from_its_last_stop,
@@ -292,19 +455,31 @@ SAFETY = (
     recovery_ends_at_the_next_stop,
     no_order_outlives_its_time,
     only_who_stands_is_held,
-    the_order_known_is_the_order_on_the_track,
+    the_order_shown_is_the_order_on_the_track,
+    none_is_taken_up_anew_while_on_the_way,
 )
 INVARIANTS = (
     *SAFETY,
-    none_is_ahead_of_one_that_recovers,
-    trams_are_known_no_farther_on_than_they_are,
-    runs_that_were_confirmed_are_those_known,
-    none_is_beyond_its_destination,
-    trams_run_in_their_turn,
+    none_overtakes_another,
     clocks_agree,
     nothing_is_of_the_future,
-    displays_are_of_this_run,
     a_located_unit_has_its_stop,
+    trams_are_known_no_farther_on_than_they_are,
+    reports_of_this_run_were_true,
+    who_is_to_come_has_told_nothing,
+    what_is_not_known_comes_no_more,
+    who_comes_is_confirmed_once,
+    what_told_from_elsewhere_was_off,
+    a_run_that_told_and_then_from_elsewhere_has_ended,
+    a_run_that_was_heard_and_then_from_elsewhere_has_ended,
+    who_told_from_beyond_is_ahead,
+    who_was_heard_beyond_is_ahead,
+    who_is_shown_ahead_of_one_to_come_is_beyond_where_it_comes,
+    what_is_not_known_runs_ahead_of_who_clears,
+    what_is_not_known_is_beyond_what_such_a_tram_told,
+    the_way_is_cleared_of_what_is_not_known,
+    stops_are_counted_from_0,
+    displays_are_of_this_run,
     recoveries_are_ordered_one_stop_on,
     recoveries_sent_are_on_record,
     recoveries_shown_are_on_record,
@@ -320,9 +495,15 @@ STEPS = (
     world.arrive,
     world.leave,
     world.take_place,
+    world.restart_unit,
+    world.tell,
+    world.tell_elsewhere,
     world.hear_report,
+    world.hear_elsewhere,
+    world.take_off,
     world.give_order,
     world.hear_order,
+    world.restart_centre,
 )
 
 THEORY = Theory(
@@ -333,6 +514,6 @@ THEORY = Theory(
     by_name(INITIAL),
     by_name(INVARIANTS),
     by_name(SAFETY),
-    by_name(()),
+    by_name(PREMISES),
     quantified=True,
 )

@@ -5,13 +5,13 @@ from __future__ import annotations
 from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report, View, counts, decided, mark, reported
 from kernel.tram.display import Display, located, older, taken
 
-LIMITS = DispatchLimits(120_000, 600_000, 60_000, 240_000, 11_000, 18_000)
+LIMITS = DispatchLimits(120_000, 600_000, 60_000, 240_000, 11_000, 18_000, 180_000)
 CLEAR = View(is_clear=True, is_present=False, ahead_is_far=True, ahead_is_near=False, behind_is_far=False)
 
 
 def known(stop: int, left: bool, stands: bool, told_ms: int) -> Known:
     """A tram of which this is known."""
-    return Known(1, 20, 0, stop, left, stands, told_ms, told_ms, 0)
+    return Known(20, 0, stop, left, stands, told_ms, told_ms, 0, False)
 
 
 def marks_follow_the_way(stop: int, other: int) -> None:
@@ -53,7 +53,7 @@ def no_report_puts_a_tram_back(stop: int, left: bool, told: int, gone: bool, mad
     assert counts(now_ms, known(stop, left, True, 0), Report(told, gone, not gone, 20, made_ms))
     after = reported(known(stop, left, True, 0), Report(told, gone, not gone, 20, made_ms))
     assert mark(after.stop, after.left) >= mark(stop, left)
-    assert after.turn == 1
+    assert not after.clears
 
 
 def shown(stop: int, stands: bool, made_ms: int, recovers: bool) -> Display:
@@ -66,6 +66,14 @@ def no_order_passes_but_at_its_stop(stop: int, other: int, stands: bool, made_ms
     assert stop != other or not stands
     display = shown(stop, stands, 0, False)
     assert taken(LIMITS, display, Order(other, False, True, made_ms)) == display
+
+
+def no_order_of_the_future_passes(stop: int, made_ms: int) -> None:
+    """It would not lapse in time, and every correct one would be older (G3, G6)."""
+    assert isinstance(stop, int)
+    assert made_ms > 1_000
+    display = shown(stop, True, 0, False)
+    assert taken(LIMITS, display, Order(stop, True, False, made_ms)) == display
 
 
 def a_recovery_ends_at_the_next_stop(stop: int, other: int, stands: bool, is_located: bool) -> None:

@@ -18,11 +18,19 @@ from models.compiled import packed, unpacked
 from models.tram import given as plan
 from models.tram import tally
 from models.tram.days import SYSTEM, one_day
-from models.tram.deciding import hear_report, may_take_up, view_of
+from models.tram.deciding import (
+    confirm,
+    hear_elsewhere,
+    hear_report,
+    may_take_up,
+    restart_centre,
+    take_off_by_hand,
+    view_of,
+)
 from models.tram.faults import FAULTS
 from models.tram.given import LIMITS
 from models.tram.machines import MADE
-from models.tram.state import K_IS, NEVER_MS, Traffic, begun
+from models.tram.state import K_ELSEWHERE, K_IS, NEVER_MS, Traffic, begun
 from models.tram.telling import keep_known, known_of
 from tests.onboard.agree import agree_along_runs, agree_on_values, functions, states_of
 
@@ -141,7 +149,6 @@ def drawn(chance: Random) -> tuple[Centre, Traffic, list[Tram]]:
     trams, left_ms = {}, {}
     for number in range(count):
         known = Known(
-            turn=chance.randrange(4),
             leaves_at=chance.randrange(10),
             since_ms=now_ms - chance.choice((5, 300_000, 900_000)),
             stop=chance.randrange(4),
@@ -150,6 +157,7 @@ def drawn(chance: Random) -> tuple[Centre, Traffic, list[Tram]]:
             arrived_ms=now_ms - chance.randrange(100_000),
             told_ms=now_ms - chance.choice((0, 11_000, 11_001)),
             recovery_to=chance.randrange(6),
+            clears=chance.random() < 0.5,
         )
         trams[Tram(str(number))] = known
         keep_known(traffic.trams[number], packed(known))
@@ -158,7 +166,61 @@ def drawn(chance: Random) -> tuple[Centre, Traffic, list[Tram]]:
                 made_ms = now_ms - chance.choice((119_999, 120_000, 239_999, 240_000, 600_000, 600_001))
                 left_ms[Tram(str(number)), stop] = made_ms
                 traffic.left_ms[number, stop] = made_ms
-    return Centre(now_ms, trams, left_ms), traffic, list(trams)
+    elsewhere_ms, shown = {}, set()
+    for number in range(count):
+        if chance.random() < 0.5:
+            elsewhere_ms[Tram(str(number))] = traffic.trams[number, K_ELSEWHERE] = now_ms - 7
+        if chance.random() < 0.2:
+            del trams[Tram(str(number))]
+            traffic.trams[number, K_IS] = 0
+        for other in range(count):
+            if other != number and chance.random() < 0.6:
+                shown.add((Tram(str(number)), Tram(str(other))))
+                traffic.shown[number, other] = 1
+    traffic.known[:] = opens_ms, cleared = now_ms - chance.choice((0, 8_000)), chance.choice((-1, 3, 8, 11))
+    everyone = [Tram(str(number)) for number in range(count)]
+    return Centre(now_ms, opens_ms, cleared, trams, left_ms, frozenset(shown), elsewhere_ms), traffic, everyone
+
+
+def agree(centre: Centre, traffic: Traffic) -> bool:
+    """Whether maps and arrays hold the same."""
+    count = len(traffic.trams)
+    for number in range(count):
+        body, tram = traffic.trams[number], Tram(str(number))
+        assert (body[K_IS] == 1) == (tram in centre.trams)
+        assert tram not in centre.trams or unpacked(known_of(body), Known) == centre.trams[tram]
+        assert body[K_ELSEWHERE] == centre.elsewhere_ms.get(tram, NEVER_MS)
+        for place in range(7):
+            assert traffic.left_ms[number, place] == centre.left_ms.get((tram, place), NEVER_MS)
+        for other in range(count):
+            assert (traffic.shown[number, other] == 1) == ((tram, Tram(str(other))) in centre.shown)
+    return (centre.opens_ms, centre.cleared) == tuple(traffic.known)
+
+
+def change(chance: Random, centre: Centre, traffic: Traffic, number: int) -> None:
+    """Let one thing happen to both."""
+    tram, stop, leaves_at = Tram(str(number)), chance.randrange(-1, 6), chance.randrange(9)
+    made_ms = centre.now_ms - chance.randrange(-9, 9_000)
+    report = Report(chance.randrange(5), chance.random() < 0.5, chance.random() < 0.7, 7, made_ms)
+    kind = chance.randrange(5)
+    if kind == 0:
+        may = dispatcher.may_come(centre, tram, stop)
+        assert may_take_up(traffic, number, stop) == may
+        assert confirm(traffic, number, stop, leaves_at, centre.now_ms) == may
+        after = dispatcher.note_coming(centre, tram, stop, leaves_at)
+    elif kind == 1:
+        hear_report(traffic, number, packed(report), centre.now_ms)
+        after = dispatcher.note_report(centre, tram, report)
+    elif kind == 2:
+        hear_elsewhere(traffic, number, made_ms, centre.now_ms)
+        after = dispatcher.note_elsewhere(centre, tram, made_ms)
+    elif kind == 3:
+        take_off_by_hand(traffic, number, centre.now_ms)
+        after = dispatcher.note_taken_off(centre, tram)
+    else:
+        restart_centre(packed(LIMITS), traffic, centre.now_ms)
+        after = dispatcher.restarted(LIMITS, centre, centre.now_ms)
+    assert agree(after, traffic)
 
 
 def test_arrays_say_what_maps_say() -> None:
@@ -169,27 +231,22 @@ def test_arrays_say_what_maps_say() -> None:
         centre, traffic, trams = drawn(chance)
         number = chance.randrange(len(trams))
         tram = trams[number]
-        own = centre.trams[tram]
-        view = dispatcher.view(LIMITS, centre, tram, own)
-        found = view_of(packed(LIMITS), traffic, number, packed(own), centre.now_ms)
-        assert unpacked(found, dispatching.View) == view
-        seen.append(view)
-        turn, stop, leaves_at = chance.randrange(4), chance.randrange(6), chance.randrange(9)
-        may = dispatcher.may_come(centre, tram, turn, stop, leaves_at)
-        assert may_take_up(traffic, number, turn, stop, leaves_at) == may
-        report = Report(chance.randrange(5), chance.random() < 0.5, True, 7, centre.now_ms - chance.randrange(9_000))
-        after = dispatcher.note_report(centre, tram, report)
-        hear_report(traffic, number, packed(report), centre.now_ms)
-        assert unpacked(known_of(traffic.trams[number]), Known) == after.trams[tram]
-        for place in range(7):
-            assert traffic.left_ms[number, place] == after.left_ms.get((tram, place), NEVER_MS)
+        own = centre.trams.get(tram)
+        if own is not None:
+            view = dispatcher.view(LIMITS, centre, tram, own)
+            found = view_of(packed(LIMITS), traffic, number, packed(own), centre.now_ms)
+            assert unpacked(found, dispatching.View) == view
+            seen.append(view)
+        assert agree(centre, traffic)
+        change(chance, centre, traffic, number)
     for name in ("is_clear", "is_present", "ahead_is_far", "ahead_is_near", "behind_is_far"):
         assert {getattr(view, name) for view in seen} == {True, False}, name
 
 
 def test_a_tram_that_is_not_known_counts_nowhere() -> None:
     _, traffic, trams = drawn(Random(1))
-    own = Known(9, 9, 0, 0, False, True, 0, 0, 0)
+    own = Known(9, 0, 0, False, True, 0, 0, 0, False)
+    traffic.known[1] = 9
     for number in range(len(trams)):
         traffic.trams[number, K_IS] = 0
     view = view_of(packed(LIMITS), traffic, 0, packed(own), 1_000_000)

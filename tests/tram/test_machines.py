@@ -112,7 +112,7 @@ def test_what_is_older_is_no_fresher(age_ms: int, is_known: bool, answered: bool
 # ---- one order
 
 
-KNOWN = st.builds(Known, ANY, ANY, ANY, ANY, FLAG, FLAG, ANY, ANY, ANY)
+KNOWN = st.builds(Known, ANY, ANY, ANY, FLAG, FLAG, ANY, ANY, ANY, FLAG)
 VIEWS = st.builds(View, FLAG, FLAG, FLAG, FLAG, FLAG)
 
 
@@ -163,7 +163,7 @@ class Drawn:
     def __init__(self, seed: int) -> None:
         """Begin without trams."""
         self.chance, self.day = Random(seed), Day()
-        self.names = [Tram(str(number)) for number in range(6)]
+        self.names = [Tram(str(number)) for number in range(4)]
         self.recovered = self.held = 0
 
     def act(self) -> None:
@@ -174,22 +174,55 @@ class Drawn:
         if drawn < 0.1:
             day.step("pass_time", elapsed_ms=chance.choice((1, 3_000, 11_000, 40_000, 240_000)))
         elif drawn < 0.2:
-            turn, stop = chance.randrange(12), chance.randrange(4)
-            day.step("take_up", tram=tram, turn=turn, stop=stop, leaves_at=chance.randrange(stop, 9))
-            known = day.system.centre.trams.get(tram)
-            if known is not None and body is None:
-                new = Body(known.turn, known.stop, False, known.leaves_at, False, begun(0), 0)
-                day.step("come", tram=tram, body=new, now_ms=now_ms)
+            self.come_or_go(tram, body)
+        elif drawn < 0.205:
+            day.step("restart_centre", now_ms=now_ms)
+            day.wait(LIMITS.coming_ms + 1)
+            if chance.random() < 0.7:
+                for other in self.names:
+                    day.step("leave", tram=other)
+                day.clear(Tram("first"))
         elif body is None:
-            day.step("hear_report", tram=tram, told=Report(9, True, False, 9, now_ms + chance.choice((-9, 0, 9))))
+            told = Report(9, True, False, 9, now_ms)
+            day.step("tell", tram=tram, report=told)
+            day.step("hear_report", tram=tram, told=told)
         elif drawn < 0.5:
             self.move(tram, body)
         elif drawn < 0.7:
-            stands = not body.left
-            made_ms = now_ms - chance.choice((0, 0, 0, 5_000, 12_000))
-            day.step("hear_report", tram=tram, told=Report(body.stop, body.left, stands, body.leaves_at, made_ms))
+            stands = not body.left and chance.random() < 0.9
+            told = Report(body.stop, body.left, stands, chance.randrange(9), now_ms)
+            day.step("tell", tram=tram, report=told)
+            day.step("hear_report", tram=tram, told=told)
+            late = [report for other, report in day.system.told if other == tram]
+            day.step("hear_report", tram=tram, told=chance.choice(late))
         else:
-            self.command(tram)
+            self.see_and_command(tram)
+
+    def see_and_command(self, tram: Tram) -> None:
+        """Let a tram, now and then, find its place and tell it just before the centre orders."""
+        if self.chance.random() < 0.6:
+            self.day.see(tram, stands=not self.day.body(tram).left)
+            self.day.step("hear_report", tram=tram, told=self.day.report(tram))
+        self.command(tram)
+
+    def come_or_go(self, tram: Tram, body: Body | None) -> None:
+        """Let a tram leave the way, tell from elsewhere, be taken up, and come, anywhere in the order."""
+        chance, day = self.chance, self.day
+        if body is not None and (body.stop > 5 or chance.random() < 0.1):
+            day.step("leave", tram=tram)
+            day.wait(1)
+        day.step("tell_elsewhere", tram=tram)
+        for made_ms in sorted(made_ms for other, made_ms in day.system.told_elsewhere if other == tram)[-2:]:
+            day.step("hear_elsewhere", tram=tram, made_ms=made_ms)
+        if chance.random() < 0.5:
+            day.step("take_off", tram=tram)
+        day.step("take_up", tram=tram, stop=chance.choice((0, 0, 1, 2, 3)), leaves_at=chance.randrange(4, 12))
+        run = day.system.runs.get(tram)
+        if run is not None and chance.random() < 0.8:
+            last = max([0, *(other.rank for other in dict(day.system.bodies.items()).values())])
+            rank = chance.randrange(-5, 40) if run.stop else 1 + last
+            new = Body(rank, run.stop, False, begun(0), 0)
+            day.step("come", tram=tram, body=new, now_ms=day.system.now_ms)
 
     def move(self, tram: Tram, body: Body) -> None:
         """Let a tram move, or find its place, or lose it."""
@@ -200,8 +233,6 @@ class Drawn:
             day.step("depart", tram=tram)
         stands = chance.random() < 0.9
         day.step("arrive", tram=tram, noticed=noticed, told_stop=body.stop + 1, stands=stands)
-        if chance.random() < 0.05:
-            day.step("leave", tram=tram)
 
     def command(self, tram: Tram) -> None:
         """Let the centre order, and something ordered arrive somewhere."""
@@ -233,6 +264,7 @@ def test_one_tram_more_never_clears_a_way(seed: int, place: int) -> None:
     for _ in range(60):
         drawn.act()
     centre = drawn.day.system.centre
-    more = replace(centre, trams={**dict(centre.trams.items()), Tram("9"): Known(5, 9, 0, place, True, True, 0, 0, 0)})
+    known = Known(9, 0, place, True, True, 0, 0, 0, False)
+    more = replace(centre, trams={**dict(centre.trams.items()), Tram("more"): known})
     for tram, own in centre.trams.items():
         assert dispatcher.is_clear(centre, tram, own) or not dispatcher.is_clear(more, tram, own)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kernel.tram import centre as machine
 from kernel.tram.centre import Centre, Command, Tram
-from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report
+from kernel.tram.dispatching import DispatchLimits, Hand, Known, Order, Report, mark
 from kernel.tram.display import begun
-from models.tram.dispatching import Body, Given, Traffic, Way
+from models.tram.dispatching import Body, Given, Run, Traffic, Way
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.dispatching import THEORY
 
@@ -17,10 +19,13 @@ LIMITS = DispatchLimits(
     recovery_ms=240_000,
     fresh_ms=11_000,
     order_ms=11_000,
+    coming_ms=60_000,
 )
 SITE = Way(LIMITS)
-FIRST, SECOND, THIRD = Tram("11"), Tram("13"), Tram("15")
+FIRST, SECOND, THIRD, EARLY = Tram("11"), Tram("13"), Tram("15"), Tram("9")
 TERMINUS = 20
+CLEARED = 6
+"""The stop that the first tram of the morning has left: up to there the way is known."""
 NEITHER, HELD, RECOVERS = (False, False), (True, False), (False, True)
 """What an order says: whether it holds, and whether it lets recover."""
 
@@ -33,11 +38,63 @@ def command_of(tram: Tram, order: Order) -> Command:
 class Day(Play[Way, Traffic]):
     """A way with twenty stops, at first without trams."""
 
-    def __init__(self, now_ms: int = 1_000_000) -> None:
-        """Begin: nothing is known."""
-        super().__init__(
-            THEORY, SITE, Traffic(now_ms, {}, {}, Centre(now_ms, {}, {}), frozenset(), Given(*4 * (False,)))
-        )
+    def __init__(self, now_ms: int = 1_000_000, *, is_cleared: bool = True) -> None:
+        """Begin: nothing is known; then, if it is to be, a first tram has run over the way, and is off it again."""
+        nothing = frozenset[Any]()
+        given = Given(holds=False, recovers=False, own_unknown=False, way_unknown=False)
+        begun_centre = Centre(now_ms, now_ms + LIMITS.coming_ms, -1, {}, {}, nothing, {})
+        super().__init__(THEORY, SITE, Traffic(now_ms, {}, {}, begun_centre, nothing, nothing, nothing, given))
+        if is_cleared:
+            self.wait(LIMITS.coming_ms + 1)
+            self.clear(EARLY)
+
+    def clear(self, tram: Tram) -> None:
+        """A tram runs over the way from its first stop, tells so, and leaves it."""
+        self.come(tram, 0, 0, tells=False)
+        for _ in range(CLEARED):
+            self.step("depart", tram=tram)
+            self.step("arrive", tram=tram, noticed=True, told_stop=self.body(tram).stop + 1, stands=False)
+        self.step("depart", tram=tram)
+        self.see(tram, stands=False)
+        self.tell(tram)
+        assert self.system.centre.cleared == mark(CLEARED, True)
+        self.leave(tram)
+        self.wait(1)
+        self.off(tram)
+
+    def leave(self, tram: Tram) -> None:
+        """A tram leaves the way, and nobody is told."""
+        self.step("leave", tram=tram)
+        assert tram not in self.system.bodies
+
+    def off(self, tram: Tram) -> None:
+        """A tram that is off the way tells from elsewhere, and is heard."""
+        now_ms = self.system.centre.now_ms
+        self.step("tell_elsewhere", tram=tram)
+        assert (tram, now_ms) in self.system.told_elsewhere
+        self.step("hear_elsewhere", tram=tram, made_ms=now_ms)
+        assert tram not in self.system.centre.trams
+        assert self.system.centre.elsewhere_ms[tram] == now_ms
+
+    def off_in_vain(self, tram: Tram) -> None:
+        """A tram tells from elsewhere before anything counts: the centre has started anew too lately."""
+        self.step("tell_elsewhere", tram=tram)
+        before = self.system
+        assert self.step("hear_elsewhere", tram=tram, made_ms=before.now_ms) == before
+
+    def confirm(self, tram: Tram, stop: int, leaves_at: int = TERMINUS) -> bool:
+        """The centre is asked for a tram that has told from elsewhere; whether it confirms it."""
+        before = self.system
+        self.step("take_up", tram=tram, stop=stop, leaves_at=leaves_at)
+        if tram in before.centre.trams or tram not in self.system.centre.trams:
+            assert self.system == before
+            return False
+        known, now_ms = self.known(tram), self.system.centre.now_ms
+        assert (known.stop, known.leaves_at, known.since_ms) == (stop, leaves_at, now_ms)
+        assert (known.left, known.stands, known.recovery_to, known.clears) == (False, False, stop, stop == 0)
+        assert known.arrived_ms == known.told_ms == now_ms
+        assert self.system.runs[tram] == Run(stop, now_ms)
+        return True
 
     def body(self, tram: Tram) -> Body:
         """A tram as it is."""
@@ -53,15 +110,19 @@ class Day(Play[Way, Traffic]):
         self.step("pass_time", elapsed_ms=elapsed_ms)
         assert self.system.centre.now_ms == was_ms + elapsed_ms
 
-    def come(self, tram: Tram, turn: int, stop: int, leaves_at: int = TERMINUS, *, tells: bool = True) -> None:
+    def come(self, tram: Tram, rank: int, stop: int, leaves_at: int = TERMINUS, *, tells: bool = True) -> None:
         """A tram is taken up, comes, stands at its first stop, and tells that, all in one ms after the other."""
-        self.step("take_up", tram=tram, turn=turn, stop=stop, leaves_at=leaves_at)
-        known, now_ms = self.known(tram), self.system.centre.now_ms
-        assert (known.turn, known.stop, known.leaves_at, known.since_ms) == (turn, stop, leaves_at, now_ms)
-        assert (known.left, known.stands, known.recovery_to) == (False, False, stop)
-        body = Body(turn, stop, False, leaves_at, is_gone=False, display=begun(0), taken_at=stop)
+        self.off(tram)
+        assert self.confirm(tram, stop, leaves_at)
+        self.begin(tram, rank, tells=tells)
+
+    def begin(self, tram: Tram, rank: int, *, tells: bool = True) -> None:
+        """A tram that was confirmed comes, stands at its first stop, and tells that."""
+        stop, now_ms = self.system.runs[tram].stop, self.system.centre.now_ms
+        body = Body(rank, stop, False, display=begun(0), taken_at=stop)
         self.step("come", tram=tram, body=body, now_ms=now_ms)
         assert self.body(tram).display == begun(now_ms)
+        assert tram not in self.system.runs
         self.wait(1)
         self.see(tram)
         if tells:
@@ -92,10 +153,19 @@ class Day(Play[Way, Traffic]):
         if tells:
             self.tell(tram)
 
+    def report(self, tram: Tram, leaves_at: int = TERMINUS) -> Report:
+        """A tram makes a report of how it is now, which is not heard yet."""
+        body = self.body(tram)
+        leaves_at = self.known(tram).leaves_at if tram in self.system.centre.trams else leaves_at
+        told = Report(body.stop, body.left, body.display.stands, leaves_at, self.system.centre.now_ms)
+        self.step("tell", tram=tram, report=told)
+        assert (tram, told) in self.system.told
+        return told
+
     def tell(self, tram: Tram) -> None:
         """A tram tells how it is now, and the centre notes it."""
         body, now_ms = self.body(tram), self.system.centre.now_ms
-        told = Report(body.stop, body.left, body.display.stands, body.leaves_at, now_ms)
+        told = self.report(tram)
         self.step("hear_report", tram=tram, told=told)
         known = self.known(tram)
         assert (known.stop, known.left, known.stands) == (body.stop, body.left, body.display.stands)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.tram import display as on_board
-from kernel.tram.centre import received
-from kernel.tram.dispatching import Hand, Order
-from models.tram.dispatching import Body, place
+from kernel.tram.centre import Tram, received
+from kernel.tram.dispatching import Hand, Order, Report
+from models.tram.dispatching import Body
 from proofs.tram.witnesses.line import (
     FIRST,
     HELD,
@@ -106,15 +106,31 @@ def a_stop_that_is_passed_ends_it_too() -> None:
 # ---- nature
 
 
+def a_unit_that_starts_anew_shows_nothing() -> None:
+    """It has forgotten its recovery, and takes the old one no more; a new one it takes (G5, G6)."""
+    day = two_stops_apart()
+    order = day.order(SECOND)
+    assert day.deliver(SECOND, order) == RECOVERS
+    now_ms = day.system.now_ms
+    for tram, told_ms in ((SECOND, now_ms + 1), (THIRD, now_ms)):
+        before = day.system
+        assert day.step("restart_unit", tram=tram, now_ms=told_ms) == before
+    day.step("restart_unit", tram=SECOND, now_ms=now_ms)
+    assert day.body(SECOND).display == on_board.begun(now_ms)
+    day.see(SECOND)
+    assert day.deliver(SECOND, order) == NEITHER
+    day.wait(1)
+    day.tell(SECOND)
+    assert day.deliver(SECOND, day.order(SECOND)) == RECOVERS
+
+
 def what_nature_does_not_do() -> None:
-    """No tram overtakes, comes unknown, out of turn or beyond its destination; the clock goes on (G2, G3)."""
+    """No tram overtakes, comes unknown, too late or elsewhere than was said; the clock goes on (G2, G3)."""
     day = two_stops_apart(ahead_stops=0)
     before = day.system
     assert day.step("pass_time", elapsed_ms=-1) == before
-    assert day.step("take_up", tram=SECOND, turn=7, stop=0, leaves_at=9) == before
-    assert day.step("depart", tram=FIRST) == before
     assert day.step("arrive", tram=SECOND, noticed=True, told_stop=2, stands=True) == before
-    assert day.step("leave", tram=FIRST) == before
+    assert day.step("leave", tram=THIRD) == before
     day.depart(SECOND)
     before = day.system
     assert day.step("arrive", tram=SECOND, noticed=True, told_stop=2, stands=True) == before
@@ -122,29 +138,54 @@ def what_nature_does_not_do() -> None:
     day.arrive(SECOND)
     before = day.system
     assert day.step("depart", tram=SECOND) == before
+    day.off(THIRD)
+    assert day.confirm(THIRD, 1)
     now_ms = day.system.centre.now_ms
-    day.step("take_up", tram=THIRD, turn=3, stop=1, leaves_at=4)
-    good = Body(3, 1, False, 4, False, on_board.begun(0), 0)
+    good = Body(3, 1, False, on_board.begun(0), 0)
     assert good.display.stop == 0
     before = day.system
-    for bad in (
-        replace(good, turn=4),
-        replace(good, leaves_at=5),
-        replace(good, stop=0),
-        replace(good, stop=3),
-        replace(good, stop=5),
-        replace(good, is_gone=True),
-    ):
+    for bad in (replace(good, rank=2), replace(good, rank=0), replace(good, stop=0), replace(good, left=True)):
         assert day.step("come", tram=THIRD, body=bad, now_ms=now_ms) == before
     assert day.step("come", tram=THIRD, body=good, now_ms=now_ms + 1) == before
-    for absent in ("depart", "leave"):
-        assert day.step(absent, tram=THIRD) == before
+    assert day.step("depart", tram=THIRD) == before
+    assert day.step("come", tram=FIRST, body=replace(good, rank=9), now_ms=now_ms) == before
     day.step("come", tram=THIRD, body=good, now_ms=now_ms)
-    assert day.body(THIRD).turn == 3
-    day.step("leave", tram=FIRST)
+    assert day.body(THIRD).rank == 3
+    before = day.system
+    assert day.step("come", tram=THIRD, body=good, now_ms=now_ms) == before
+    day.leave(FIRST)
     day.depart(SECOND)
-    day.arrive(SECOND)
-    assert place(day.body(SECOND)) > place(day.body(FIRST))
+    for stop, rank, comes in ((0, 4, True), (0, 1, False)):
+        tram = Tram(str(rank))
+        day.off(tram)
+        assert day.confirm(tram, stop)
+        before = day.system
+        body = replace(good, rank=rank, stop=stop)
+        assert (day.step("come", tram=tram, body=body, now_ms=now_ms) != before) == comes
+
+
+def what_trams_do_not_tell() -> None:
+    """A place that they have not reached, another time, another stop where they stand; nor the radio for them (G3)."""
+    day = two_stops_apart(ahead_stops=0)
+    now_ms = day.system.now_ms
+    before = day.system
+    good = Report(1, False, True, 9, now_ms)
+    for bad in (
+        replace(good, stop=2),
+        replace(good, stop=0),
+        replace(good, stop=2, stands=False),
+        replace(good, left=True),
+        replace(good, left=True, stands=False),
+        replace(good, made_ms=now_ms - 1),
+    ):
+        assert day.step("tell", tram=SECOND, report=bad) == before
+        assert day.step("hear_report", tram=SECOND, told=bad) == before
+    assert day.step("tell", tram=THIRD, report=good) == before
+    day.step("tell", tram=SECOND, report=replace(good, stop=0, left=True, stands=False))
+    day.depart(SECOND)
+    before = day.system
+    assert day.step("tell", tram=SECOND, report=replace(good, left=True)) == before
+    assert day.step("tell", tram=SECOND, report=good) == before
 
 
 def only_what_was_sent_arrives_on_board() -> None:
@@ -165,6 +206,8 @@ WITNESSES = (
     where_the_place_is_lost_so_is_the_order,
     who_stands_anew_needs_a_new_order,
     a_stop_that_is_passed_ends_it_too,
+    a_unit_that_starts_anew_shows_nothing,
     what_nature_does_not_do,
+    what_trams_do_not_tell,
     only_what_was_sent_arrives_on_board,
 )
