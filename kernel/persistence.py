@@ -62,3 +62,25 @@ CROSSING: Mapping[str, tuple[Memory, str]] = {
     "warned_cycles": (Memory.LOST, "settings.bell_cycles"),
 }
 """The crossing: it warns, and its arms go down without waiting for the bell, until each track is accounted for."""
+
+TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
+    "now_ms": (Memory.LOST, "now_ms"),
+    "opens_ms": (Memory.LOST, "now_ms + limits.coming_ms"),
+    "cleared": (Memory.LOST, "NOTHING_CLEARED"),
+    "trams": (Memory.LOST, "{}"),
+    "left_ms": (Memory.LOST, "{}"),
+    "shown": (Memory.LOST, "frozenset()"),
+    "elsewhere_ms": (Memory.LOST, "{}"),
+}
+"""The trams' centre: nothing survives (`kernel.tram.centre.restarted`)."""
+
+TRAM_DISPLAY: Mapping[str, tuple[Memory, str]] = {
+    "now_ms": (Memory.LOST, "now_ms"),
+    "is_located": (Memory.LOST, "False"),
+    "stop": (Memory.LOST, "0"),
+    "stands": (Memory.LOST, "False"),
+    "holds": (Memory.LOST, "False"),
+    "recovers": (Memory.LOST, "False"),
+    "made_ms": (Memory.LOST, "now_ms"),
+}
+"""A tram's display: nothing survives (`kernel.tram.display.begun`)."""

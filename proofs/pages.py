@@ -15,6 +15,8 @@ from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
+from kernel.tram import centre as tram_centre
+from kernel.tram import display as tram_display
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from proofs import assumptions, fault_pages, joints, promise, promises
@@ -49,6 +51,18 @@ def described(state: type) -> Mapping[str, str]:
     return found
 
 
+TRAM_CENTRE = (
+    "Nothing survives, and no life is counted: times of GPS do that. What was told or confirmed before a start is older"
+    " than `opens_ms` and counts for nothing, so a report that is repeated or late changes nothing either; nor does it"
+    " matter whether a spare centre has taken over. Trams on the way get no orders until they come again; nobody"
+    " recovers before a tram that came at the first stop since has left the stop after next."
+)
+TRAM_DISPLAY = (
+    "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
+    " those to a unit that has been swapped for a spare one, which starts in the same way."
+)
+
+
 def persistence_page() -> str:
     """Give the page on the persistence table."""
     lines = [
@@ -71,6 +85,8 @@ def persistence_page() -> str:
             persistence.CROSSING,
             "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty.",
         ),
+        ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
+        ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
     ):
         said = described(state)
         lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]
