@@ -218,7 +218,7 @@ def shares_the_way(own: Known, other: Known) -> bool:
 
 
 def is_beyond_its_destination(known: Known) -> bool:
-    """Tell whether a tram has told that it is beyond where its destination has it leave: a wrong setting (002, 4.2)."""
+    """Tell whether a tram has told that it is beyond where its destination has it leave: a wrong setting (G4)."""
     return mark(known.stop, known.left) > mark(known.leaves_at, False)
 
 

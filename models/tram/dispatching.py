@@ -263,12 +263,9 @@ def come(site: Way, system: Traffic, tram: Tram, body: Body, now_ms: int) -> Tra
 
 def depart(site: Way, system: Traffic, tram: Tram) -> Traffic:
     """A tram departs, whatever its driver is shown, and whatever its destination."""
-    if tram not in system.bodies:
+    if tram not in system.bodies or not none_overtakes(system.bodies, tram, replace(system.bodies[tram], left=True)):
         return system
-    there = replace(system.bodies[tram], left=True)
-    if not none_overtakes(system.bodies, tram, there):
-        return system
-    return replace(system, bodies=system.bodies | {tram: there})
+    return replace(system, bodies=system.bodies | {tram: replace(system.bodies[tram], left=True)})
 
 
 def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int, stands: bool) -> Traffic:

@@ -367,14 +367,6 @@ def may_be_taken(system: Traffic, command: Command) -> bool:
     )
 
 
-def displays_are_of_this_run(site: Way, system: Traffic) -> bool:
-    """What is older than the taking up of a tram is not shown, and not taken (G6)."""
-    return all(
-        tram not in system.centre.trams or body.display.made_ms >= system.centre.trams[tram].since_ms
-        for tram, body in system.bodies.items()
-    )
-
-
 def recoveries_are_ordered_one_stop_on(site: Way, system: Traffic) -> bool:
     """A tram is ordered to recover no farther than to the stop after the one reached (G5)."""
     return all(known.recovery_to <= known.stop + 1 for _tram, known in system.centre.trams.items())
@@ -479,7 +471,6 @@ INVARIANTS = (
     what_is_not_known_is_beyond_what_such_a_tram_told,
     the_way_is_cleared_of_what_is_not_known,
     stops_are_counted_from_0,
-    displays_are_of_this_run,
     recoveries_are_ordered_one_stop_on,
     recoveries_sent_are_on_record,
     recoveries_shown_are_on_record,
