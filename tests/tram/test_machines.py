@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.tram import centre as dispatcher
-from kernel.tram.centre import Centre, Command, Tram
+from kernel.tram.centre import Command, Tram
 from kernel.tram.cycle import CYCLE_MS, SLOTS, STALE_MS, CycleLimits, Heard, is_fresh, is_in_slot, older
 from kernel.tram.dispatching import Hand, Known, Order, Report, View, decided, mark
 from kernel.tram.display import Display, begun, located, taken
@@ -268,14 +268,3 @@ def test_one_tram_more_never_clears_a_way(seed: int, place: int) -> None:
     more = replace(centre, trams={**dict(centre.trams.items()), Tram("more"): known})
     for tram, own in centre.trams.items():
         assert dispatcher.is_clear(centre, tram, own) or not dispatcher.is_clear(more, tram, own)
-
-
-def test_trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
-    """Somebody tells what is not so: which of them is ahead nobody knows (G2, G6)."""
-    one, other = Tram("1"), Tram("2")
-    known = Known(9, 0, 3, False, True, 900, 900, 0, True)
-    centre = Centre(1_000, 0, 19, {one: known, other: known}, {}, frozenset({(one, other)}), {})
-    for shown, clear in (({(one, other)}, True), ({(one, other), (other, one)}, False), (set(), False)):
-        told = replace(centre, shown=frozenset(shown))
-        assert dispatcher.is_clear(told, one, known) == clear
-        assert dispatcher.contradicts(told, one, other) == (len(shown) == 2)
