@@ -56,6 +56,7 @@ TERMINAL: Mapping[str, tuple[Memory, str]] = {
 
 CROSSING: Mapping[str, tuple[Memory, str]] = {
     "asks": (Memory.LOST, "{}"),
+    "starts": (Memory.LOST, "{}"),
     "silent_cycles": (Memory.LOST, "{track: settings.silence_cycles + 1 for track in tracks}"),
     "unaccounted": (Memory.LOST, "{track: True for track in tracks}"),
     "warns": (Memory.LOST, "True"),

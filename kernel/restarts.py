@@ -57,6 +57,7 @@ def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack]) -> Cr
     """Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5)."""
     return Crossing(
         asks={},
+        starts={},
         silent_cycles={track: settings.silence_cycles + 1 for track in tracks},
         unaccounted={track: True for track in tracks},
         warns=True,

@@ -83,7 +83,11 @@ def persistence_page() -> str:
             "The level crossing",
             Crossing,
             persistence.CROSSING,
-            "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty.",
+            (
+                "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty."
+                " No life is counted: a train that waits at a starting signal asks anew, and one that was let go is"
+                " under way, so that its track is not empty; a message that comes twice changes nothing."
+            ),
         ),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),

@@ -6,6 +6,9 @@ Any number of trains on any number of tracks.  A train is known to the crossing 
   the earliest (``arrival``).  Of all that only an answer of three values comes in here, :class:`Due`;
 - or the terminal of its track's start point tells of it (conventional control, X3, and start tags, T14).
 
+A train that begins its run inside the start points, or turns back there, stands at a starting signal.  It promises
+to stand until it is let go, asks to start, and is let go once that leaves road users their time (ours).
+
 So the joint between the two machines is a contract: a train that is not due cannot arrive within
 ``warning_cycles`` + 1 after the decision, and one that is far not within ``reopening_cycles`` more.  It is what
 ``arrival`` proves, for any warning time; so reckoning and combining are proved apart, each in its own terms.
@@ -71,12 +74,15 @@ class Crossing:
     """What a crossing knows and does.
 
     ``asks``: each train that it knows of, and whether that has asked for the warning.
+    ``starts``: those that have asked to start at a signal inside the start points, and within how many cycles
+    none arrives from there.
     ``silent_cycles``: for how long each start point's terminal has told nothing.
     ``unaccounted``: each track, and whether nobody has seen it empty since the last restart; such a track warns.
     ``warns``: lamps and bells.  ``warned_cycles``: how long this warning has lasted.
     """
 
     asks: Map[Train, bool]
+    starts: Map[Train, int]
     silent_cycles: Map[CrossingTrack, int]
     unaccounted: Map[CrossingTrack, bool]
     warns: bool
@@ -169,7 +175,44 @@ def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
 
 def note_released(crossing: Crossing, gone: Train) -> Crossing:
     """A person on site has seen that a train is not in the approach, nor a part of it (X4, ours)."""
-    return replace(crossing, asks={train: asks for train, asks in crossing.asks.items() if train != gone})
+    return replace(
+        crossing,
+        asks={train: asks for train, asks in crossing.asks.items() if train != gone},
+        starts={train: cycles for train, cycles in crossing.starts.items() if train != gone},
+    )
+
+
+# ---- trains that begin their runs inside the start points
+
+
+def note_standing(crossing: Crossing, train: Train) -> Crossing:
+    """A train promises to stand at its starting signal until it is let go: so it is not on its way (X4, ours).
+
+    Once it has asked to start, its promise may be an old one and counts no more; a person withdraws what it asked.
+    """
+    return crossing if train in crossing.starts else note_released(crossing, train)
+
+
+def note_start(crossing: Crossing, train: Train, run_cycles: int) -> Crossing:
+    """A train asks to start at a signal inside the start points: for it the crossing warns (X3, ours).
+
+    ``run_cycles``: as is written for its signal, no train arrives from there within so many.
+    """
+    return replace(crossing, asks=crossing.asks | {train: True}, starts=crossing.starts | {train: run_cycles})
+
+
+def may_start(settings: Settings, crossing: Crossing, train: Train) -> bool:
+    """Tell whether a train that has asked is let go: when it arrives, road users have had their time (X5, ours).
+
+    A warning in which the crossing restarted may have lasted less than it counts, by the bell's time; so that much is
+    always waited for.
+    """
+    if train not in crossing.starts:
+        return False
+    return crossing.warned_cycles - settings.bell_cycles + crossing.starts[train] > settings.warning_cycles
+
+
+# ---- tracks after a restart
 
 
 def note_empty(crossing: Crossing, track: CrossingTrack) -> Crossing:

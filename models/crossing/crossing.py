@@ -1,7 +1,8 @@
 """A crossing with any number of trains on any number of tracks, its start points, and its arms (X2 to X5, T14).
 
 Trains are no bodies here but what is secured of them: within how many cycles a train cannot arrive.  A start
-point gives that by its place, and ``arrival`` by its guarantee, of which the answers here are the two halves.
+point gives that by its place, and so does a starting signal inside, at which a train waits to be let go;
+``arrival`` gives it by its guarantee, of which the answers here are the two halves.
 All else a train may do as it likes: stop short, turn back, part, follow another as closely as signals let it.
 """
 
@@ -28,7 +29,7 @@ class Road:
 class Body:
     """A train on its way to the crossing, or a part of one, until its rear is past or it has turned back.
 
-    ``track``: which it is on.  ``inside``: it has passed the start point.
+    ``track``: which it is on.  ``inside``: it has passed the start point, or was let go at a signal inside it.
     ``left_cycles``: within so many cycles it cannot arrive.
     ``was_struck``: history: a terminal told of it, which was not in contact.
     ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it.
@@ -67,6 +68,8 @@ class Level:
     ``in_service``: its settings have been checked.
     ``bodies``: all trains that are on their way.  ``crossing``: the machine.
     ``told``: history: whom it was told of, by contact or strike, and not yet that they are gone.
+    ``starting``: history: those of them that have asked to start at a signal inside the start points, and within
+    how many cycles none arrives from there.
     ``accounted``: history: tracks that a person has seen to be empty since the last restart.
     ``restarted``: history: it has restarted, and its warning has not ended since.
     ``stranger``: history: at its last decision it had heard a terminal of a track that nobody accounted for.
@@ -82,6 +85,7 @@ class Level:
     in_service: bool
     bodies: Map[Train, Body]
     told: frozenset[Train]
+    starting: Map[Train, int]
     crossing: Crossing
     accounted: frozenset[CrossingTrack]
     restarted: bool
@@ -120,7 +124,7 @@ def a_start_point_is_passed_once(system: Level, train: Train) -> bool:
 
 
 def who_arrives_has_passed_the_start_point(system: Level, train: Train) -> bool:
-    """Start points lie on every way to the crossing (X3)."""
+    """Start points lie on every way to the crossing, or starting signals at which trains wait to be let go (X3)."""
     return train in system.bodies and system.bodies[train].inside
 
 
@@ -140,6 +144,16 @@ def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -
         for train, body in system.bodies.items()
         if body.track == track and body.inside
     )
+
+
+def who_stands_at_a_starting_signal_was_not_let_go(system: Level, train: Train) -> bool:
+    """Who has asked to start counts as on its way, even if it stands; nobody passes such a signal before (X3)."""
+    return train in system.bodies and train not in system.starting
+
+
+def only_who_stands_promises_to_stand(system: Level, train: Train) -> bool:
+    """A promise is of a train that stands at a starting signal, or that has asked to start there since (X3)."""
+    return train not in system.bodies or not system.bodies[train].inside or train in system.starting
 
 
 def a_decision_begins_each_cycle(system: Level) -> bool:
@@ -197,6 +211,7 @@ def restarted(site: Road, system: Level) -> Level:
             for train, body in system.bodies.items()
         },
         told=frozenset(),
+        starting={},
         crossing=restart_crossing(site.settings, site.tracks),
         accounted=frozenset(),
         restarted=True,
@@ -250,6 +265,63 @@ def leave(site: Road, system: Level, gone: Train) -> Level:
     return replace(system, bodies={train: body for train, body in system.bodies.items() if train != gone})
 
 
+# ---- starting signals inside the start points
+
+
+def without(starting: Map[Train, int], gone: Train) -> Map[Train, int]:
+    """Give those that have asked to start, but for one."""
+    return {train: cycles for train, cycles in starting.items() if train != gone}
+
+
+def come_to_stand(site: Road, system: Level, train: Train) -> Level:
+    """A train stands at a starting signal, inside its start point: from there it is not on its way (X3)."""
+    if not who_stands_at_a_starting_signal_was_not_let_go(system, train):
+        return system
+    body = system.bodies[train]
+    stands = replace(body, inside=False, has_asked=body.has_asked and not body.forgotten, forgotten=False)
+    return replace(system, bodies=system.bodies | {train: stands})
+
+
+def promise_to_stand(site: Road, system: Level, train: Train) -> Level:
+    """It promises to stand there until it is let go, again and again; or an old promise of it comes (X4)."""
+    if not only_who_stands_promises_to_stand(system, train):
+        return system
+    counts = train not in system.starting
+    return replace(
+        system,
+        bodies={
+            other: replace(body, was_struck=False, has_asked=False) if other == train and counts else body
+            for other, body in system.bodies.items()
+        },
+        told=system.told - {train} if counts else system.told,
+        crossing=machine.note_standing(system.crossing, train),
+    )
+
+
+def ask_to_start(site: Road, system: Level, train: Train, run_cycles: int) -> Level:
+    """A train asks to start at a signal so many cycles away; one that is there, or none (X3)."""
+    return replace(
+        system,
+        bodies={
+            other: replace(body, was_struck=body.was_struck or other == train) for other, body in system.bodies.items()
+        },
+        told=system.told | {train},
+        starting=system.starting | {train: run_cycles},
+        crossing=machine.note_start(system.crossing, train, run_cycles),
+    )
+
+
+def let_go(site: Road, system: Level, train: Train) -> Level:
+    """The crossing lets a train start; from then on it is on its way (X5)."""
+    if not machine.may_start(site.settings, system.crossing, train):
+        return system
+    if not a_start_point_is_passed_once(system, train):
+        return system
+    body = system.bodies[train]
+    left_cycles = greater(body.left_cycles, system.starting[train])
+    return replace(system, bodies=system.bodies | {train: replace(body, inside=True, left_cycles=left_cycles)})
+
+
 # ---- what the crossing is told
 
 
@@ -290,6 +362,7 @@ def tell_gone(site: Road, system: Level, gone: Train, is_whole: bool) -> Level:
     return replace(
         system,
         told=system.told - {gone} if is_whole else system.told,
+        starting=without(system.starting, gone) if is_whole else system.starting,
         crossing=machine.note_gone(system.crossing, gone, is_whole),
     )
 
@@ -298,7 +371,12 @@ def release(site: Road, system: Level, gone: Train) -> Level:
     """A person on site releases a train that does not come any more (X4)."""
     if not a_person_releases_what_is_gone(system, gone):
         return system
-    return replace(system, told=system.told - {gone}, crossing=machine.note_released(system.crossing, gone))
+    return replace(
+        system,
+        told=system.told - {gone},
+        starting=without(system.starting, gone),
+        crossing=machine.note_released(system.crossing, gone),
+    )
 
 
 def account(site: Road, system: Level, track: CrossingTrack) -> Level:

@@ -68,7 +68,12 @@ class Crossings:
         """A crossing in service, whose track was accounted for: closed, until nobody is on the way."""
         track = CrossingTrack(ways.road.name)
         crossing = Crossing(
-            asks={}, silent_cycles={track: 0}, unaccounted={track: False}, warns=True, warned_cycles=-LONG_AGO_S
+            asks={},
+            starts={},
+            silent_cycles={track: 0},
+            unaccounted={track: False},
+            warns=True,
+            warned_cycles=-LONG_AGO_S,
         )
         party = self.links.addresses.road[ways.road.name]
         return State(ways, party, crossing, ARMS_S[1], -LONG_AGO_S, LONG_AGO_S, LONG_AGO_S)

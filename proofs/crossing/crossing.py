@@ -40,6 +40,8 @@ def it_is_not_in_service(site: Road, system: Level) -> bool:
         not system.in_service
         and nothing_has_happened(site, system)
         and all(False for _train in system.told)
+        and all(False for _train in system.starting)
+        and all(False for _train in system.crossing.starts)
         and all(False for _train in system.crossing.asks)
         and all(False for _track in system.accounted)
         and all(False for _track, _unaccounted in system.crossing.unaccounted.items())
@@ -94,7 +96,8 @@ def silence_warns(site: Road, system: Level) -> bool:
 def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
     """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4).
 
-    Through restarts, too, if it had passed its start point by then.
+    Through restarts, too, if it had passed its start point by then.  One that stands at a starting signal inside,
+    and promises to stand until it is let go, is not in the approach.
     """
     return system.crossing.warns or all(not body.has_asked for _train, body in system.bodies.items())
 
@@ -137,6 +140,17 @@ def who_was_told_of_is_known(site: Road, system: Level) -> bool:
     """The crossing knows those of whom it was told and not yet that they are gone, and nobody else (X1, X3)."""
     return all(train in system.crossing.asks for train in system.told) and all(
         train in system.told for train, _asks in system.crossing.asks.items()
+    )
+
+
+def who_asks_to_start_is_known(site: Road, system: Level) -> bool:
+    """The crossing knows who has asked to start, and from where, and for each of them it warns (X3)."""
+    return all(train in system.crossing.starts for train in system.starting) and all(
+        train in system.starting
+        and system.starting[train] == run_cycles
+        and train in system.crossing.asks
+        and system.crossing.asks[train]
+        for train, run_cycles in system.crossing.starts.items()
     )
 
 
@@ -242,6 +256,11 @@ def the_crossing_counts_its_warning(site: Road, system: Level) -> bool:
     )
 
 
+def a_restart_adds_no_more_than_the_bell_to_a_warning(site: Road, system: Level) -> bool:
+    """What the crossing counts of a warning is longer than the warning by that at most (X3, X5)."""
+    return not system.in_service or system.crossing.warned_cycles <= system.warned_cycles + site.settings.bell_cycles
+
+
 def arms_wait_no_longer_than_for_the_bell(site: Road, system: Level) -> bool:
     """They have been lowered for all of the warning but its beginning (X5)."""
     has_opened = system.decided and not system.crossing.warns
@@ -272,6 +291,7 @@ SAFETY = (
 INVARIANTS = (
     *SAFETY,
     who_was_told_of_is_known,
+    who_asks_to_start_is_known,
     who_struck_out_of_contact_asks,
     before_service_nothing_happens,
     in_service_the_settings_are_lawful,
@@ -285,6 +305,7 @@ INVARIANTS = (
     who_was_warned_of_still_asks,
     who_was_known_when_it_opened_was_far,
     the_crossing_counts_its_warning,
+    a_restart_adds_no_more_than_the_bell_to_a_warning,
     arms_wait_no_longer_than_for_the_bell,
     lowered_arms_are_down,
 )
@@ -297,6 +318,10 @@ STEPS = (
     world.come,
     world.pass_start_point,
     world.leave,
+    world.come_to_stand,
+    world.promise_to_stand,
+    world.ask_to_start,
+    world.let_go,
     world.make_contact,
     world.hear_strike,
     world.hear_terminal,

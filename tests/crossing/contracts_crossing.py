@@ -66,26 +66,26 @@ def another_warning_time_is_refused(warning_cycles: int, cycle_ms: int) -> None:
 def arms_wait_for_the_bell(warned_cycles: int, warns: bool) -> None:
     """And are up without a warning (X5)."""
     assert isinstance(warned_cycles, int)
-    crossing = Crossing({}, {}, {}, warns, warned_cycles)
+    crossing = Crossing({}, {}, {}, {}, warns, warned_cycles)
     assert arms_are_to_be_down(SETTINGS, crossing) == (warns and warned_cycles >= 5)
 
 
 def nobody_on_the_way_is_no_warning(warned_cycles: int, warns: bool) -> None:
     """While every terminal is heard (X4)."""
     assert warned_cycles >= 0
-    assert decide(SETTINGS, Crossing({}, {}, {}, warns, warned_cycles), {}) == Crossing({}, {}, {}, False, 0)
+    assert decide(SETTINGS, Crossing({}, {}, {}, {}, warns, warned_cycles), {}) == Crossing({}, {}, {}, {}, False, 0)
 
 
 def a_warning_grows_older(warned_cycles: int, warns: bool) -> None:
     """By a cycle (X2)."""
     assert warned_cycles >= 0
-    assert aged(Crossing({}, {}, {}, warns, warned_cycles)).warned_cycles == (warned_cycles + 1 if warns else 0)
+    assert aged(Crossing({}, {}, {}, {}, warns, warned_cycles)).warned_cycles == (warned_cycles + 1 if warns else 0)
 
 
 def nobody_is_must_not_be_warned_of(warned_cycles: int) -> None:
     """Whatever has been (X4)."""
     assert warned_cycles >= 0
-    assert not must_warn(SETTINGS, Crossing({}, {}, {}, True, warned_cycles))
+    assert not must_warn(SETTINGS, Crossing({}, {}, {}, {}, True, warned_cycles))
 
 
 def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:

@@ -99,9 +99,10 @@ def careless(settings: Any, crossing: Any, dues: Any) -> Any:
     for place, (name, _) in enumerate(crossing.asks):
         asks[place] = (name, False)
         told.append((name, 0))
-    return decide(
-        settings, Made(asks, crossing.silent_cycles, crossing.unaccounted, crossing.warns, crossing.warned_cycles), told
+    forgot = Made(
+        asks, crossing.starts, crossing.silent_cycles, crossing.unaccounted, crossing.warns, crossing.warned_cycles
     )
+    return decide(settings, forgot, told)
 
 
 def test_a_machine_that_forgets_is_seen() -> None:
@@ -152,7 +153,9 @@ def test_cpython_and_compiled_decide_alike() -> None:
         silent = {number: int(source.integers(5)) for number in range(2)}
         warns = bool(source.integers(2))
         unaccounted = {number: bool(source.integers(8) == 0) for number in range(2)}
-        crossing = Crossing(asks, silent, unaccounted, warns, int(source.integers(100)) if warns else 0)  # type: ignore[arg-type]
+        starts = {train: int(source.integers(50)) for train in asks if source.integers(2)}
+        warned_cycles = int(source.integers(100)) if warns else 0
+        crossing = Crossing(asks, starts, silent, unaccounted, warns, warned_cycles)  # type: ignore[arg-type]
         dues = {train: Due(int(source.integers(3))) for train in asks if source.random() < 0.8}
         told = NO_DUES.copy()
         for train, due in dues.items():

@@ -191,7 +191,7 @@ def test_an_attack_fails(attack: Callable[[World], None]) -> None:
 
 def forgetful(_settings: Settings, tracks: frozenset[CrossingTrack]) -> Crossing:
     """What a crossing was that began closed and accounted for nothing."""
-    return Crossing({}, dict.fromkeys(tracks, 0), dict.fromkeys(tracks, False), True, 0)
+    return Crossing({}, {}, dict.fromkeys(tracks, 0), dict.fromkeys(tracks, False), True, 0)
 
 
 @pytest.mark.parametrize("attack", ATTACKS)

@@ -6,7 +6,7 @@ from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings
 from models.crossing import crossing as world
-from proofs.crossing.witnesses import restarts
+from proofs.crossing.witnesses import restarts, starts
 from proofs.crossing.witnesses.crossing_day import DOWN, ONE, SETTINGS, THREE, TWO, UP, Day
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
@@ -295,7 +295,9 @@ def every_number_fits_into_64_bits() -> None:
     """Cycles of a day, of a millisecond (X5)."""
     settings = with_ints(Checked, SETTINGS)
     most = Checked(10**8)
-    crossing = Crossing(asks={ONE: True}, silent_cycles={UP: most}, unaccounted={}, warns=True, warned_cycles=most)
+    crossing = Crossing(
+        asks={ONE: True}, starts={}, silent_cycles={UP: most}, unaccounted={}, warns=True, warned_cycles=most
+    )
     crossing = machine.aged(machine.decide(settings, crossing, {}))
     assert (crossing.warned_cycles, crossing.silent_cycles[UP]) == (10**8 + 1, 10**8 + 1)
     assert machine.are_lawful(settings)
@@ -366,4 +368,5 @@ WITNESSES = (
     every_number_fits_into_64_bits,
     what_nature_does_not_do_does_not_happen,
     *restarts.WITNESSES,
+    *starts.WITNESSES,
 )
