@@ -62,7 +62,6 @@ READINGS: Mapping[str, str] = {
     "train.run_a_cycle.may_proceed": "what the unit's own orders say; any is allowed for",
     "train.run_a_cycle.acknowledged": "a button that the driver presses",
     "brake_watch.run_a_cycle.applied": "what the unit itself tells its brake; any is allowed for",
-    "alarm_distance.receive.is_running": "what the receiver says of its speed",
     "alarm_tone.hear_list.servers_well": "what the servers say of themselves",
     "alarm_tone.look_at_the_battery.battery_well": "what the gauge of the battery says",
     "dispatching.arrive.stands": "what the tram's own machine found, as `stopping` proves it",
