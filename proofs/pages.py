@@ -57,6 +57,11 @@ TRAM_CENTRE = (
     " matter whether a spare centre has taken over. Trams on the way get no orders until they come again; nobody"
     " recovers before a tram that came at the first stop since has left the stop after next."
 )
+CROSSING = (
+    "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty. No life is"
+    " counted: a train that waits at a starting signal asks anew, and one that was let go is under way, so that its"
+    " track is not empty; a message that comes twice changes nothing."
+)
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
     " those to a unit that has been swapped for a spare one, which starts in the same way."
@@ -79,16 +84,7 @@ def persistence_page() -> str:
         ("The centre", Centre, persistence.CENTRE, "Nothing but two counters survives; every block and point is lost."),
         ("The on-board unit", Unit, persistence.UNIT, "Without orders it has no authority, so it stands."),
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
-        (
-            "The level crossing",
-            Crossing,
-            persistence.CROSSING,
-            (
-                "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty."
-                " No life is counted: a train that waits at a starting signal asks anew, and one that was let go is"
-                " under way, so that its track is not empty; a message that comes twice changes nothing."
-            ),
-        ),
+        ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
     ):

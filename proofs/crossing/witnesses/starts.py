@@ -53,7 +53,8 @@ def who_turns_back_just_beyond_the_road_waits_until_it_was_warned_of() -> None:
     arrived = day.arrive(ONE)
     assert (arrived.warned_cycles, arrived.down_cycles) == (46, 31)
     day.pass_by(ONE)
-    assert not day.system.starting and not day.system.crossing.starts
+    assert not day.system.starting
+    assert not day.system.crossing.starts
     day.cycle()
     assert not day.warns()
 
@@ -104,7 +105,8 @@ def a_promise_counts_no_more_once_the_train_has_asked() -> None:
         assert day.warns()
     day.step("leave", gone=ONE)
     day.step("release", gone=ONE)
-    assert not day.system.starting and not day.system.crossing.starts
+    assert not day.system.starting
+    assert not day.system.crossing.starts
     day.cycle()
     assert not day.warns()
 
@@ -120,7 +122,8 @@ def a_restart_forgets_who_asked_to_start() -> None:
         day.cycle()
     assert (day.system.warned_cycles, day.system.crossing.warned_cycles) == (37, 37)
     day.step("restart")
-    assert not day.system.starting and not day.system.crossing.starts
+    assert not day.system.starting
+    assert not day.system.crossing.starts
     assert (day.system.bodies[ONE].forgotten, day.system.bodies[TWO].forgotten) == (True, False)
     assert not is_let_go(day, TWO)
     before = day.system
