@@ -103,8 +103,8 @@ def slows_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, 
 
 
 def stops_before(bounds: BrakeBounds, front_most_mm: int, speed_most_mm_s: int, end_mm: int) -> bool:
-    """Tell whether a train that brakes a cycle from now still stops before the end (T12)."""
-    return slows_before(bounds, front_most_mm, speed_most_mm_s, end_mm, 0)
+    """Tell whether a train that brakes a cycle from now still stops before the end, whatever its brake is (T12)."""
+    return end_mm >= front_most_mm and slows_before(bounds, front_most_mm, speed_most_mm_s, end_mm, 0)
 
 
 def supervise(

@@ -173,11 +173,10 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
     body = system.bodies[train]
     is_of_now = is_right and is_of_the_line(body, fix.age_ms)
     is_taken_right = body.fix_is_right if of.jumped else is_of_now
-    if not has_just_come(site, body):
-        if not no_train_turns_sooner(site, of, body.heading):
-            return system
-        if not a_wrong_fix_is_contradicted(site, of, is_taken_right):
-            return system
+    if not no_train_turns_sooner(site, of, body):
+        return system
+    if not a_wrong_fix_is_contradicted(site, of, body, is_taken_right):
+        return system
     counts = is_of_now and not of.jumped and is_report(fix.place_mm, fix.age_ms)
     if counts and not (
         a_train_fix_is_within_its_error(site, fix, at_um)
@@ -198,11 +197,10 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
     if train not in system.bodies:
         return replace(system, told=told, handset=handset)
     body = system.bodies[train]
-    if not has_just_come(site, body):
-        if not no_train_turns_sooner(site, of, body.heading):
-            return system
-        if not a_wrong_fix_is_contradicted(site, of, body.fix_is_right):
-            return system
+    if not no_train_turns_sooner(site, of, body):
+        return system
+    if not a_wrong_fix_is_contradicted(site, of, body, body.fix_is_right):
+        return system
     counts = is_in_a_stretch(display) and is_of_the_line(body, display.age_ms)
     if counts and not (
         the_display_shows_where_the_train_was(site, display, at_um)

@@ -84,7 +84,7 @@ def a_worker_fix_is_within_its_error(site: Railway, fix: WorkerFix, at_um: int) 
     return apart(at_um, UM_A_MM * fix.place_mm) <= UM_A_MM * site.register.bounds.worker_error_mm
 
 
-def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, is_right: bool) -> bool:
+def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, body: Body, is_right: bool) -> bool:
     """A wrong fix that fits agrees with no fresh display, nor puts a train that is not on it where trains shunt (A2).
 
     So GPS does not err by less than the display can tell.  That is not true of nature: under a roof or in a cutting a
@@ -93,26 +93,27 @@ def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, is_right: bool) -> b
     be one that is measured on the line, and stretches where it is exceeded are registered.
 
     It says nothing of a wrong fix that agrees with no display, because there is none, nor of one that jumps from the
-    one before: then no tone is mild.
+    one before: then no tone is mild.  Nor of a train that has just come, which may be told of in other figures.
     """
-    if is_right or not is_report(of.fix.place_mm, of.fix.age_ms):
+    if is_right or has_just_come(site, body) or not is_report(of.fix.place_mm, of.fix.age_ms):
         return True
     if is_shown(site, of):
         return not is_where_shown(site, of)
     return not shunts(site, of)
 
 
-def no_train_turns_sooner(site: Railway, of: OfTrain, heading: Direction) -> bool:
+def no_train_turns_sooner(site: Railway, of: OfTrain, body: Body) -> bool:
     """A train on the display that was told to run one way does not run the other before it can have turned (A3).
 
-    One that shunts, and so is not on the display, may turn at any time (A5).
+    One that shunts, and so is not on the display, may turn at any time (A5); one that has just come may have turned
+    before.
     """
     fix = of.fix
-    if not is_told_alike(site, of) or not fix.is_running:
+    if has_just_come(site, body) or not is_told_alike(site, of) or not fix.is_running:
         return True
     if fix.age_ms > site.register.bounds.turning_ms:
         return True
-    return fix.direction in (Direction.UNKNOWN, heading)
+    return fix.direction in (Direction.UNKNOWN, body.heading)
 
 
 def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um: int) -> bool:
@@ -124,18 +125,18 @@ def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um
 def sources_do_not_fail_together(site: Railway, later: Worksite) -> bool:
     """When time has passed, no display is silent while a wrong fix puts its train where trains shunt (A2, A5)."""
     return all(
-        a_wrong_fix_is_contradicted(site, later.told.trains[train], body.fix_is_right)
+        a_wrong_fix_is_contradicted(site, later.told.trains[train], body, body.fix_is_right)
         for train, body in later.bodies.items()
-        if train in later.told.trains and not has_just_come(site, body)
+        if train in later.told.trains
     )
 
 
 def no_train_turns_as_time_passes(site: Railway, later: Worksite) -> bool:
     """When time has passed, none has done what no train does (A3)."""
     return all(
-        no_train_turns_sooner(site, later.told.trains[train], body.heading)
+        no_train_turns_sooner(site, later.told.trains[train], body)
         for train, body in later.bodies.items()
-        if train in later.told.trains and not has_just_come(site, body)
+        if train in later.told.trains
     )
 
 

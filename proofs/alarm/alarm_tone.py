@@ -14,7 +14,6 @@ from models.alarm.tone_assumptions import (
 from models.alarm.worksite import (
     Railway,
     Worksite,
-    has_just_come,
     is_in_a_stretch,
     is_list_fresh,
     is_of_the_line,
@@ -189,18 +188,18 @@ def a_train_is_near_the_opening_that_it_came_by(site: Railway, system: Worksite)
 def wrong_fixes_are_contradicted(site: Railway, system: Worksite) -> bool:
     """A fix that is wrong is one that the display contradicts, but of a train that has just come (A2)."""
     return all(
-        a_wrong_fix_is_contradicted(site, system.told.trains[train], body.fix_is_right)
+        a_wrong_fix_is_contradicted(site, system.told.trains[train], body, body.fix_is_right)
         for train, body in system.bodies.items()
-        if train in system.told.trains and not has_just_come(site, body)
+        if train in system.told.trains
     )
 
 
 def told_directions_still_hold(site: Railway, system: Worksite) -> bool:
     """While it counts, no direction told is against that of the train, but of one that has just come (A3)."""
     return all(
-        no_train_turns_sooner(site, system.told.trains[train], body.heading)
+        no_train_turns_sooner(site, system.told.trains[train], body)
         for train, body in system.bodies.items()
-        if train in system.told.trains and not has_just_come(site, body)
+        if train in system.told.trains
     )
 
 

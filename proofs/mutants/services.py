@@ -159,9 +159,9 @@ def a_run_is_given_back_though_another_way_out_is_set(steps: Steps) -> Scenario:
     """Only what starts in what a run covers leads on from it: the way out at the other end does not (T9)."""
     scenario, runs = telling.recovered(steps, standing(ONE))
     run = setting.set_route(scenario, T1, ONE_TO_EAST, runs[T1])
+    setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
     setting.recall(scenario, run)
     scenario.does("recall", run=run)
-    setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
     setting.give_back(scenario, run)
     return scenario
 

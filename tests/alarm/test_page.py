@@ -188,4 +188,4 @@ def test_it_is_written_to_a_file(tmp_path: Path) -> None:
     write(tmp_path / "page.html", 2, first_s=0, length_s=5)
     assert (tmp_path / "page.html").read_text("utf-8").startswith("<!DOCTYPE html>")
     with pytest.raises(OSError, match="page"):
-        write(tmp_path / "none" / "page.html", 2, first_s=0, length_s=5)
+        write(tmp_path / "page.html" / "page.html", 2, first_s=0, length_s=5)

@@ -49,7 +49,18 @@ ONLY_SAMPLE = "|".join(f"^{row} {column}$" for row, column in SAMPLE)
 ROW = "send_permit"
 """A row to prove as a whole."""
 FIELDS = {
-    *("transition", "invariant", "hypotheses", "verdict", "solver", "seed", "rlimit", "seconds", "smt2_sha256"),
+    *(
+        "transition",
+        "invariant",
+        "hypotheses",
+        "axioms",
+        "verdict",
+        "solver",
+        "seed",
+        "rlimit",
+        "seconds",
+        "smt2_sha256",
+    ),
     *("solver_version", "rlimit_spent", "source"),
 }
 
