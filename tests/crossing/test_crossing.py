@@ -20,6 +20,7 @@ DUES = st.dictionaries(st.sampled_from(TRAINS), st.sampled_from(Due))
 CROSSINGS = st.builds(
     Crossing,
     asks=st.dictionaries(st.sampled_from(TRAINS), st.booleans()),
+    starts=st.dictionaries(st.sampled_from(TRAINS), st.integers(0, 60)),
     silent_cycles=st.dictionaries(st.sampled_from([UP, DOWN]), st.integers(0, 4)),
     unaccounted=st.dictionaries(st.sampled_from([UP, DOWN]), st.booleans()),
     warns=st.booleans(),
