@@ -14,6 +14,7 @@ from kernel.names import (
     Run,
     Serial,
     Stage,
+    Tag,
     TerminalLife,
     Train,
     UnitLife,
@@ -22,6 +23,7 @@ from kernel.names import (
 NO_RUNS: frozenset[Run] = frozenset()
 NO_BLOCKS: frozenset[Block] = frozenset()
 NO_POINTS: frozenset[Point] = frozenset()
+NO_TAGS: Map[Tag, Tag] = {}
 NO_LOCKS: Map[Run, Position] = {}
 NOTHING_ENDED: Map[Block, Cause] = {}
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.centre import NO_BLOCKS, NO_LOCKS, NO_RUNS, NOTHING_ENDED, Centre, Grant
+from kernel.centre import NO_BLOCKS, NO_LOCKS, NO_RUNS, NO_TAGS, NOTHING_ENDED, Centre, Grant
 from kernel.claims import held_refusal
 from kernel.layout import Layout
 from kernel.names import Point, Position, Run, Stage, TagList, TerminalLife
 from kernel.refusal import Refusal
-from kernel.tag_list import NO_TAGS
 
 
 def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refusal | None:

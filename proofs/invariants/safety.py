@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from kernel.authority import may_proceed
+from kernel.centre import NO_TAGS
 from kernel.names import Cause, Stage
-from kernel.tag_list import NO_TAGS
 from models.world.state import Site, System
 from models.world.truth import (
     goes_by_the_centres_list,
