@@ -170,17 +170,21 @@ class Workbench:
         return parts
 
     def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
-        """Lay out one obligation; ``None`` means every hypothesis there is."""
+        """Lay out one obligation; ``None`` means every hypothesis there is.
+
+        What ways leave as a hypothesis says it is asked once for all of them, as nothing of a way is needed for it.
+        """
         available = dict(self.assumed)
         available |= self.initial if transition == START else self.invariants
         chosen = available if hypotheses is None else {name: available[name] for name in hypotheses}
         if transition == START:
             return self.asked(chosen, [([], goal) for goal in self.claim(self.before, invariant)])
-        return self.asked(
-            chosen,
-            [
-                ([way.condition, *way.definitions], goal)
-                for way in self.ways(transition)
-                for goal in self.claim(way.after, invariant)
-            ],
-        )
+        supposed = {formula.get_id() for formulas in self.split(chosen).values() for formula in formulas}
+        unchanged, questions = dict[int, Any](), list[tuple[list[Any], Any]]()
+        for way in self.ways(transition):
+            for goal in self.claim(way.after, invariant):
+                if goal.get_id() in supposed:
+                    unchanged[goal.get_id()] = goal
+                else:
+                    questions.append(([way.condition, *way.definitions], goal))
+        return self.asked(chosen, [*questions, *(([], goal) for goal in unchanged.values())])

@@ -27,7 +27,7 @@ from proofs.lift import OutsideSubset, UnboundedScope
 from proofs.records import Obligation
 from proofs.run import prove_all
 from proofs.solvers import Reply
-from proofs.theories import columns
+from proofs.theories import THEORIES, columns
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.workbench import Workbench
 
@@ -385,6 +385,23 @@ def test_both_forms_of_a_transition_prove_the_sample(named: bool) -> None:
         for part in parts:
             assert solvers.ask("z3", part, 0).answer == "unsat"
             assert solvers.ask("cvc5", part, 0).answer == "unsat"
+
+
+@pytest.mark.parametrize("column", ["the_computer_has_the_proved_spacing", "the_front_stays_before_the_end"])
+def test_every_way_is_asked_of_or_leaves_what_is_supposed(column: str) -> None:
+    row = "take_end"
+    bench = Workbench(THEORIES["train"], named=False)
+    names = scripts.hypotheses(f"train.{row}", column)
+    parts = bench.parts(row, column, names)
+    asked = {(*(each.get_id() for each in part.given), part.goal.get_id()) for part in parts}
+    supposed = {formula.get_id() for part in parts for formulas in part.hypotheses.values() for formula in formulas}
+    whole = [(way, goal) for way in bench.ways(row) for goal in bench.claim(way.after, column)]
+    left = {(goal.get_id(),) for _, goal in whole if goal.get_id() in supposed}
+    changed = {(way.condition.get_id(), goal.get_id()) for way, goal in whole if goal.get_id() not in supposed}
+    assert asked == left | changed
+    assert len(parts) == len(asked) <= len(whole)
+    assert bool(left) is (column in names)
+    assert {solvers.ask(solver, part, 0).answer for part in parts for solver in ("z3", "cvc5")} == {"unsat"}
 
 
 def test_a_planted_function_is_what_it_seems() -> None:
