@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from kernel.onboard import braking
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.arithmetic import LONGEST_CYCLE_MS, SHORTEST_CYCLE_MS
 from kernel.onboard.brake_demand import TrainLimits
@@ -77,8 +78,11 @@ def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
 
 
 def is_brake_lawful(bounds: BrakeBounds) -> bool:
-    """Tell whether the brake slows the train, a cycle after its command at the soonest, and motors do not (T12)."""
-    return bounds.slows_mm_s2 > 0 and bounds.gains_mm_s2 >= 0 and bounds.response_cycles >= 1
+    """Tell whether the brake slows the train, a cycle after its command at the soonest, and motors do not (T12).
+
+    So it does in cycles of any length: one that slows by less than 2 mm/s² is none.
+    """
+    return braking.slows_mm_s2(bounds) > 0 and bounds.gains_mm_s2 >= 0 and bounds.response_cycles >= 1
 
 
 def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -> bool:

@@ -58,12 +58,12 @@ class Approach:
 
 
 def the_brake_slows(site: Vehicle) -> bool:
-    """The brake slows the train, and its response takes a cycle at least (T12).
+    """The brake slows the train in cycles of any length, and its response takes a cycle at least (T12).
 
     The product follows from its factors; said, it spares the solvers the search for it.
     """
     return (
-        site.bounds.slows_mm_s2 > 0
+        slowing.slows_mm_s2(site.bounds) > 0
         and site.bounds.gains_mm_s2 >= 0
         and site.bounds.response_cycles >= 1
         and site.bounds.response_cycles * site.bounds.gains_mm_s2 >= 0
@@ -157,7 +157,7 @@ def run_a_cycle(
             demanded=demanded,
             released_amiss=system.released_amiss or amiss,
             slowing=slowing.let_run(
-                site.bounds, system.slowing, front_most_mm, speed_most_mm_s, brake.end_mm, system.speed_um_s
+                site.bounds, site.table, system.slowing, front_most_mm, speed_most_mm_s, brake.end_mm, system.speed_um_s
             ),
         )
     slowed_um_s = larger(0, system.worst_um_s - LONGEST_MS * slowing.slows_mm_s2(site.bounds))
@@ -171,7 +171,7 @@ def run_a_cycle(
         left_nm=system.left_nm - LONGEST_MS * slowed_um_s if responds else system.left_nm,
         demanded=demanded,
         brake=brake,
-        slowing=slowing.held(site.bounds, system.slowing, system.speed_um_s),
+        slowing=slowing.held(system.slowing, system.speed_um_s),
     )
 
 

@@ -394,7 +394,7 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             left_nm=0,
             demanded=False,
             wanted=False,
-            slowing=slowing.at_rest(system.front_nm, system.computer.brake.end_mm),
+            slowing=slowing.at_rest(braked(site).bounds, system.front_nm, system.computer.brake.end_mm),
         ),
         watched=replace(watched(system), allowed_mm_s=0),
         asked=system.computer.brake,

@@ -14,8 +14,8 @@ from models.onboard.braking import (
     the_brake_slows,
     withhold_end,
 )
-from models.onboard.slowing import Nearest, slows_mm_s2
-from models.onboard.units import LONGEST_MS, NM_A_MM, NO_SPEED_MM_S, UM_A_MM, larger, smaller
+from models.onboard.slowing import Reckoned, slows_mm_s2
+from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM, larger
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -34,7 +34,7 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and not system.demanded
         and not system.released_amiss
         and not system.wanted
-        and system.slowing == slowing.at_rest(system.head_nm, system.brake.end_mm)
+        and system.slowing == slowing.at_rest(site.bounds, system.head_nm, system.brake.end_mm)
     )
 
 
@@ -64,14 +64,14 @@ def no_brake_is_released_before_the_train_stands(site: Vehicle, system: Approach
 def no_train_enters_a_listed_restriction_faster_than_permitted(site: Vehicle, system: Approach) -> bool:
     """Beyond a listed curve or turnout the head is no faster than it allows, nor in the cycle in which it gets there.
 
-    It was listed before the brake was let off with an end of authority beyond it (T12).
+    It was listed before the brake was let off last (T12).
     """
     return is_entered_slowly(site, system, system.slowing.curve, site.table.curve_mm_s) and is_entered_slowly(
         site, system, system.slowing.turnout, site.table.turnout_mm_s
     )
 
 
-def is_entered_slowly(site: Vehicle, system: Approach, nearest: Nearest, restricted_mm_s: int) -> bool:
+def is_entered_slowly(site: Vehicle, system: Approach, nearest: Reckoned, restricted_mm_s: int) -> bool:
     """Tell whether the head is not there, or the train slow; what the line's own speed allows is no restriction."""
     slow_um_s = UM_A_MM * larger(0, restricted_mm_s)
     return (
@@ -79,6 +79,11 @@ def is_entered_slowly(site: Vehicle, system: Approach, nearest: Nearest, restric
         or system.head_nm <= nearest.kept_nm
         or (system.speed_um_s <= slow_um_s and system.slowing.from_um_s <= slow_um_s)
     )
+
+
+def no_head_passes_the_end_that_it_was_let_run_to(site: Vehicle, system: Approach) -> bool:
+    """Whatever ends are taken since: what is listed beyond it is not reached before the brake is let off anew (T12)."""
+    return system.head_nm <= system.slowing.end.kept_nm
 
 
 # ---- what they rest on
@@ -136,8 +141,7 @@ def no_listed_restriction_lies_nearer(site: Vehicle, system: Approach) -> bool:
     """Whatever truly restricts the train, and is listed, is known to the unit no farther away than it is (T1, T12)."""
     ahead = system.slowing.ahead
     return (
-        NM_A_MM * ahead.curve_mm <= system.slowing.curve.listed_nm
-        and NM_A_MM * ahead.turnout_mm <= system.slowing.turnout.listed_nm
+        NM_A_MM * ahead.curve_mm <= system.slowing.curve_nm and NM_A_MM * ahead.turnout_mm <= system.slowing.turnout_nm
     )
 
 
@@ -173,15 +177,36 @@ def the_way_to_a_restriction_is_enough(site: Vehicle, system: Approach) -> bool:
     )
 
 
-def is_way_enough(site: Vehicle, system: Approach, nearest: Nearest, restricted_mm_s: int) -> bool:
-    """Tell so of one; a speed is between 0 and 200 m/s (ours)."""
-    fast_um_s = system.slowing.worst_um_s
-    slow_um_s = UM_A_MM * larger(0, smaller(restricted_mm_s, NO_SPEED_MM_S))
+def is_way_enough(site: Vehicle, system: Approach, nearest: Reckoned, restricted_mm_s: int) -> bool:
+    """Tell so of one (T12)."""
+    fast_um_s, slow_um_s = system.slowing.worst_um_s, nearest.slow_um_s
     return (
         restricted_mm_s >= site.table.line_mm_s
         or fast_um_s <= slow_um_s
-        or fast_um_s * fast_um_s - slow_um_s * slow_um_s <= 2 * slows_mm_s2(site.bounds) * nearest.left_nm
+        or fast_um_s * fast_um_s - slow_um_s * slow_um_s <= 2 * system.slowing.slows_mm_s2 * nearest.left_nm
     )
+
+
+def it_is_reckoned_with_no_more_than_is_guaranteed(site: Vehicle, system: Approach) -> bool:
+    """Neither with more of the brake than it gives, nor with a greater speed than is allowed (T12)."""
+    slows = system.slowing
+    return (
+        0 < slows.slows_mm_s2 <= slows_mm_s2(site.bounds)
+        and 0 <= slows.curve.slow_um_s <= slowing.allowed_um_s(site.table.curve_mm_s)
+        and 0 <= slows.turnout.slow_um_s <= slowing.allowed_um_s(site.table.turnout_mm_s)
+    )
+
+
+def the_way_to_stop_lies_before_the_end(site: Vehicle, system: Approach) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the end of then (T12)."""
+    slows = system.slowing
+    return slows.reach_nm + LONGEST_MS * slows.worst_um_s + slows.end.left_nm <= slows.end.kept_nm
+
+
+def the_way_to_stop_is_enough(site: Vehicle, system: Approach) -> bool:
+    """The guaranteed brake stops the train within the way left to the end of then: u² <= 2 b s (T12)."""
+    slows = system.slowing
+    return slows.end.left_nm >= 0 and slows.worst_um_s * slows.worst_um_s <= 2 * slows.slows_mm_s2 * slows.end.left_nm
 
 
 INITIAL = (the_train_stands_inside_its_authority,)
@@ -191,6 +216,7 @@ SAFETY = (
     no_brake_is_released_before_the_train_stands,
     no_end_is_held_beyond_the_one_wanted,
     no_train_enters_a_listed_restriction_faster_than_permitted,
+    no_head_passes_the_end_that_it_was_let_run_to,
 )
 INVARIANTS = (
     *SAFETY,
@@ -206,6 +232,9 @@ INVARIANTS = (
     a_train_that_slows_gets_no_farther,
     the_way_to_a_restriction_lies_before_it,
     the_way_to_a_restriction_is_enough,
+    it_is_reckoned_with_no_more_than_is_guaranteed,
+    the_way_to_stop_lies_before_the_end,
+    the_way_to_stop_is_enough,
 )
 PREMISES = (the_brake_slows,)
 STEPS = (run_a_cycle, take_end, withhold_end, list_tag, list_none)

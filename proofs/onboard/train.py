@@ -89,6 +89,8 @@ from proofs.onboard.train_parts import (
     the_way_left_lies_before_the_end,
     the_way_to_a_restriction_is_enough,
     the_way_to_a_restriction_lies_before_it,
+    the_way_to_stop_is_enough,
+    the_way_to_stop_lies_before_the_end,
     what_agrees_is_known_as_it_was_shown,
     what_is_caught_is_broken,
     what_is_not_preset_is_broken,
@@ -280,7 +282,7 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> 
 def no_train_enters_a_listed_restriction_faster_than_permitted(site: Train, system: Whole) -> bool:
     """Beyond a listed curve or turnout the front is no faster than it allows, nor in the cycle in which it gets there.
 
-    It was listed before the brake was let off with an end of authority beyond it (T12).
+    It was listed before the brake was let off last (T12).
     """
     return braking.no_train_enters_a_listed_restriction_faster_than_permitted(braked(site), approach(system))
 
@@ -388,6 +390,7 @@ SAFETY = (
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,
     no_train_enters_a_listed_restriction_faster_than_permitted,
+    train_parts.no_head_passes_the_end_that_it_was_let_run_to,
     a_standstill_that_is_told_is_one,
     the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
@@ -427,6 +430,9 @@ INVARIANTS = (
     a_train_that_slows_gets_no_farther,
     the_way_to_a_restriction_lies_before_it,
     the_way_to_a_restriction_is_enough,
+    train_parts.it_is_reckoned_with_no_more_than_is_guaranteed,
+    the_way_to_stop_lies_before_the_end,
+    the_way_to_stop_is_enough,
     a_train_that_keeps_is_no_faster_than_the_limit,
     the_watch_counts_no_more_than_the_brake,
     what_is_not_preset_is_broken,

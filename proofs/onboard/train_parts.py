@@ -116,6 +116,26 @@ def the_way_to_a_restriction_is_enough(site: Train, system: Whole) -> bool:
     return braking.the_way_to_a_restriction_is_enough(braked(site), approach(system))
 
 
+def it_is_reckoned_with_no_more_than_is_guaranteed(site: Train, system: Whole) -> bool:
+    """Neither with more of the brake than it gives, nor with a greater speed than is allowed (T12)."""
+    return braking.it_is_reckoned_with_no_more_than_is_guaranteed(braked(site), approach(system))
+
+
+def no_head_passes_the_end_that_it_was_let_run_to(site: Train, system: Whole) -> bool:
+    """Whatever ends are taken since: what is listed beyond it is not reached before the brake is let off anew (T12)."""
+    return braking.no_head_passes_the_end_that_it_was_let_run_to(braked(site), approach(system))
+
+
+def the_way_to_stop_lies_before_the_end(site: Train, system: Whole) -> bool:
+    """From that place, the cycle in which the brake takes hold and the way left end before the end of then (T12)."""
+    return braking.the_way_to_stop_lies_before_the_end(braked(site), approach(system))
+
+
+def the_way_to_stop_is_enough(site: Train, system: Whole) -> bool:
+    """The guaranteed brake stops the train within the way left to the end of then: u² <= 2 b s (T12)."""
+    return braking.the_way_to_stop_is_enough(braked(site), approach(system))
+
+
 def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
     """The response that the brake control still waits for is over when the command is as old (T12)."""
     response_cycles = site.limits.train.brake.response_cycles

@@ -35,7 +35,7 @@ def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
         brake=Brake(applied=True, end_mm=end_mm, withheld=True),
         wanted=False,
         wanted_mm=0,
-        slowing=slowing.at_rest(head_mm * NM_A_MM, end_mm),
+        slowing=slowing.at_rest(BOUNDS, head_mm * NM_A_MM, end_mm),
     )
 
 

@@ -27,7 +27,7 @@ class Train(Play[Vehicle, Approach]):
     def __init__(self, table: SpeedTable = TABLE) -> None:
         """Begin."""
         brake = machine.Brake(applied=True, end_mm=0, withheld=True)
-        begun = Approach(0, 0, 0, 0, 0, 0, False, False, brake, False, 0, at_rest(0, 0))
+        begun = Approach(0, 0, 0, 0, 0, 0, False, False, brake, False, 0, at_rest(BOUNDS, 0, 0))
         super().__init__(THEORY, Vehicle(BOUNDS, table), begun)
         self.step("take_end", front_most_mm=0, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=END_MM)
 
@@ -154,7 +154,7 @@ def the_nearest_of_each_kind_counts() -> None:
     train.lists(CURVE, CURVE_MM, curve=True)
     train.lists(TURNOUT, TURNOUT_MM, turnout=True)
     assert train.system.slowing.ahead == Ahead(CURVE_MM, TURNOUT_MM)
-    listed = (train.system.slowing.curve.listed_nm, train.system.slowing.turnout.listed_nm)
+    listed = (train.system.slowing.curve_nm, train.system.slowing.turnout_nm)
     assert listed == (NM_A_MM * CURVE_MM, NM_A_MM * TURNOUT_MM)
     train.step("list_none")
     assert train.system.slowing.ahead == NONE_LISTED

@@ -33,7 +33,7 @@ BRAKED = Approach(
     brake=Brake(applied=True, end_mm=END_MM),
     wanted=True,
     wanted_mm=END_MM,
-    slowing=slowing.at_rest(0, END_MM),
+    slowing=slowing.at_rest(SITE.bounds, 0, END_MM),
 )
 """A train at rest far before its end, its brake on."""
 

@@ -96,7 +96,7 @@ def at_rest() -> Whole:
             begun.brake,
             False,
             0,
-            slowing_at_rest(front_nm, begun.brake.end_mm),
+            slowing_at_rest(SITE.limits.train.brake, front_nm, begun.brake.end_mm),
         ),
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
