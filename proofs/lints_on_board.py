@@ -340,7 +340,7 @@ NO_MACHINES = frozenset({"computer", "way"})
 
 BESIDE_THE_COMPUTER: Mapping[str, str] = {
     "models/reproduce": "a paper's figure is of one machine, put to what the paper put to it",
-    "models/rides": "rides still run the machines in an order of their own",
+    "models/rides": "readers and features are in no computer yet, and ends come without orders",
     "tests/independent/physics/onboard.py": "ends come without orders",
     "tests/independent/physics/planted_faults.py": "a fault is planted in one machine",
     "tests/independent/world": "a world of blocks has no millimetres: of a cab it knows its brake alone",

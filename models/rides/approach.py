@@ -1,4 +1,4 @@
-"""The end of a ride: a driver who does not brake, an end of authority, and the brake control (T12).
+"""The end of a ride: a driver who does not brake, an end of authority, and the computer's brake (T12).
 
 The train runs on from where its ride ended, as its brake lets it; its sensors err as they did before.
 """
@@ -11,12 +11,10 @@ from models.compiled import compiled
 from models.rides import tally
 from models.rides.onboard import (
     BRAKE,
-    LOCATED,
+    LIMITS,
     MADE,
-    REVERSE_LIMITS,
     SENSORS,
     SPLIT_LIMITS,
-    TRAIN_LIMITS,
     speed_bound_mm_s,
 )
 from models.sensors.faults import CYCLE_S, GRAVITY_M_S2
@@ -29,13 +27,12 @@ FARTHEST_MM = 10_000_000
 SLIDES_FOR_CYCLES = 10
 PULSE_MM = round(PULSE_M * 1000)
 
-note_readings, Readings = MADE.odometry.note_cycle, MADE.odometry.Readings
-stops_before, Brake = MADE.braking.stops_before, MADE.braking.Brake
-decide, Known = MADE.brake_demand.decide, MADE.brake_demand.Known
-note_movement, NOT_MOVED = MADE.reverse_movement.note_cycle, MADE.reverse_movement.LOCATED
-UNKNOWN, NONE_AWAITED, made_up = MADE.speed_limit.UNKNOWN, MADE.tag_window.NONE_AWAITED, MADE.split.made_up
-NONE_LISTED = MADE.restriction_ahead.NONE_LISTED
-watching, note_watch = MADE.brake_watch.watching, MADE.brake_watch.note_cycle
+Computer, decide, sense = MADE.computer.Computer, MADE.computer.decide, MADE.computer.sense
+stops_before, Brake, Known = MADE.braking.stops_before, MADE.braking.Brake, MADE.brake_demand.Known
+NOT_MOVED, UNKNOWN = MADE.reverse_movement.LOCATED, MADE.speed_limit.UNKNOWN
+NONE_AWAITED, NONE_LISTED = MADE.tag_window.NONE_AWAITED, MADE.restriction_ahead.NONE_LISTED
+made_up, watching, Readings = MADE.split.made_up, MADE.brake_watch.watching, MADE.odometry.Readings
+Acceleration, Telegram = MADE.split.Acceleration, MADE.split.Readings
 
 
 class Rolling(NamedTuple):
@@ -93,6 +90,24 @@ def read(before: Any, after: Any, ending: Any, way_before_mm: int) -> Any:
 
 
 @compiled
+def whole(readings: Any) -> Any:
+    """The tail tells what the head measures: this train does not part."""
+    force = Acceleration(readings.inertial_mm_s2, readings.inertial_valid)
+    return Telegram(force, True, force, force, 0)
+
+
+@compiled
+def let_run(computer: Any, end_mm: int) -> Any:
+    """The ride's computer, where nothing but the end of authority wants the brake (T12)."""
+    motion = computer.known.motion
+    known = Known(
+        motion, watching(motion.speed_most_mm_s), NOT_MOVED, UNKNOWN, made_up(SPLIT_LIMITS), NONE_AWAITED, NONE_LISTED
+    )
+    brake = Brake(False, end_mm, False)
+    return Computer(known, computer.before, computer.from_mm, computer.spacing, computer.length, brake)
+
+
+@compiled
 def broken_bounds(ending: Any, out: Any) -> None:
     """Which of the proofs' assumptions this approach does not keep to."""
     out[tally.BRAKE_BROKEN] += (
@@ -110,33 +125,29 @@ def broken_bounds(ending: Any, out: Any) -> None:
 
 
 @compiled
-def approach(motion: Any, head_m: float, speed_m_s: float, ending: Any, out: Any) -> None:
+def approach(computer: Any, head_m: float, speed_m_s: float, ending: Any, out: Any) -> None:
     """Let a train approach the end of its authority until it stands."""
-    wheel = speed_m_s * (1 + ending.scale)
+    wheel, motion = speed_m_s * (1 + ending.scale), computer.known.motion
     rolling = Rolling(head_m, speed_m_s, wheel, motion.way_mm / 1000 + 0.001, 0.0)
-    brake = Brake(False, nearest_end_mm(motion) + int(ending.margin_m * 1000), False)
-    watch, movement, braked_cycles = watching(motion.speed_most_mm_s), NOT_MOVED, 0
-    whole = made_up(SPLIT_LIMITS)
+    end_mm, braked_cycles = nearest_end_mm(motion) + int(ending.margin_m * 1000), 0
+    computer = let_run(computer, end_mm)
     out[tally.APPROACHES] = 1
     broken_bounds(ending, out)
     for _ in range(LONGEST_CYCLES):
-        known = Known(motion, watch, movement, UNKNOWN, whole, NONE_AWAITED, NONE_LISTED)
-        brake = decide(TRAIN_LIMITS, brake, known, True, False)
-        braked_cycles = braked_cycles + 1 if brake.applied else 0
-        before, rolling = rolling, rolled(rolling, ending, braked_cycles)
-        readings = read(before, rolling, ending, motion.way_mm)
-        trusted, motion = motion.trusted, note_readings(SENSORS, motion, readings)
-        movement = note_movement(REVERSE_LIMITS, movement, readings)
-        located = motion.loss == LOCATED
-        watch = note_watch(BRAKE, watch, brake.applied, located, motion.speed_least_mm_s, motion.speed_most_mm_s)
-        front_mm, speed_mm_s = rolling.head_m * 1000, rolling.speed_m_s * 1000
+        computer = decide(LIMITS, computer, True, False)
+        brakes, before, known = computer.brake.applied, rolling, computer.known.motion
+        braked_cycles = braked_cycles + 1 if brakes else 0
+        rolling = rolled(rolling, ending, braked_cycles)
+        readings = read(before, rolling, ending, known.way_mm)
+        computer = sense(LIMITS, computer, readings, whole(readings))
+        motion, front_mm, speed_mm_s = computer.known.motion, rolling.head_m * 1000, rolling.speed_m_s * 1000
         out[tally.FRONT_OUTSIDE] += not motion.front_least_mm <= front_mm <= motion.front_most_mm
         out[tally.SPEED_OUTSIDE] += not motion.speed_least_mm_s - 0.01 <= speed_mm_s <= motion.speed_most_mm_s + 0.01
         wheel_off_mm_s = abs(motion.tachometer_mm_s - speed_mm_s)
-        if trusted and motion.trusted and wheel_off_mm_s > speed_bound_mm_s(motion.tachometer_mm_s):
+        if known.trusted and motion.trusted and wheel_off_mm_s > speed_bound_mm_s(motion.tachometer_mm_s):
             out[tally.WHEEL_BROKEN] += 1
-        out[tally.AUTHORITY_PASSED] += front_mm > brake.end_mm
-        if brake.applied and rolling.speed_m_s == 0.0:
+        out[tally.AUTHORITY_PASSED] += front_mm > end_mm
+        if brakes and rolling.speed_m_s == 0.0:
             break
-    out[tally.BRAKE_ACCUSED] = watch.broken
-    out[tally.SHORT_OF_END_MM] = int(brake.end_mm - rolling.head_m * 1000)
+    out[tally.BRAKE_ACCUSED] = computer.known.watch.broken
+    out[tally.SHORT_OF_END_MM] = int(end_mm - rolling.head_m * 1000)

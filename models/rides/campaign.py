@@ -44,9 +44,9 @@ def ridden(batch: Batch) -> Numbers:
     out = np.zeros((batch.rides, len(COLUMNS)), np.int64)
     out[:, FAULTS] = faults_of(made)
     for trace, ending, row in zip(traces_of(made, track), endings_of(made), out, strict=True):
-        cycle, motion = ride(trace, row)
-        if cycle < trace.parted_at and motion.loss == LOCATED:
-            approach(motion, trace.head_m[cycle], trace.speed_m_s[cycle], ending, row)
+        cycle, computer = ride(trace, row)
+        if cycle < trace.parted_at and computer.known.motion.loss == LOCATED:
+            approach(computer, trace.head_m[cycle], trace.speed_m_s[cycle], ending, row)
     return out
 
 

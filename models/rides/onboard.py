@@ -7,23 +7,23 @@ from kernel.onboard import (
     brake_demand,
     brake_watch,
     braking,
+    computer,
     feature,
     odometry,
     restriction_ahead,
     reverse_movement,
     speed_limit,
     split,
-    tag_fix,
     tag_reader,
     tag_window,
     train_length,
-    way,
 )
 from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Loss
 from kernel.onboard.tag_fix import TagLimits
 from models.compiled import compile_machines, compiled, packed
-from models.rides.plan import PLAN, TAG_ERROR_MM
+from models.rides.plan import LENGTH_MM, PLAN, TAG_ERROR_MM
 
 MADE = compile_machines(
     (
@@ -31,39 +31,44 @@ MADE = compile_machines(
         brake_demand,
         brake_watch,
         braking,
+        computer,
         feature,
         odometry,
         restriction_ahead,
         reverse_movement,
         speed_limit,
         split,
-        tag_fix,
         tag_reader,
         tag_window,
         train_length,
-        way,
     )
 )
 """Each function is compiled when it is first called."""
 
+ON_BOARD = Limits(
+    sensors=PLAN.sensors,
+    train=TrainLimits(PLAN.brake, PLAN.speeds, PLAN.length.line_maximum_mm),
+    reverse=PLAN.reverse,
+    split=PLAN.split,
+    window=PLAN.window,
+    tags=TagLimits(antenna_mm=0, error_mm=TAG_ERROR_MM),
+    spacing=PLAN.spacing,
+    antennas_mm=LENGTH_MM,
+    length=PLAN.length,
+)
+"""What is written of the rides' train; its antennas are at its very ends."""
+LIMITS = packed(ON_BOARD)
 SENSORS = packed(PLAN.sensors)
 SPLIT_LIMITS = packed(PLAN.split)
 BRAKE = packed(PLAN.brake)
-REVERSE_LIMITS = packed(PLAN.reverse)
-TRAIN_LIMITS = packed(TrainLimits(PLAN.brake, PLAN.speeds, PLAN.length.line_maximum_mm))
 READER_LIMITS = packed(PLAN.reader)
-WINDOW_LIMITS = packed(PLAN.window)
 SPACING_LIMITS = packed(PLAN.spacing)
 LENGTH_BOUNDS = packed(PLAN.length)
-TAG_LIMITS = packed(TagLimits(antenna_mm=0, error_mm=TAG_ERROR_MM))
-"""The rides' antenna is at the very front."""
 
 LOCATED = packed(Loss.NONE)
 CONTRADICTED = packed(Loss.CONTRADICTED)
-IN_WINDOW = packed(tag_window.Verdict.IN_WINDOW)
 FIXED = packed(feature.Progress.FIXED)
 AXIS_YAW = packed(feature.TurnAxis.YAW)
-KIND_TAG = packed(train_length.PointKind.TAG)
 
 SPLIT_ERROR_MM_S2 = 260
 """What the errors of head and tail may hide of a difference: bias, drift, mounting and scale, 2 × 79, noise 50."""

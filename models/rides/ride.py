@@ -1,6 +1,7 @@
-"""One ride, cycle by cycle: readings into the compiled machines, what they say against the truth.
+"""One ride, cycle by cycle: readings into the compiled computer, what it says against the truth.
 
-The machines' part is integer, in their units; the truth is in m and s.  numba compiles all of it.
+The computer's part is integer, in its units; the truth is in m and s.  numba compiles all of it.  The train runs on as
+its trace does, whatever its brake is: what the brake is worth is tried at the end of the ride.
 """
 
 from __future__ import annotations
@@ -9,23 +10,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from kernel.onboard import tag_kind
 from models.compiled import compiled
 from models.rides import onboard, tally
 from models.rides.onboard import (
     AXIS_YAW,
+    BRAKE,
     CONTRADICTED,
     FIXED,
-    IN_WINDOW,
-    KIND_TAG,
     LENGTH_BOUNDS,
+    LIMITS,
     LOCATED,
     MADE,
     READER_LIMITS,
     SENSORS,
     SPACING_LIMITS,
     SPLIT_LIMITS,
-    TAG_LIMITS,
-    WINDOW_LIMITS,
     speed_bound_mm_s,
     way_bound_mm,
 )
@@ -41,35 +41,31 @@ LATE_CYCLES = MIDDLE
 """The average over 15 cycles is known so many after its middle."""
 HALF_MM = 0.5
 """Readings are rounded to whole units."""
+FAR_MM = 100_000_000
+"""A ride's authority ends so far ahead."""
 
-located, note_readings, note_fix = MADE.odometry.located, MADE.odometry.note_cycle, MADE.odometry.note_fix
-rear_least_mm = MADE.odometry.rear_least_mm
+Computer, put_into_service, decide, sense = (
+    MADE.computer.Computer, MADE.computer.put_into_service, MADE.computer.decide, MADE.computer.sense,
+)  # fmt: skip
+await_tag, await_none = MADE.computer.await_tag, MADE.computer.await_none
+reads_in_window, fix_of = MADE.computer.reads_in_window, MADE.computer.fix
+read_by_head, read_by_tail = MADE.computer.read_by_head, MADE.computer.read_by_tail
+Known, take_end = MADE.brake_demand.Known, MADE.braking.take_end
+note_fix, rear_least_mm = MADE.odometry.note_fix, MADE.odometry.rear_least_mm
 way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
-note_telegram, is_intact, made_up = MADE.split.note_cycle, MADE.split.is_intact, MADE.split.made_up
-Acceleration, Telegram = MADE.split.Acceleration, MADE.split.Readings
+is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings
 note_frame, delivers, mended = MADE.tag_reader.note_frame, MADE.tag_reader.delivers, MADE.tag_reader.mended
 Frame, NO_FRAME, LEVEL = MADE.tag_reader.Frame, MADE.tag_reader.NO_FRAME, MADE.tag_reader.Level(GOOD_LEVEL_MV, True)
-judge, note_window, await_tag = MADE.tag_window.judge, MADE.tag_window.note_cycle, MADE.tag_window.await_tag
-NONE_AWAITED = MADE.tag_window.NONE_AWAITED
-note_head_read, note_tail_read = MADE.antenna_spacing.note_head_read, MADE.antenna_spacing.note_tail_read
-preset, is_healthy = MADE.antenna_spacing.preset, MADE.antenna_spacing.is_healthy
-note_head_pass, note_tail_pass = MADE.train_length.note_head_pass, MADE.train_length.note_tail_pass
+is_healthy, contradicts_itself = MADE.antenna_spacing.is_healthy, MADE.train_length.contradicts_itself
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
-contradicts_itself = MADE.train_length.contradicts_itself
-UNMEASURED, Passing = MADE.train_length.UNMEASURED, MADE.train_length.Passing
 note_yaw, is_over, AWAITED = MADE.feature.note_cycle, MADE.feature.is_over, MADE.feature.AWAITED
 Feature, Band, Turning = MADE.feature.Feature, MADE.feature.Band, MADE.feature.Readings
-between, Way = MADE.way.between, MADE.way.Way
-place_of_read, fix_of = MADE.tag_fix.place_of_read, MADE.tag_fix.fix_of
+PLAIN = tag_kind.PLAIN
 
 
 class Ends(NamedTuple):
-    """What is known of tags and length: window, last tag's place, spacing, length, readers, and which tags are next."""
+    """The readers of both antennas, and which tags are next for them."""
 
-    window: Any
-    last_at: Any
-    spacing: Any
-    length: Any
     head_reader: Any
     tail_reader: Any
     next_head: int
@@ -87,16 +83,9 @@ class Curve(NamedTuple):
 class Apart(NamedTuple):
     """What is known of wholeness, and since when the parts have visibly differed."""
 
-    wholeness: Any
     was_intact: bool
     streak: int
     first_seen: int
-
-
-@compiled
-def place(motion: Any) -> Any:
-    """Where the front is, as the machines on board tell one another."""
-    return Way(motion.loss == LOCATED, motion.front_least_mm, motion.front_most_mm)
 
 
 @compiled
@@ -142,77 +131,63 @@ def passes(reader: Any, uid: int, frames: int) -> Any:
 
 
 @compiled
-def passing(motion: Any, tag: int, cycle: int) -> Any:
-    """What the length is measured by when an antenna has read a tag (T3)."""
-    return Passing(
-        KIND_TAG, tag + 1, cycle * 100, motion.loss == LOCATED, motion.front_least_mm, motion.front_most_mm,
-        motion.speed_most_mm_s,
-    )  # fmt: skip
-
-
-@compiled
-def under_the_head(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
-    """The head's antenna passes a tag: the second loop's window, a fix, the spacing, the length (T5, T13, T3)."""
+def under_the_head(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> Any:
+    """The head's antenna passes a tag: if it is delivered, the computer takes it, and awaits the next (T5, T13, T3)."""
     tag = ends.next_head
     reader, delivered = passes(ends.head_reader, tag + 1, trace.tag_frames[tag])
     out[tally.TAGS_READ] += delivered
     out[tally.TAGS_MISSED] += not delivered
+    ends = Ends(reader, ends.tail_reader, tag + 1, ends.next_tail)
     if not delivered:
-        return motion, Ends(
-            ends.window, ends.last_at, ends.spacing, ends.length, reader, ends.tail_reader, tag + 1, ends.next_tail
-        )
-    was_located = motion.loss == LOCATED
-    read_at = place_of_read(before, motion)
-    if ends.window.expected and judge(WINDOW_LIMITS, ends.window, between(ends.last_at, read_at)) != IN_WINDOW:
+        return computer, ends
+    place_mm = trace.tags_mm[tag]
+    if computer.known.window.expected and not reads_in_window(LIMITS, computer, place_mm):
         out[tally.TAG_OUTSIDE_WINDOW] += 1
-    fix = fix_of(TAG_LIMITS, before, motion, trace.tags_mm[tag])
-    motion = note_fix(motion, fix.least_mm, fix.most_mm)
+    was_located, fix = computer.known.motion.loss == LOCATED, fix_of(LIMITS, computer, place_mm)
+    computer = read_by_head(LIMITS, computer, tag + 1, place_mm, PLAIN)
     if was_located:
         out[tally.FIX_BROKEN] += not fix.least_mm <= trace.head_m[cycle] * 1000 <= fix.most_mm
-        out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
-    window = NONE_AWAITED
+        out[tally.CONTRADICTED] += computer.known.motion.loss == CONTRADICTED
     if tag + 1 < len(trace.tags_mm):
-        away_mm = trace.tags_mm[tag + 1] - trace.tags_mm[tag]
-        window = await_tag(away_mm, away_mm)
-    length = note_head_pass(LENGTH_BOUNDS, ends.length, passing(motion, tag, cycle))
-    read_at = place_of_read(before, motion)
-    spacing = note_head_read(ends.spacing, tag + 1, read_at)
-    return motion, Ends(window, read_at, spacing, length, reader, ends.tail_reader, tag + 1, ends.next_tail)
+        return await_tag(LIMITS, computer, trace.tags_mm[tag + 1], PLAIN), ends
+    return await_none(computer), ends
 
 
 @compiled
-def under_the_tail(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
+def under_the_tail(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> Any:
     """The tail's antenna passes a tag: is it one antenna distance behind the head; then the length (T13, T3)."""
-    tag, spacing, length = ends.next_tail, ends.spacing, ends.length
+    tag, before = ends.next_tail, computer.length
     reader, delivered = passes(ends.tail_reader, tag + 1, trace.tag_frames[tag])
     if delivered:
-        spacing = note_tail_read(SPACING_LIMITS, spacing, tag + 1, place_of_read(before, motion))
+        computer = read_by_tail(LIMITS, computer, tag + 1)
+        spacing, motion, length = computer.spacing, computer.known.motion, computer.length
         out[tally.SPACING_BROKEN] += spacing.broken
         hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
         out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
+        out[tally.LENGTHS] += length.measured and not before.measured
         if is_healthy(spacing):
-            length = note_tail_pass(LENGTH_BOUNDS, length, passing(motion, tag, cycle))
-            out[tally.LENGTHS] += length.measured and not ends.length.measured
             out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length) or contradicts_itself(length)
-    return Ends(ends.window, ends.last_at, spacing, length, ends.head_reader, reader, ends.next_head, tag + 1)
+    return computer, Ends(ends.head_reader, reader, ends.next_head, tag + 1)
 
 
 @compiled
-def at_the_ends(trace: Any, cycle: int, before: Any, motion: Any, ends: Any, out: Any) -> Any:
-    """Everything that the antennas have read in this cycle, and whether a tag is overdue (T2, T5)."""
-    window = note_window(WINDOW_LIMITS, ends.window, between(ends.last_at, place(motion)))
-    if window.passed:
-        out[tally.TAG_OVERDUE] += 1
-        window = NONE_AWAITED
-    ends = Ends(
-        window, ends.last_at, ends.spacing, ends.length, ends.head_reader, ends.tail_reader, ends.next_head,
-        ends.next_tail,
-    )  # fmt: skip
+def at_the_ends(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> Any:
+    """Everything that the antennas have read in this cycle (T2, T5)."""
     while ends.next_head < len(trace.tags_mm) and trace.tag_cycle[ends.next_head] == cycle:
-        motion, ends = under_the_head(trace, cycle, before, motion, ends, out)
+        computer, ends = under_the_head(trace, cycle, computer, ends, out)
     while ends.next_tail < len(trace.tags_mm) and 0 <= trace.tail_cycle[ends.next_tail] <= cycle:
-        ends = under_the_tail(trace, cycle, before, motion, ends, out)
-    return motion, ends
+        computer, ends = under_the_tail(trace, cycle, computer, ends, out)
+    return computer, ends
+
+
+@compiled
+def fixed(computer: Any, least_mm: int, most_mm: int) -> Any:
+    """The computer, its range narrowed by a feature: it has no machine for these yet (P3, P7)."""
+    known, motion = computer.known, note_fix(computer.known.motion, least_mm, most_mm)
+    return Computer(
+        Known(motion, known.watch, known.movement, known.limit, known.wholeness, known.window, known.ahead),
+        computer.before, computer.from_mm, computer.spacing, computer.length, computer.brake,
+    )  # fmt: skip
 
 
 @compiled
@@ -225,12 +200,13 @@ def feature_at(row: Any) -> Any:
 
 
 @compiled
-def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: Any, trusted: Any, out: Any) -> Any:
+def along_the_curve(trace: Any, cycle: int, computer: Any, curve: Any, fronts_mm: Any, trusted: Any, out: Any) -> Any:
     """Match the yaw rate's average, which is some cycles old; a fix is carried on to now by the wheel (P2, P3)."""
+    motion = computer.known.motion
     trusted_cycles = curve.trusted_cycles + 1 if motion.trusted else 0
     then = cycle - LATE_CYCLES
     if curve.feature >= len(trace.features) or then < 0:
-        return motion, Curve(curve.feature, curve.detection, trusted_cycles)
+        return computer, Curve(curve.feature, curve.detection, trusted_cycles)
     readings = Turning(
         fronts_mm[then], trusted[then], trace.wheel.numbers[then], trace.way.numbers[then], trace.yaw.valid[then],
         trace.yaw.numbers[then], False, 0,
@@ -241,32 +217,34 @@ def along_the_curve(trace: Any, cycle: int, motion: Any, curve: Any, fronts_mm: 
         error_mm = way_error_mm(SENSORS, since_mm)
         least_mm = detection.fix_least_mm + since_mm - error_mm
         most_mm = detection.fix_most_mm + since_mm + error_mm
-        motion = note_fix(motion, least_mm, most_mm)
+        computer = fixed(computer, least_mm, most_mm)
         out[tally.FEATURES_FIXED] += 1
         out[tally.FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
-        out[tally.CONTRADICTED] += motion.loss == CONTRADICTED
+        out[tally.CONTRADICTED] += computer.known.motion.loss == CONTRADICTED
     if is_over(detection):
         out[tally.FEATURES_FAILED] += curve.detection.stage != FIXED
-        return motion, Curve(curve.feature + 1, AWAITED, trusted_cycles)
-    return motion, Curve(curve.feature, detection, trusted_cycles)
+        return computer, Curve(curve.feature + 1, AWAITED, trusted_cycles)
+    return computer, Curve(curve.feature, detection, trusted_cycles)
 
 
 @compiled
-def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
+def from_the_tail(trace: Any, cycle: int) -> Any:
+    """What has come from the tail at the end of a cycle, and how old it is (P5, P6)."""
+    told = max(trace.source[cycle], 0)
+    return Telegram(
+        Acceleration(trace.force.numbers[told], trace.force.valid[told]),
+        trace.arrived[cycle],
+        Acceleration(trace.left.numbers[told], trace.left.valid[told]),
+        Acceleration(trace.right.numbers[told], trace.right.valid[told]),
+        trace.age_ms[cycle],
+    )
+
+
+@compiled
+def is_it_whole(trace: Any, cycle: int, wholeness: Any, apart: Any, out: Any) -> Any:
     """Compare head and tail, each at the time of the tail's measurement (P5, P6)."""
     told = max(trace.source[cycle], 0)
     left_mm_s2, right_mm_s2 = trace.left.numbers[told], trace.right.numbers[told]
-    wholeness = note_telegram(
-        SPLIT_LIMITS,
-        apart.wholeness,
-        Telegram(
-            Acceleration(trace.force.numbers[told], trace.force.valid[told]),
-            trace.arrived[cycle],
-            Acceleration(left_mm_s2, trace.left.valid[told]),
-            Acceleration(right_mm_s2, trace.right.valid[told]),
-            trace.age_ms[cycle],
-        ),
-    )
     truth_mm_s2 = (trace.tail_gain_m_s2[told] + trace.tail_slope_m_s2[told]) * 1000
     parted, first_seen, streak = cycle >= trace.parted_at, apart.first_seen, 0
     if told + 1 < trace.parted_at:
@@ -283,7 +261,7 @@ def is_it_whole(trace: Any, cycle: int, apart: Any, out: Any) -> Any:
         differs_mm_s2 = abs(trace.gain_m_s2[cycle] - trace.tail_gain_m_s2[cycle] + slope) * 1000
         streak = apart.streak + 1 if differs_mm_s2 > SPLIT_LIMITS.threshold_mm_s2 + onboard.SPLIT_ERROR_MM_S2 else 0
         out[tally.SPLIT_UNSEEN] += streak > onboard.UNSEEN_CYCLES and intact
-    return Apart(wholeness, intact, streak, first_seen)
+    return Apart(intact, streak, first_seen)
 
 
 @compiled
@@ -302,15 +280,28 @@ def compare(trace: Any, cycle: int, motion: Any, length: Any, out: Any) -> None:
 
 
 @compiled
+def with_end(computer: Any, end_mm: int) -> Any:
+    """The computer of a train at rest, with an end of authority that came without orders (T12)."""
+    most_mm = computer.known.motion.front_most_mm
+    return Computer(
+        computer.known, computer.before, computer.from_mm, computer.spacing, computer.length,
+        take_end(BRAKE, computer.brake, most_mm, 0, end_mm),
+    )  # fmt: skip
+
+
+@compiled
 def ride(trace: Any, out: Any) -> Any:
-    """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and motion."""
+    """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and computer."""
     start_mm = int(trace.head_m[0] * 1000)
-    motion = located(start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM, 0)
-    ends = Ends(NONE_AWAITED, Way(False, 0, 0), preset(LENGTH_MM), UNMEASURED, mended(), mended(), 0, 0)
-    apart = Apart(made_up(SPLIT_LIMITS), False, 0, -1)
+    computer = put_into_service(LIMITS, start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM)
+    computer = with_end(computer, start_mm + FAR_MM)
+    ends, apart = Ends(mended(), mended(), 0, 0), Apart(False, 0, -1)
     curve, anchor_m, cycle = Curve(0, AWAITED, 0), trace.head_m[0], 0
     fronts_mm, trusted = np.empty(len(trace.head_m), np.int64), np.empty(len(trace.head_m), np.bool_)
     for cycle in range(len(trace.head_m)):
+        was_overdue = computer.known.window.passed
+        computer = decide(LIMITS, computer, True, True)
+        out[tally.TAG_OVERDUE] += computer.known.window.passed and not was_overdue
         readings = Readings(
             100,
             trace.wheel.valid[cycle] and trace.way.valid[cycle],
@@ -319,23 +310,25 @@ def ride(trace: Any, out: Any) -> Any:
             trace.force.valid[cycle],
             trace.force.numbers[cycle],
         )
-        before = motion
-        motion = note_readings(SENSORS, motion, readings)
+        before = computer.known.motion
+        computer = sense(LIMITS, computer, readings, from_the_tail(trace, cycle))
+        motion = computer.known.motion
         hold_assumptions(trace, cycle, before, motion, readings, anchor_m, out)
         out[tally.UNTRUSTED] += before.trusted and not motion.trusted
         out[tally.SLIP_CYCLES] += not motion.trusted
         fronts_mm[cycle], trusted[cycle] = motion.front_least_mm, motion.trusted
         counted_from = anchor(motion)
-        motion, ends = at_the_ends(trace, cycle, before, motion, ends, out)
-        motion, curve = along_the_curve(trace, cycle, motion, curve, fronts_mm, trusted, out)
+        computer, ends = at_the_ends(trace, cycle, computer, ends, out)
+        computer, curve = along_the_curve(trace, cycle, computer, curve, fronts_mm, trusted, out)
+        motion = computer.known.motion
         if anchor(motion) != counted_from or not (before.trusted and motion.trusted):
             anchor_m = trace.head_m[cycle]
-        apart = is_it_whole(trace, cycle, apart, out)
-        compare(trace, cycle, motion, ends.length, out)
-        if (trace.head_m[cycle] - trace.head_m[0]) >= LEAST_WAY_M or apart.wholeness.split:
+        apart = is_it_whole(trace, cycle, computer.known.wholeness, apart, out)
+        compare(trace, cycle, motion, computer.length, out)
+        if (trace.head_m[cycle] - trace.head_m[0]) >= LEAST_WAY_M or computer.known.wholeness.split:
             break
     out[tally.CYCLES], out[tally.WAY_MM] = cycle + 1, int((trace.head_m[cycle] - trace.head_m[0]) * 1000)
     out[tally.PARTED] = cycle >= trace.parted_at
     if apart.first_seen >= trace.parted_at:
         out[tally.SEEN_AFTER_CYCLES] = apart.first_seen - trace.parted_at
-    return cycle, motion
+    return cycle, computer

@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 
 import heisoku
+from kernel.onboard.limits import are_lawful
 from models.rides import tally
 from models.rides.campaign import RUNS_A_BATCH, Batch, batches, ridden, ride_all
+from models.rides.onboard import ON_BOARD
+from models.rides.plan import SURVEYED
 from models.rides.tally import ASSUMPTIONS, COLUMNS, MONITORS, VIOLATIONS, Numbers, outcome
 
 BEYOND = {
@@ -32,6 +35,10 @@ def campaign(beyond: tuple[str, ...] = (), rides: int = 24) -> Numbers:
 def column(rows: Numbers, name: str) -> Sequence[int]:
     values: Sequence[int] = rows[:, COLUMNS.index(name)].tolist()
     return values
+
+
+def test_what_is_written_of_the_rides_train_may_go_into_service() -> None:
+    assert are_lawful(ON_BOARD, SURVEYED)
 
 
 def test_within_the_declared_ranges_nothing_breaks_and_the_rides_are_rides() -> None:
