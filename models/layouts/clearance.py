@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 
 from models.layouts.blocks import Blocks
+from models.layouts.measures import LEAST_CLEARANCE_MM
 from models.layouts.results import Leg, Violation
 from models.layouts.told import Told
 from models.layouts.track import Cut, Heading, Joint, Junction
@@ -59,9 +60,16 @@ def _long_mm(blocks: Blocks, heading: Heading) -> int:
 
 
 def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:
-    """The legs on which a train may stand foul of the other: by what is told, else by what a leg must have."""
+    """The legs on which a train may stand foul of the other: by what is told, else by what a leg must have.
+
+    What is told must be what tracks can have.
+    """
     for leg in legs:
         least_mm = clearance_mm if leg.clear_mm is None else leg.clear_mm
+        if leg.clear_mm is not None and leg.clear_mm < LEAST_CLEARANCE_MM:
+            text = f"'{leg.point}' is told to be clear {leg.clear_mm:,} mm along its leg '{leg.leg}'"
+            apart = f"{text}: tracks that part are not, nearer than {LEAST_CLEARANCE_MM:,} mm"
+            yield Violation(APART, (leg.point, leg.leg), apart)
         if leg.boundary is not None and leg.at_mm < least_mm:
             where = f"boundary '{leg.boundary}' lies {leg.at_mm:,} mm behind '{leg.point}' on its leg '{leg.leg}'"
             known = "where nothing is told it must be" if leg.clear_mm is None else "it is clear from"
@@ -69,4 +77,5 @@ def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:
             yield Violation(RULE, (leg.point, leg.boundary), text)
 
 
+APART = "a leg is told to be clear where tracks are apart"
 RULE = "a train behind a boundary is clear of the point"

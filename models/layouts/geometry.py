@@ -32,6 +32,7 @@ def say_what_is_no_railway(
 ) -> None:
     """Blocks that are too short or too long, measured from each of their boundaries to what comes next."""
     short: dict[Block, tuple[int, int, str]] = {}
+    long: dict[Block, int] = {}
     for tag, way in ways.items():
         block = tag_in[tag]
         if way.next_mm > LONGEST_DISTANCE_MM:
@@ -44,15 +45,22 @@ def say_what_is_no_railway(
             if long_mm is not None and long_mm < least_mm:
                 short[block] = min(short.get(block, (long_mm, least_mm, between)), (long_mm, least_mm, between))
         if way.next_mm > LONGEST_BLOCK_MM:
-            text = f"block '{block}' is {way.next_mm / 1_000_000:,.0f} km long: is the unit right, a boundary missing?"
-            findings.remark(blocks.bounds[block], text)
+            long[block] = max(long.get(block, 0), way.next_mm)
+    for block, long_mm in long.items():
+        text = f"block '{block}' is {long_mm / 1_000_000:,.0f} km long: is the unit right, a boundary missing?"
+        findings.remark(blocks.bounds[block], text)
+    station = blocks.segments.station
+    for mark in station.marks.values():
+        if not mark.cuts and 0 < mark.at_mm < station.tracks[mark.track]:
+            text = f"'{mark.name}' ends track '{mark.track}' at {mark.at_mm:,} mm, where the file has track go on"
+            findings.remark((mark.name, mark.track), text)
     for block, (long_mm, least_mm, between) in short.items():
         text = f"block '{block}' is {long_mm:,} mm {between}: its tags need {least_mm:,}"
         findings.violation(ROOM, blocks.bounds[block], text)
-    longest_mm = max(blocks.segments.station.tracks.values(), default=0)
+    longest_mm = max(station.tracks.values(), default=0)
     if ways and longest_mm < SHORTEST_VEHICLE_MM:
         text = f"no track is longer than {longest_mm:,} mm, less than one vehicle: were kilometres given for metres?"
-        findings.violation("a track is as long as a vehicle", list(blocks.segments.station.tracks), text)
+        findings.violation("a track is as long as a vehicle", list(station.tracks), text)
 
 
 def say_what_is_too_short(paths: Iterable[Path], findings: Findings) -> None:

@@ -14,6 +14,7 @@ from itertools import count, islice
 from kernel.names import Block, Point, Position
 from models.layouts.blocks import Blocks, opposite
 from models.layouts.findings import Findings
+from models.layouts.measures import SHORTEST_TRAIN_MM
 from models.layouts.results import Loop
 from models.layouts.track import Cut, Heading, Joint
 
@@ -23,6 +24,7 @@ LOOKS, LOOKS_A_BLOCK = 20_000, 2
 """So many stretches are looked at in all, and for each block: time grows with the size of the layout alone."""
 MOST_TRACKS = 1_000
 """So many tracks from one end of a block are looked at; of a block with more it is taken that no point bars."""
+SHORTEST = "the longest train is a train"
 LOOPS = "a train is shorter than its loop"
 
 
@@ -96,7 +98,10 @@ def _through(blocks: Blocks, start: Heading) -> Iterator[Lies]:
 def say_what_is_too_long(
     loop: Loop | None, longest_train_mm: int | None, bounds: Mapping[Block, tuple[str, ...]], findings: Findings
 ) -> None:
-    """A fleet whose longest train, as the file tells it, is as long as a loop."""
+    """A fleet whose longest train, as the file tells it, is as long as a loop; or is shorter than any train."""
+    if longest_train_mm is not None and longest_train_mm < SHORTEST_TRAIN_MM:
+        text = f"the longest train is told to have {longest_train_mm:,} mm: no train is so short, is the unit right?"
+        findings.violation(SHORTEST, (), text)
     if loop is None or longest_train_mm is None or longest_train_mm < loop.long_mm:
         return
     of = f"block '{loop.blocks[0]}' and back into it is" if loop.blocks else "a block and back is looked for up to"

@@ -21,6 +21,9 @@ radius r that is sqrt(2 · 3.5 m · r), from its geometric centre 3.5 m times n 
 of more than 57 m radius, or flatter than 1:6, is clear.  So what is nearer is wrong on a railway; what is farther need
 not be right, and stays among what a verdict rests on until the file tells it.
 """
+LEAST_CLEARANCE_MM = 2_475
+"""No leg is told to be clear nearer than this: centre lines 3.5 m apart are that far from where two tracks cross at
+right angles, and no two legs meet at more."""
 
 STANDS_MM_S = 700
 """So fast a train may still be that tells that it stands (T12)."""
@@ -44,5 +47,7 @@ How much more is needed for poor adhesion is the duty of whoever lays it out (``
 """
 SHORTEST_VEHICLE_MM = 20_000
 """No block as long as one vehicle in a whole file: the unit is wrong."""
+SHORTEST_TRAIN_MM = 5_000
+"""No train that a unit fits into is shorter: the unit is wrong."""
 LONGEST_BLOCK_MM = 100_000_000
 """A block of more than 100 km: the unit is wrong, or a boundary is missing."""

@@ -54,7 +54,7 @@ def _list(item: object) -> dict[str, object]:
     return {"type": "array", "items": item}
 
 
-def _schema(switches: str, switch_type: str, directions: str, extended: str) -> Draft202012Validator:
+def _schema(switches: str, switch_type: str, directions: str, extended: str) -> dict[str, Any]:
     """The schema of one dialect: only what is read, and all of that."""
     mark = _object(id=_TEXT, track=_TEXT, position=_NUMBER)
     port = _object(track=_TEXT, endpoint={"enum": list(SIDES)})
@@ -78,7 +78,7 @@ def _schema(switches: str, switch_type: str, directions: str, extended: str) -> 
         **{switches: _list(switch)},
     )
     whole["properties"][extended] = _list(kind)
-    return Draft202012Validator(whole)
+    return whole
 
 
 class Dialect:
@@ -87,7 +87,14 @@ class Dialect:
     def __init__(self, switch: str, plural: str) -> None:
         self.switches, self.switch_type = plural, f"{switch}_type"
         self.directions, self.extended = f"{plural}_directions", f"extended_{switch}_types"
-        self.validator = _schema(self.switches, self.switch_type, self.directions, self.extended)
+        schema = _schema(self.switches, self.switch_type, self.directions, self.extended)
+        self.validator = Draft202012Validator(schema)
+        self.fields = {
+            listed: set(of["items"]["properties"])
+            for listed, of in schema["properties"].items()
+            if listed != self.extended
+        }
+        """List -> the fields of its items that are read."""
 
 
 SWITCHES = Dialect("switch", "switches")
@@ -113,7 +120,7 @@ def import_railjson(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
 
 
 def say_what_is_not_read(data: Mapping[str, Any], dialect: Dialect, findings: Findings) -> None:
-    """A remark for each list of the file that is not read and may matter to safety, with the ids in it."""
+    """A remark for each list of the file, and each field of what is read, that is not and may matter to safety."""
     read = {dialect.switches, dialect.extended, "track_sections", "detectors", "buffer_stops", "routes"}
     for listed in sorted(set(data) - read - WITHOUT_EFFECT):
         items = data[listed]
@@ -122,7 +129,18 @@ def say_what_is_not_read(data: Mapping[str, Any], dialect: Dialect, findings: Fi
             names = [f"{listed}[{at}]" if name is None else str(name) for at, name in enumerate(ids)]
             findings.remark(names, f"{len(names)} of {listed} are not read: no route knows of them", "unread")
 
+    for listed, known in dialect.fields.items():
+        told: dict[str, list[str]] = {}
+        for item in data[listed]:
+            for field in sorted(field for field in set(item) - known - DRAWN if item[field]):
+                told.setdefault(field, []).append(item["id"])
+        for field, named in sorted(told.items()):
+            text = f"{field} of {len(named)} of {listed} are not read: whatever they ask of trains, no route does"
+            findings.remark(named, text, "unread")
 
+
+DRAWN = frozenset(("name", "geo", "sch", "extensions", "group_change_delay"))
+"""Of an item, what it is called, how it is drawn, and how long a point moves, as its contacts prove."""
 WITHOUT_EFFECT = frozenset(
     ("version", "operational_points", "signals", "electrifications", "neutral_sections", "catenaries", "dead_sections")
 )
@@ -171,12 +189,19 @@ class Reader:
         found: dict[str, Kind] = {}
         for name, item in by_name(self.file, self.dialect.extended, self.data.get(self.dialect.extended, [])).items():
             place = f"{self.dialect.extended} '{name}'"
+            if name in KINDS:
+                raise self.bad(place, "has the id of a type that every file has", "give it another id")
             for group, passages in item["groups"].items():
                 used = [port for passage in passages for port in (passage["src"], passage["dst"])]
                 if not set(used) <= set(item["ports"]) or len(used) != len(set(used)):
                     raise self.bad(place, f"group '{group}' names a port it has not, or one twice", "correct the group")
             if not item["groups"]:
                 raise self.bad(place, "has no groups", "give the connections of its ports")
+            joined = {way[end] for ways in item["groups"].values() for way in ways for end in ("src", "dst")}
+            idle = sorted(set(item["ports"]) - joined)
+            if idle:
+                what = f"port '{idle[0]}' is in no group: no position leads there"
+                raise self.bad(place, what, "add the group, or take the port away")
             groups = {group: tuple((p["src"], p["dst"]) for p in ways) for group, ways in item["groups"].items()}
             found[name] = Kind(tuple(item["ports"]), groups)
         return found

@@ -90,6 +90,8 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     validate(file, data, _VALIDATOR)
     routes = read_routes(file, data["interlocking-table"])
     findings = Findings("point")
+    _say_what_is_not_read(data, findings)
+    _say_which_ways(routes.values(), findings)
     fouls = _fouling(file, data.get("fouling", ()), routes.values())
     compare_conflicts(list(routes.values()), fouls, findings)
     for what, each in (
@@ -97,10 +99,39 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
         ("signals", lambda route: [route.source, route.destination]),
         ("pieces and sections", lambda route: [*route.path, *route.sections]),
         ("points", lambda route: route.points),
+        ("ways to run", lambda route: [route.orientation]),
     ):
         names = (name for route in routes.values() for name in each(route))
         say_what_is_alike(what, dict.fromkeys(names), findings)
     return assemble_table(file, list(routes.values()), fouls, trains, findings)
+
+
+def _say_what_is_not_read(data: Mapping[str, Any], findings: Findings) -> None:
+    """A remark for whatever else stands in the table or in a row, such as a level crossing."""
+    for field in sorted(set(data) - {"interlocking-table", "fouling"}):
+        findings.remark((field,), f"{field} is not read: no route knows of it", "unread")
+    told: dict[str, list[str]] = {}
+    for row in data["interlocking-table"]:
+        for field in sorted(field for field in set(row) - set(_ROUTE["properties"]) - WITHOUT_EFFECT if row[field]):
+            told.setdefault(field, []).append(row["id"])
+    for field, named in sorted(told.items()):
+        findings.remark(named, f"{field} of {len(named)} routes is not read: what it asks is asked by nobody", "unread")
+
+
+WITHOUT_EFFECT = frozenset(("length", "signals"))
+"""Of a row: track is held by the block, and what signals show follows from the routes that are set."""
+
+
+def _say_which_ways(routes: Iterable[TableRoute], findings: Findings) -> None:
+    """Track has two ways to run: a third word is one of these, and nobody knows which."""
+    first: dict[str, str] = {}
+    for route in routes:
+        first.setdefault(route.orientation, route.name)
+    if len(first) > 2:
+        words = ", ".join(f"'{word}' (route '{name}')" for word, name in first.items())
+        findings.violation(
+            "routes run one way or the other", tuple(first.values()), f"{len(first)} ways to run: {words}"
+        )
 
 
 def _fouling(file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute]) -> dict[str, frozenset[str]]:

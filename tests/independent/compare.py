@@ -36,6 +36,8 @@ def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
     }
 
 
+TRAIN_MM = 5_000
+"""Nothing that a unit is built into is shorter."""
 Listed = tuple[str, tuple[str, ...]]
 """Rule, and elements in order of name."""
 
@@ -115,6 +117,8 @@ def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:
     loop = None if network is None or longest_mm is None else shortest_loops(network)
     if network is not None and isinstance(loop, tuple) and longest_mm is not None and longest_mm >= loop[0]:
         ours.add(("a train is shorter than its loop", tuple(sorted(set(network.ends(min(loop[1])))))))
+    if longest_mm is not None and longest_mm < TRAIN_MM:
+        ours.add(("the longest train is a train", ()))
     for names in names_of(imported, found):
         ours |= {("no two names look the same", alike) for alike in drawn_alike(names)}
     return ours
@@ -127,6 +131,7 @@ def names_of(imported: Imported, found: Enumerated) -> Iterator[Iterable[str]]:
         yield [signal for row in rows for signal in (row.source, row.destination)]
         yield [name for row in rows for name in (*row.segments, *row.sections, row.source, row.destination)]
         yield [point for row in rows for point in row.points]
+        yield [row.orientation for row in rows]
     else:
         network = found.network
         yield network.lengths
@@ -182,8 +187,8 @@ def disagreements(imported: Imported, result: CheckResult, found: Enumerated) ->
 def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:
     """Whether two violations are of the same rule and elements.
 
-    The importer adds points passed before one that is wrong, where the fault may as well be theirs.  Of the points
-    in a block that a train is led astray in, it names those alone that lead it there; in a table the rows name none.
+    The importer adds points passed before one that is wrong, where the fault may as well be theirs.  Of a table whose
+    train is led astray it names the points that lead it there; the rows name none.
     """
     rule, elements = ours
     if rule != theirs[0]:
@@ -192,9 +197,8 @@ def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:
     if rule == "a route is led over its points":
         return not fewer
     if rule == "track_leads_along_the_way_or_is_turned":
-        network = network_of(found)
-        known = set(getattr(found, "stands_in", ())) if network is None else set(network.junctions)
-        return not fewer - known and not (more - known if network is None else more)
+        known = set(getattr(found, "stands_in", ()))
+        return not fewer - known and not more - known
     return elements == theirs[1]
 
 

@@ -425,9 +425,7 @@ def led_astray(network: Network, route: Route) -> list[Finding]:
         for into, wanted in sorted(leads(network, route, block).items()):
             if into == following or any(route.needs.get(point, at) != at for point, at in wanted.items()):
                 continue
-            standing = set(network.points_in.get(block, ()))
-            met = {passing.junction for way in network.ways(block) if way.into == into for passing in way.passed}
-            elements = {*network.ends(block), *network.ends(into), *(met & set(route.needs) & standing)}
+            elements = {*network.ends(block), *network.ends(into), *(set(wanted) & set(route.needs))}
             found.append(Finding("track_leads_along_the_way_or_is_turned", (route.name, *sorted(elements))))
     return found
 

@@ -8,6 +8,8 @@ from tests.independent.raw_graph import End, Network, Place
 
 CLEAR_MM = 20_000
 """No turnout of more than 57 m radius is clear sooner: the square root of 2 times 3.5 m times that."""
+CROSSED_MM = 2_475
+"""At right angles, 3.5 m apart: that divided by the square root of two."""
 ROOM_MM, LAST_MM = 6_339, 2_713
 """For two tags and for one: 2 m of overhang, a window of 513 mm and 200 mm of laying for each; between two a window
 of 513 mm and the laying of both."""
@@ -36,6 +38,9 @@ def measured(
     for point, leg, cuts in legs(network, fouls):
         if cuts[0][0] < told_mm.get((point, leg), CLEAR_MM):
             yield "a train behind a boundary is clear of the point", tuple(sorted((point, cuts[0][1])))
+    for (point, leg), clear_mm in told_mm.items():
+        if point in network.junctions and clear_mm < CROSSED_MM and _is_left_out(network, point, leg):
+            yield "a leg is told to be clear where tracks are apart", tuple(sorted({point, leg}))
     if any(network.cuts.values()) and max(network.lengths.values()) < VEHICLE_MM:
         yield "a track is as long as a vehicle", tuple(network.lengths)
 
@@ -52,6 +57,13 @@ def legs(network: Network, fouls: Mapping[str, Collection[str]]) -> Iterator[tup
             cuts = sorted((far_mm, cut) for far_mm, cut, _ in found if cut is not None)
             if cuts:
                 yield point, leg, cuts
+
+
+def _is_left_out(network: Network, point: str, leg: str) -> bool:
+    """Whether a vehicle can pass a point and stay off a leg of it."""
+    junction = network.junctions[point]
+    ways = [pair for pairs in junction.joins.values() for pair in pairs]
+    return len(junction.legs) > 2 and any(leg not in pair for pair in ways)
 
 
 def _is_cut(network: Network, place: Place) -> bool:

@@ -69,6 +69,15 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     return found
 
 
+def broken(data: dict[str, Any]) -> str | None:
+    """A type of switch that has the id of a built-in one, or a port that it joins in no position."""
+    for kind in data.get("extended_switch_types", []):
+        joined = {pair[end] for pairs in kind["groups"].values() for pair in pairs for end in ("src", "dst")}
+        if kind["id"] in BUILT_IN or set(kind["ports"]) - joined:
+            return f"{kind['id']}: no type"
+    return None
+
+
 def network_of(data: dict[str, Any]) -> Network:
     """Tracks, detectors, buffer stops and switches of the file."""
     lengths = {track["id"]: mm(track["length"]) for track in data["track_sections"]}

@@ -114,6 +114,9 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
         _follow(found, row)
     for row in rows.values():
         _look_astray(found, row)
+    first = {row.orientation: row.name for row in reversed(rows.values())}
+    if len(first) > 2:
+        found.violations.append(Finding("routes run one way or the other", tuple(first.values())))
     _compare_positions(found)
     _compare_conflicts(found)
     return found

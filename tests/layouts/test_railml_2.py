@@ -90,6 +90,7 @@ CHANGES: tuple[tuple[str, str, str], ...] = (
     ('ref="y-B"', 'ref="nobody"', "connection 'y-A': refers to 'nobody', which is no connection"),
     ('id="a" pos="400.000"', 'id="a" pos="4000"', "trainDetector 'a': lies at 4000000 mm, not on its track"),
     ('<trackBegin id="T1-b" pos="0">', '<x id="T1-b" pos="0">', "line"),
+    ('<connection id="y-A"', '<connection id="y" ref="z"/><connection id="y-A"', "'y-A': is a second connection of"),
     ('id="P"', 'id="Q"', "this id is taken by a switch"),
     (' id="T0"', "", "has no attribute id"),
 )

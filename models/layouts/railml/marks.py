@@ -6,7 +6,7 @@ of its own, unless a detector stands in the same place.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from models.layouts.findings import Findings
@@ -62,7 +62,9 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
             name = element.get("id")
             if name is None or (kind == "signalIS" and name not in signals):
                 continue
-            spot = source.first("spotLocation", element)
+            spots = list(source.all("spotLocation", element))
+            finest = [each for each in spots if each.get("netElementRef") in topology.lengths_mm]
+            spot = next(iter([*finest, *spots]), None)
             if spot is None:
                 if name in signals:
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
@@ -70,6 +72,7 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                 continue
             found.put(source, element, Mark(name, *placed(source, topology, name, spot), cuts))
             _compare_places(source, found.of[name], name, spot, topology, findings)
+            _compare_spots(source, name, finest, topology, findings)
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
@@ -92,6 +95,17 @@ def _compare_places(
     if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
         text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
         findings.violation("an element lies in one place", list(dict.fromkeys((name, mark))), text)
+
+
+def _compare_spots(
+    source: Document, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
+) -> None:
+    """Of an element with several places, all are one, or the ends of track that meet there."""
+    places = {placed(source, topology, name, spot) for spot in spots}
+    inside = [place for place in places if 0 < place[1] < topology.lengths_mm[place[0]]]
+    if len(places) > 1 and inside:
+        told = ", ".join(f"'{track}' at {at_mm:,} mm" for track, at_mm in sorted(places))
+        findings.violation("an element lies in one place", (name,), f"'{name}' lies in {len(places)} places: {told}")
 
 
 SAME_PLACE_M = 1.0

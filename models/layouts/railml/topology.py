@@ -67,6 +67,9 @@ def read_topology(source: Document, findings: Findings) -> Topology:
     junctions: dict[str, Junction] = {}
     for meeting in _meetings(source, lengths_mm):
         junction = _junction(source, meeting, named, findings)
+        if junction.name in junctions:
+            what = "its relations are of two places, which no relation joins"
+            raise source.bad(source.by_id[junction.name], what, "relate all ends of track that meet there")
         junctions[junction.name] = junction
     for relation, names in named.items():
         if names.element.get("id") not in junctions:
@@ -195,6 +198,9 @@ def _junction(source: Document, meeting: Meeting, named: Mapping[str, Named], fi
     port_of = {end: port for port, end in ports.items()}
     ways = [(port_of[one], port_of[other]) for one, other in meeting.ways]
     kind = _kind(source, element, ways, by, port_of)
+    if by is not None and len(ports) < 3:
+        what = "two ends of track meet here, and none of another track"
+        raise source.bad(element, what, "relate all ends of track that meet there")
     if kind is None:
         what = f"{len(ports)} ends of track meet here, and {len(ways)} ways lead from one to another"
         raise source.bad(element, f"{what}: no joint, point, crossing or slip has that", "correct the relations")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from lxml import etree
 
@@ -22,10 +22,18 @@ NOT_READ: Mapping[str, str] = {
     **dict.fromkeys(("workZone", "shuntingZone", "localOperationArea", "locallyControlledArea"), KEPT_OUT),
     **dict.fromkeys(("permissionZone", "dangerPoint", "genericDetector"), KEPT_OUT),
     **dict.fromkeys(("routeRelation", "combinedRoute"), "what they say is derived from the track, or not kept"),
+    **dict.fromkeys(("gaugeChange", "gaugeSection", "clearanceGaugeChange", "clearanceGaugeSection"), GUARDED),
+    **dict.fromkeys(("loadingGauge", "axleWeightChange", "axleWeightSection", "meterLoadSection"), GUARDED),
+    **dict.fromkeys(("gradientChange", "gradientCurve"), "the brake's bounds are taken to cover every slope"),
     "movableCrossing": "it is read as a crossing that does not move",
     "hasPositionRestriction": "no route is kept from that position",
 }
 """For each kind of element, in railML 2 or 3, what its being left out means."""
+OUT_OF_USE: Mapping[str, Callable[[Element], bool]] = {
+    "elementState": lambda state: state.get("value", "operational") != "operational",
+    "state": lambda state: state.get("disabled", "false") not in ("false", "0"),
+}
+"""What says of the element that it stands in that this is not in use, in railML 3 and 2."""
 READ = (
     *("netElement", "netRelation", "switchIS", "crossing", "crossingIS", "switch", "track", "connection"),
     *("trainDetectionElement", "trainDetector", "trackCircuitBorder", "signalIS", "signal", "bufferStop", "border"),
@@ -39,6 +47,13 @@ def say_what_is_not_read(source: Document, findings: Findings) -> None:
         named = [_named(element) for element in source.all(kind)]
         if named:
             findings.remark(named, f"{len(named)} of {kind} are not read: {means}", "unread")
+    closed = [_named(each) for kind, out in OUT_OF_USE.items() for each in _holding(source, kind, out)]
+    if closed:
+        findings.remark(closed, f"{len(closed)} elements are not in use: routes run over them all the same", "unread")
+    one_way = [_named(each) for each in source.all("netRelation") if each.get("navigability") in ("AB", "BA")]
+    if one_way:
+        text = f"{len(one_way)} net relations are navigable one way alone: routes are taken both ways"
+        findings.remark(one_way, text, "unread")
     foreign = [
         _named(element)
         for element in source.root.iter(etree.Element)
@@ -47,6 +62,14 @@ def say_what_is_not_read(source: Document, findings: Findings) -> None:
     if foreign:
         text = f"{len(foreign)} elements of another namespace than the document's are not read"
         findings.remark(foreign, text, "unread")
+
+
+def _holding(source: Document, kind: str, out: Callable[[Element], bool]) -> Iterator[Element]:
+    """The elements that one of a kind within them says are out of use."""
+    for state in source.all(kind):
+        holding = state.getparent()
+        if holding is not None and out(state):
+            yield holding
 
 
 def _named(element: Element) -> str:

@@ -135,7 +135,10 @@ class Connections:
             for kind, end in zip(("trackBegin", "trackEnd"), track.ends(), strict=True):
                 owner = source.first(kind, track.element)
                 assert owner is not None
-                for connection in source.all("connection", owner):
+                for number, connection in enumerate(source.all("connection", owner)):
+                    if number:
+                        what = f"is a second connection of this end of track '{track.name}', where no switch stands"
+                        raise source.bad(connection, what, "let a switch stand where tracks come together")
                     self._add(connection, Leg(owner, end))
             for crossed in _cutting(source, track.element):
                 self.cut.append((track, crossed))
@@ -196,6 +199,9 @@ class Connections:
             raise self.source.bad(connections[0], f"orientation is '{orientation[:40]}'", "give outgoing or incoming")
         tip, on = (before, behind) if orientation == "outgoing" else (behind, before)
         course = connections[0].get("course", "")
+        if course in OTHER_COURSE and switch.get("trackContinueCourse") == course:
+            what = f"its track goes on to the {course}, and so does its branch"
+            raise self.source.bad(switch, what, "correct trackContinueCourse, or the course of its connection")
         branch, through = (course, OTHER_COURSE[course]) if course in OTHER_COURSE else ("branch", "through")
         kind = Kind(("tip", branch, through), {each: (("tip", each),) for each in (branch, through)})
         ports = {"tip": tip, branch: self._met(connections[0]), through: on}
@@ -221,9 +227,8 @@ class Connections:
         self, crossing: Element, connections: Mapping[str, Element], done: set[str]
     ) -> tuple[End, ...] | None:
         """The ends of the other track, where that tells the same crossing and both refer to each other."""
-        owners = {self._partner(each)[1].owner for each in connections.values()}
-        (first, *more) = owners
-        if more or kind_of(first) != "crossing" or first is crossing:
+        first, second = (self._partner(connections[each])[1].owner for each in ("incoming", "outgoing"))
+        if first is not second or kind_of(first) != "crossing" or first is crossing:
             return None
         track = next(track for track, crossed in self.cut if crossed is first)
         done.add(self.source.attribute(first, "id"))

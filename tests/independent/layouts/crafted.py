@@ -256,6 +256,9 @@ r = { from = "C", direction = "forward", to = "B", points = { P = "normal", Q = 
 s = { from = "A", direction = "backward", to = "C", points = { P = "normal" } }
 """
 """A ring whose points lie the same each time round; what stands beside it is held off by nothing."""
+NO_TRAIN = RING.replace("699_999", "4_999")
+SMALL_TRAIN = RING.replace("699_999", "5_000")
+TOO_CLEAR = NEAR.replace("reverse = 7_000, normal = 6_000", "reverse = 2_475, normal = 2_474, tip = 1")
 SHORTER = RING.replace("699_999", "700_000").replace("= []", '= "rest"')
 TURN = """
 format = "heisoku-layout-1"
@@ -287,7 +290,25 @@ out = { from = "L2", direction = "forward", to = "E" }
 """
 """A line that crosses itself on the level, its trains told to be a millimetre shorter than the loop; track apart."""
 
+ONE_NAME = """
+format = "heisoku-layout-1"
+held_by_authority = []
+[tracks]
+w = { from = "west", to = "P.normal", length_mm = 900_000, boundaries = { W = 300_000, X = 800_000 } }
+s = { from = "buffer", to = "P.reverse", length_mm = 300_000, boundaries = { S = 200_000 } }
+e = { from = "P.tip", to = "east", length_mm = 900_000, boundaries = { E = 200_000 } }
+[points]
+P = {}
+[blocks]
+in = { track = "e", at_mm = 850_000 }
+[routes]
+in = { from = "W", direction = "forward", to = "X", overlap_to = "E", points = { P = "normal" } }
+out = { from = "S", direction = "forward", to = "east", points = { P = "reverse" } }
+"""
+"""A route and a block of one name; an overlap over a point that nothing is kept off from beside."""
+
 CRAFTED = {
+    "one name.toml": ONE_NAME,
     "two legs.toml": TWO_LEGS,
     "no track.toml": NO_TRACK,
     "balloon.toml": BALLOON,
@@ -304,6 +325,9 @@ CRAFTED = {
     "metres.toml": METRES,
     "ring.toml": RING,
     "shorter.toml": SHORTER,
+    "no train.toml": NO_TRAIN,
+    "small train.toml": SMALL_TRAIN,
+    "too clear.toml": TOO_CLEAR,
     "pretzel.toml": PRETZEL,
     "turn.toml": TURN,
 }

@@ -28,26 +28,30 @@ import yaml
 
 from models.layouts import BadInput, CheckResult, Imported, check, load_text
 from models.layouts.generate import as_toml
-from tests.independent import files, raw_native, raw_railjson, raw_table
+from tests.independent import files, raw_native, raw_railjson, raw_railml, raw_railml_2, raw_table
 from tests.independent.compare import disagreements
 from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
-from tests.independent.layouts import railml_pieces
+from tests.independent.layouts import railml_2_pieces, railml_pieces
 from tests.independent.layouts.crafted import CRAFTED
+from tests.independent.layouts.dangerous import DANGERS
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station
 from tests.independent.layouts.survey import survey_text
 from tests.independent.made_up import made_up
+from tests.independent.raw_follows import differing_conflicts, differing_rests_of_routes, differing_strictly
 from tests.independent.test_edited_layouts import NEVER, edited
+from tests.layouts.railml_2_made import railml_2_of
 from tests.layouts.railml_made import railml_of
 
 PACKAGE = ROOT / "models" / "layouts"
 MODULES = (
     *("alike", "assemble", "beside", "blocks", "clearance", "conflicts", "distances", "following", "geometry"),
     *("granting", "loops", "native", "numbers", "railjson", "rests", "standing", "table", "table_layout", "track"),
-    *("railml.declared", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes", "railml.sections"),
-    *("railml.switches", "railml.topology", "railml.unread"),
+    *("checker", "conflict_pairs", "continuation", "sorts"),
+    *("railml.declared", "railml.document", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes"),
+    *("railml.sections", "railml.switches", "railml.topology", "railml.unread", "railml.version_2"),
 )
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
 STATIONS, MADE_UP, EDITED = 24, 60, 24
@@ -160,6 +164,14 @@ def planted(mutant: Mutant) -> Iterator[None]:
 
 # ---- who notices
 
+Asked = Callable[[Imported, files.Enumerated], list[str]]
+FOLLOWS: dict[str, Asked] = {
+    "checker": differing_strictly,
+    "conflict_pairs": differing_conflicts,
+    "continuation": differing_rests_of_routes,
+}
+"""Of modules whose answers are in no import and no verdict, what is asked beside them."""
+
 
 @dataclass
 class File:
@@ -189,7 +201,13 @@ class File:
                 return raw_native.enumerate_data(tomllib.loads(self.text))
             case ".yml":
                 return raw_table.enumerate_data(yaml.safe_load(self.text))
-        return None
+        return None if self.as_railjson is None else raw_railjson.enumerate_data(self.as_railjson)
+
+    @cached_property
+    def as_railjson(self) -> dict[str, Any] | None:
+        """The data of railML 2 as RailJSON has it."""
+        is_2 = self.name.endswith(".railml") and raw_railml.is_version_2(self.text)
+        return raw_railml_2.data_of(self.text) if is_2 else None
 
     @cached_property
     def unlike(self) -> list[str]:
@@ -197,9 +215,14 @@ class File:
 
     def disagree(self, imported: Imported) -> list[str]:
         """What is seen otherwise without the importer."""
-        if self.name.endswith(".railml"):
-            return railml_pieces.differing(imported, check(imported), self.text)
-        return [] if self.walked is None else disagreements(imported, check(imported), self.walked)
+        result = check(imported)
+        unlike = railml_pieces.differing(imported, result, self.text) if self.name.endswith(".railml") else []
+        unlike += [] if self.as_railjson is None else railml_2_pieces.differing(imported, self.as_railjson)
+        return unlike + ([] if self.walked is None else disagreements(imported, result, self.walked))
+
+    def follows(self, ask: Asked) -> list[str]:
+        """What follows otherwise from the import than from the walk."""
+        return [] if self.before is None or self.walked is None else ask(self.before, self.walked)
 
     @cached_property
     def hazards(self) -> int:
@@ -228,7 +251,9 @@ def corpus() -> Iterator[File]:
     """The files, those that take least first."""
     for name in SAMPLES:
         yield File(name, files.path_of(name).read_text(encoding="utf-8"))
-    yield from itertools.starmap(File, (*CRAFTED.items(), *railml_pieces.files()))
+    yield from itertools.starmap(
+        File, (*CRAFTED.items(), *dangerous(), *railml_pieces.files(), *railml_2_pieces.files())
+    )
     for number in range(EDITED):
         what, data = edited("junction.toml", NATIVE, random.Random(number))
         yield File(f"{what}.toml", as_toml(data))
@@ -238,6 +263,7 @@ def corpus() -> Iterator[File]:
         data = station(random.Random(number))
         if all(switch["switch_type"] == "point_switch" for switch in data["switches"]):
             yield File(f"station {number}.railml", railml_of(data))
+            yield File(f"station {number} in railML 2.railml", railml_2_of(data))
     for number in range(MADE_UP):
         made = made_up(random.Random(number))
         if made is not None:
@@ -253,9 +279,16 @@ def corpus() -> Iterator[File]:
             yield File(f"{what}.yml", yaml.safe_dump(data, sort_keys=False))
 
 
+def dangerous() -> Iterator[tuple[str, str]]:
+    """The files that are dangerous, by name and text."""
+    return ((name, danger.text) for name, danger in DANGERS.items())
+
+
 def reads(module: str, file: File) -> bool:
     """Whether a module has a part in importing a file."""
     kinds = {"railjson": ".json", "native": ".toml", "conflicts": ".yml", "table": ".yml", "table_layout": ".yml"}
+    if module in ("checker", "conflict_pairs", "sorts"):
+        return True
     kind = kinds.get(module, ".railml" if module.startswith("railml") else "")
     return file.name.endswith(kind) if kind else not file.name.endswith(".yml")
 
@@ -263,6 +296,10 @@ def reads(module: str, file: File) -> bool:
 def loads(file: File) -> bool:
     """Whether importer and survey can both read a file, or the plain walk too says that a route comes nowhere."""
     try:
+        if file.before is None and file.name.endswith(".railml"):
+            return raw_railml.broken(file.text) is not None
+        if file.before is None and file.name.endswith(".json") and raw_railjson.broken(json.loads(file.text)):
+            return True
         if file.before is None:
             return file.walked is not None and any(found.rule == NEVER for found in file.walked.violations)
         return file.verdict is not None and file.hazards + len(file.unlike) >= 0
@@ -280,7 +317,7 @@ def _out_of_time(*_: object) -> None:
 
 def who_notices(mutant: Mutant, known: list[File]) -> str | None:
     """Who notices a mutant first: a good file refused, the plain walk, or trains on the rails."""
-    same = True
+    same, ask = True, FOLLOWS.get(mutant.module)
     signal.signal(signal.SIGALRM, _out_of_time)
     signal.alarm(SECONDS)
     try:
@@ -289,8 +326,11 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
                 try:
                     imported = imported_or_refused(file)
                     verdict = None if imported is None else check(imported)
+                    follows = None if ask is None or file.unlike else file.follows(ask)
                 except Exception:  # whatever it is: a file that is a layout is refused
                     return "refused"
+                if follows:
+                    return "walk"
                 if (imported is None) != (file.before is None):
                     return "refused" if imported is None else "walk"
                 if imported is not None and (imported != file.before or verdict != file.verdict):

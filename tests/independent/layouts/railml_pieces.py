@@ -7,6 +7,9 @@ from itertools import combinations
 
 from models.layouts import CheckResult, Imported, load_text
 from models.layouts.conflict_pairs import Conflicts
+from tests.independent import raw_railml
+from tests.independent.layouts import survey_railml
+from tests.independent.raw_native import SLIPS_MM
 from tests.independent.raw_railml import Judged, judged
 from tests.layouts.railml_made import railml_of
 from tests.layouts.stations import plain_station, railjson_of
@@ -17,6 +20,9 @@ TRACKS = """<track id="trk"><linearLocation><associatedNetElement netElementRef=
 <track id="both"><linearLocation><associatedNetElement netElementRef="t1"/>
 <associatedNetElement netElementRef="t2"/></linearLocation></track>"""
 NEAR = PLAIN.replace('netElementRef="t1" intrinsicCoord="0.100000000"', 'netElementRef="t1" intrinsicCoord="0.01"')
+OVERLAP = '<overlaps><overlap id="o" {}><activeForApproachRoute ref="a-d"/>{}</overlap></overlaps>'
+SHORT = PLAIN.replace('netElementRef="t1" intrinsicCoord="0.900000000"', 'netElementRef="t1" intrinsicCoord="0.995"')
+SHORT = SHORT.replace('netElementRef="x" intrinsicCoord="0.100000000"', 'netElementRef="x" intrinsicCoord="0.1"')
 FOREIGN = '<old:derailerIS xmlns:old="urn:old" id="ghost"/><old:odd xmlns:old="urn:old" id="odd"/>'
 
 
@@ -57,6 +63,13 @@ def pieces(following: list[tuple[str, str]], apart: list[tuple[str, str]]) -> It
         yield f"marker {track} {share} {point}", _with(_marker(track, share), _switch("", marked, point))
     for detector in "chb":
         yield f"fouling {detector}", _with("", _switch("", f'<hasFoulingTrainDetectors ref="{detector}"/>'), NEAR)
+    for length in ("5", "150", "200", "200.001", "99000"):
+        yield f"overlap {length}", _with("", OVERLAP.format(f'length="{length}"', ""))
+    for share in ("0.00499", "0.004989"):
+        yield (
+            f"overlap to {share}",
+            _with("", OVERLAP.format("", '<isLimitedBy ref="g"/>'), SHORT.replace("0.1", share)),
+        )
     yield "unread", _with(f'<derailerIS id="der"/><derailerIS id="two"/><keyLockIS id="key"/>{FOREIGN}', "")
     told = {
         "all": following,
@@ -113,6 +126,9 @@ def differing(imported: Imported, result: CheckResult, text: str) -> list[str]:
     found = []
     if ours.unread != theirs.unread:
         found.append(f"unread: {theirs.unread} is not {ours.unread}")
+    found += _overlaps(imported, result, text)
+    if ours.no_main != theirs.no_main:
+        found.append(f"no main signals: {theirs.no_main} is not {ours.no_main}")
     if ours.wrong != theirs.wrong:
         found.append(f"wrong: {theirs.wrong} is not {ours.wrong}")
     if legs != {leg: ours.legs[leg] for leg in known}:
@@ -122,6 +138,18 @@ def differing(imported: Imported, result: CheckResult, text: str) -> list[str]:
     return found
 
 
+def _overlaps(imported: Imported, result: CheckResult, text: str) -> list[str]:
+    """Overlaps that end elsewhere than by a walk on from the exit, or are shorter than a train slips and not told."""
+    if raw_railml.is_version_2(text) or imported.told is None or "<overlap " not in text:
+        return []
+    marks, again = survey_railml.survey(text).marks, survey_railml.overlaps(text)
+    ends = {each.name: marks[each.overlap] for each in imported.told.routes if each.overlap is not None}
+    short = {v.elements[0] for v in result.violations if v.axiom == "an overlap is longer than a train slips"}
+    found = [f"overlaps end at {ends} and not {again}"] if ends != {name: at for name, (at, _) in again.items()} else []
+    told = {name for name, (_, long_mm) in again.items() if long_mm < SLIPS_MM}
+    return found + ([f"short overlaps: {short} is not {told}"] if short != told else [])
+
+
 def _of(imported: Imported, result: CheckResult) -> Judged:
     """The same of what was imported."""
     rules = ("a switch has one left and one right branch", "a detector that fouls a point lies at its block")
@@ -129,4 +157,5 @@ def _of(imported: Imported, result: CheckResult) -> Judged:
     unread = {
         each for rest in result.rests if rest.kind == "unread" for instance in rest.instances for each in instance
     }
-    return Judged({each.partition(" in line ")[0] for each in unread}, wrong)
+    no_main = {str(each) for remark in result.remarks if "no main signals" in remark.text for each in remark.elements}
+    return Judged({each.partition(" in line ")[0] for each in unread}, wrong, no_main=no_main)

@@ -1,6 +1,6 @@
 """A layout file surveyed: rails, boundaries and what each route is to run over, read off the file alone.
 
-Nothing here is of the project's own importer.  RailJSON, the native format, railML 3 and interlocking tables all
+Nothing here is of the project's own importer.  RailJSON, the native format, railML and interlocking tables all
 come out as the same rails (:class:`Network`); a route is where it is entered, its points and where it ends.
 """
 
@@ -14,7 +14,7 @@ from typing import Any
 
 import yaml
 
-from tests.independent import raw_native, raw_railjson
+from tests.independent import raw_native, raw_railjson, raw_railml, raw_railml_2
 from tests.independent.layouts import survey_railml, survey_table
 from tests.independent.layouts.rails import Line, Survey
 from tests.independent.raw_graph import Network, Place
@@ -24,7 +24,7 @@ CLEAR_MM = 20_000
 
 
 def survey_file(path: Path) -> Survey:
-    """The rails and routes of a file of any of the four formats."""
+    """The rails and routes of a file of any of the formats."""
     return survey_text(path.name, path.read_text(encoding="utf-8"))
 
 
@@ -37,7 +37,7 @@ def survey_text(name: str, text: str) -> Survey:
             return of_native(tomllib.loads(text))
         case ".yml":
             return survey_table.survey(yaml.safe_load(text))
-    return survey_railml.survey(text)
+    return of_railjson(raw_railml_2.data_of(text)) if raw_railml.is_version_2(text) else survey_railml.survey(text)
 
 
 def of_railjson(data: Mapping[str, Any]) -> Survey:

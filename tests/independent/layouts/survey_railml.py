@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import hypot, isclose
 from xml.etree import ElementTree
 
-from tests.independent.layouts.rails import Line, Survey
+from tests.independent.layouts.rails import Line, Survey, run
 from tests.independent.raw_graph import Closed, Cut, End, Junction, Network, Over, Place, Stop
 
 CLEAR_MM = 20_000
@@ -166,6 +166,51 @@ def _line(source: Document, found: Survey, spots: Spots, route: Element) -> dict
         if all(points.get(point, at) == at for point, at in given.items())
     ]
     return {name: lines[0]} if len(lines) == 1 else {}
+
+
+def overlaps(text: str) -> dict[str, tuple[tuple[str, int], int]]:
+    """Route -> where its overlap ends, and how long that is: the first boundary that limits it or lies so far on.
+
+    Of sections, and where a point that is not told leads two ways, nothing is said.
+    """
+    source, surveyed = Document(text), survey(text)
+    found: dict[str, tuple[tuple[str, int], int]] = {}
+    for overlap in source.all("overlap"):
+        limits = {source.on_track(source.by_id[each.get("ref", "")]) for each in source.all("isLimitedBy", overlap)}
+        least_mm = round(float(overlap.get("length", "0")) * 1_000)
+        ends = {surveyed.marks[name] for name in limits}
+        named = [each.get("ref", "") for each in source.all("activeForApproachRoute", overlap)]
+        for route in named if ends or least_mm else ():
+            line = surveyed.lines[route]
+            arrived = run(surveyed.network, line.entry, line.positions, line.last).at
+            end = None if arrived is None else _end_of(surveyed.network, arrived, line.positions, ends, least_mm)
+            if end is not None:
+                found.setdefault(route, end)
+    return found
+
+
+def _end_of(
+    network: Network, start: Place, lies: Mapping[str, str], ends: set[tuple[str, int]], least_mm: int
+) -> tuple[tuple[str, int], int] | None:
+    here, run_mm = start, 0
+
+    def position(point: str, leg: str) -> str | None:
+        ways = network.junctions[point].ways_from(leg)
+        return lies.get(point, None if len(ways) > 1 else next(iter(ways)))
+
+    for event in network.follow(start, position):
+        if isinstance(event, Over):
+            track, which = network.junctions[event.passing.junction].legs[event.passing.leg]
+            run_mm += abs((network.lengths[track] if which else 0) - here.mm)
+        elif isinstance(event, Cut | Stop):
+            run_mm += abs(event.place.mm - here.mm)
+            at = (event.place.track, event.place.mm)
+            if isinstance(event, Stop) or (at in ends if ends else run_mm >= least_mm):
+                return at, run_mm
+        else:
+            return None
+        here = event.place
+    return None
 
 
 def _ways(

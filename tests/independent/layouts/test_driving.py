@@ -161,6 +161,7 @@ SAID = {
     "short.toml": [("A", "w"), ("B", "C"), ("one", "D", "E"), ("stop", "B", "C")],
     "long.toml": [("C", "D"), ("C", "D")],
     "kilometres.toml": [("line",)],
+    "no train.toml": [()],
     "shorter.toml": [("A", "B")],
 }
 """What is wrong with a crafted layout, by its elements."""

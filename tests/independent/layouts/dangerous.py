@@ -1,0 +1,299 @@
+"""Layout files with a danger each, written down before they were ever checked, and what must be said of it.
+
+Every one was let pass once, or refused for another reason than its danger, but those that stand here for comparison.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any, NamedTuple
+
+import yaml
+
+from tests.independent.layouts.crafted import NEAR, RING
+from tests.independent.layouts.railml_2_pieces import LINE, TRACKS, changed
+
+
+class Danger(NamedTuple):
+    """A file; what is wrong with it on the track; the rule, remark or refusal that says so, and of which elements."""
+
+    text: str
+    danger: str
+    said: str
+    elements: frozenset[str]
+
+
+def _of(text: str, danger: str, said: str, *elements: str) -> Danger:
+    return Danger(text, danger, said, frozenset(elements))
+
+
+# ---- RailJSON
+
+EMPTY: dict[str, Any] = {
+    "version": "3.4.12",
+    "switches": [],
+    "extended_switch_types": [],
+    "signals": [],
+    "buffer_stops": [],
+}
+
+
+def railjson(marks: dict[str, tuple[str, float]], routes: list[tuple[str, str, str]], **more: Any) -> str:
+    """Tracks of 900 m with detectors; routes along their tracks from one detector to another, without points."""
+    tracks = dict.fromkeys(track for track, _ in marks.values())
+    ends = {name: {"type": "Detector", "id": name} for name in marks}
+    stops = {stop["id"]: {"type": "BufferStop", "id": stop["id"]} for stop in more.get("buffer_stops", [])}
+    told = [
+        {
+            "id": name,
+            "entry_point": ends[entry],
+            "exit_point": {**stops, **ends}[last],
+            "entry_point_direction": "START_TO_STOP",
+            "release_detectors": [],
+            "switches_directions": {},
+        }
+        for name, entry, last in routes
+    ]
+    data = {
+        **EMPTY,
+        "track_sections": [{"id": track, "length": 900.0} for track in tracks],
+        "detectors": [{"id": name, "track": track, "position": at} for name, (track, at) in marks.items()],
+        "routes": told,
+    }
+    return json.dumps({**data, **more})
+
+
+def switch(kind: str, **ports: tuple[str, str]) -> dict[str, Any]:
+    """One switch, of a type of the file's own."""
+    ends = {port: {"track": track, "endpoint": end} for port, (track, end) in ports.items()}
+    return {"id": "X", "switch_type": kind, "ports": ends, "group_change_delay": 0.0}
+
+
+def kind(name: str, *ways: tuple[str, str], ports: str) -> list[dict[str, Any]]:
+    """A type of switch with one group."""
+    groups = {"G": [{"src": one, "dst": other} for one, other in ways]}
+    return [{"id": name, "ports": ports.split(), "groups": groups}]
+
+
+LINE_OF_FOUR = {"A": ("t", 100.0), "B": ("t", 300.0), "C": ("t", 600.0), "D": ("t", 800.0)}
+STOPS = [{"id": "middle", "track": "t", "position": 450.0}]
+CURVES = [{"radius": 90.0, "begin": 300.0, "end": 500.0}]
+STEEP = {
+    "id": "t",
+    "length": 900.0,
+    "curves": CURVES,
+    "loading_gauge_limits": [{"category": "G1", "begin": 100.0, "end": 800.0}],
+    "slopes": [{"gradient": -45.0, "begin": 300.0, "end": 800.0}],
+}
+ONE_WAY = {"id": "B", "track": "t", "position": 300.0, "applicable_directions": "STOP_TO_START"}
+STUB = railjson(
+    {"W": ("w", 800.0), "E": ("e", 100.0), "S": ("s", 100.0)},
+    [("main", "W", "E")],
+    extended_switch_types=kind("stub", ("A", "B"), ports="A B C"),
+    switches=[switch("stub", A=("w", "END"), B=("e", "BEGIN"), C=("s", "BEGIN"))],
+)
+ANEW = railjson(
+    {"W": ("w", 800.0), "E": ("e", 100.0), "N": ("n", 800.0), "S": ("s", 100.0)},
+    [("w to s", "W", "S"), ("n to e", "N", "E")],
+    extended_switch_types=kind("crossing", ("A1", "B2"), ("A2", "B1"), ports="A1 B1 A2 B2"),
+    switches=[switch("crossing", A1=("w", "END"), B1=("e", "BEGIN"), A2=("n", "END"), B2=("s", "BEGIN"))],
+)
+CD = [{"id": name, "track": "t", "position": at} for name, (_, at) in LINE_OF_FOUR.items() if name != "B"]
+
+
+# ---- tables
+
+
+def table(*rows: dict[str, Any], **more: Any) -> str:
+    """A table of its rows."""
+    return yaml.safe_dump({"interlocking-table": list(rows), **more}, sort_keys=False)
+
+
+def row(name: str, ends: str, way: str, path: str, conflicts: str = "", **more: Any) -> dict[str, Any]:
+    """A row from signal to signal over pieces, each of a section of its own."""
+    source, destination = ends[0], ends[1]
+    pieces = path.split()
+    return {
+        "id": name,
+        "source": source,
+        "destination": destination,
+        "orientation": way,
+        "path": [{"id": f"piece {piece}"} for piece in pieces],
+        "sections": [{"id": f"section {piece}"} for piece in pieces],
+        "points": [],
+        "conflicts": [{"id": other} for other in conflicts.split()],
+        **more,
+    }
+
+
+ROWS = (
+    row("1", "AC", "up", "x y", "2 3 4"),
+    row("2", "CA", "down", "y x", "1 3 4"),
+    row("3", "AB", "up", "x", "1 2"),
+    row("4", "BC", "up", "y", "1 2"),
+)
+SKIPPED = table(
+    row("1", "AD", "up", "x z", "2 3"), row("2", "AB", "up", "x y", "1 3"), row("3", "BD", "up", "z", "1 2")
+)
+
+# ---- railML 3
+
+
+def railml(relations: str, spots: str, functional: str = "") -> str:
+    """Four net elements of 500 m, what relates them, and routes from A to B and from C to D."""
+    elements = "".join(f'<netElement id="{name}" length="500"/>' for name in "wens")
+    routes = "".join(
+        f'<route id="{one}{other}"><routeEntry id="{one}e"><refersTo ref="{one}"/></routeEntry>'
+        f'<routeExit id="{other}x"><refersTo ref="{other}"/></routeExit></route>'
+        for one, other in ("AB", "CD")
+    )
+    return (
+        '<railML xmlns="https://www.railml.org/schemas/3.1" version="3.1"><infrastructure><topology>'
+        f"<netElements>{elements}</netElements><netRelations>{relations}</netRelations></topology>"
+        f"<functionalInfrastructure>{functional}{spots}</functionalInfrastructure></infrastructure>"
+        f"<interlocking><assetsForIL>{routes}</assetsForIL></interlocking></railML>"
+    )
+
+
+def relation(name: str, one: str, other: str, way: str = "Both") -> str:
+    """The end of one net element meets the beginning of another."""
+    ends = f'<elementA ref="{one}"/><elementB ref="{other}"/>'
+    return f'<netRelation id="{name}" positionOnA="1" positionOnB="0" navigability="{way}">{ends}</netRelation>'
+
+
+def spot(name: str, track: str, share: str, more: str = "") -> str:
+    """A signal and a detector in one place."""
+    place = f'netElementRef="{track}" intrinsicCoord="{share}"'
+    return (
+        f'<signalIS id="{name}">{more}<spotLocation {place} applicationDirection="normal"/></signalIS>'
+        f'<trainDetectionElement id="{name} tags">{more}<spotLocation {place}/></trainDetectionElement>'
+    )
+
+
+BOTH = relation("we", "w", "e") + relation("ns", "n", "s")
+SPOTS = spot("A", "w", "0.8") + spot("B", "e", "0.2") + spot("C", "n", "0.8") + spot("D", "s", "0.2")
+ELSEWHERE = '<spotLocation netElementRef="w" intrinsicCoord="0.95" applicationDirection="normal"/>'
+CROSSES = '<crossing id="X"><straightBranch netRelationRef="we"/>{}</crossing>'
+CLOSED = """<track id="T"><elementState value="closed"/><linearLocation><associatedNetElement netElementRef="e"/>
+</linearLocation></track>"""
+GAUGES = """<trackElements><gaugeChanges><gaugeChange id="gauge" pos="1500" value="1067"/></gaugeChanges>
+<axleWeightChanges><axleWeightChange id="weight" pos="10"/></axleWeightChanges></trackElements><ocsElements>"""
+OFF = '<track id="T0"><state disabled="true"/>'
+
+UNREAD = "not read"
+DANGERS = {
+    "no train.toml": _of(
+        RING.replace("699_999", "1"),
+        "the longest train is told to have 1 mm, so every train is longer, and the ring of 700 m lets one meet itself",
+        "the longest train is a train",
+    ),
+    "clear at once.toml": _of(
+        NEAR.replace("reverse = 7_000, normal = 6_000", "reverse = 1, normal = 1").replace("S = 7_000", "S = 500"),
+        "both legs are told to be clear 1 mm from the point, where no two tracks are: a train behind S is foul",
+        "a leg is told to be clear where tracks are apart",
+        *("Q", "reverse"),
+    ),
+    "stop midway.json": _of(
+        railjson(LINE_OF_FOUR, [("r", "A", "middle")], buffer_stops=STOPS),
+        "a buffer stop stands in the middle of a track that goes on with detectors: trains meet at it from both sides",
+        "where the file has track go on",
+        *("middle", "t"),
+    ),
+    "stub.json": _of(
+        STUB,
+        "a leg of a switch is joined in no position: what rolls from there runs onto closed rails",
+        "port 'C' is in no group",
+    ),
+    "crossing anew.json": _of(
+        ANEW,
+        "the file makes another thing of the type called crossing: what reads as two lines across is two curves",
+        "has the id of a type that every file has",
+    ),
+    "steep.json": _of(
+        railjson(LINE_OF_FOUR, [("r", "A", "C")], track_sections=[STEEP]),
+        "45 per mille down to the exit, through a curve of 90 m, with a loading gauge limit: nothing knows of it",
+        UNREAD,
+        "t",
+    ),
+    "detector one way.json": _of(
+        railjson(LINE_OF_FOUR, [("r", "A", "B")], detectors=[ONE_WAY, *CD]),
+        "a detector counts trains of one direction alone, and bounds blocks for both",
+        UNREAD,
+        "B",
+    ),
+    "level crossing.yml": _of(
+        table({**ROWS[0], "crossings": [{"id": "road"}]}, *ROWS[1:], derailers=[{"id": "trap"}]),
+        "a row names a level crossing, the table a derailer, and nobody asks whether these are closed and off",
+        UNREAD,
+        *("1", "derailers"),
+    ),
+    "three ways.yml": _of(
+        table(*ROWS[:3], {**ROWS[3], "orientation": "Up"}),
+        "'Up' is written once for 'up': the row is taken to run another way than those that it follows",
+        "routes run one way or the other",
+        *("1", "2", "4"),
+    ),
+    "up and Up.yml": _of(
+        table(row("1", "AB", "up", "x"), row("2", "BC", "Up", "y")),
+        "'Up' is written once for 'up' where no row runs the other way",
+        "differ in case",
+        *("up", "Up"),
+    ),
+    "skips a piece.yml": _of(
+        SKIPPED,
+        "route 1 runs over y, which it does not list and so does not claim",
+        "tracks merge at a point",
+        *("1", "3", "section x", "section y", "section z"),
+    ),
+    "end joined twice.railml": _of(
+        changed(TRACKS, [('id="y-A" ref="y-B"/>', 'id="y-A" ref="y-B"/><connection id="z-A" ref="z-B"/>'), LINE]),
+        "two tracks are joined to one end of a third without a switch: they merge unseen",
+        "second connection",
+    ),
+    "both to the right.railml": _of(
+        changed(TRACKS, [('<switch id="P"', '<switch id="P" trackContinueCourse="right"')]),
+        "track and branch go on to the right at one switch: one of its positions has the other's name",
+        "and so does its branch",
+    ),
+    "gauge.railml": _of(
+        changed(TRACKS, [("<ocsElements>", GAUGES)]),
+        "the gauge changes within a route, and what axles the track carries",
+        UNREAD,
+        *("gauge", "weight"),
+    ),
+    "disabled.railml": _of(
+        changed(TRACKS, [('<track id="T0">', OFF)]),
+        "the track is out of use, and routes run over it",
+        "not in use",
+        "T0",
+    ),
+    "crossing apart.railml": _of(
+        railml(BOTH, SPOTS, CROSSES.format('<turningBranch netRelationRef="ns"/>')),
+        "two lines cross on the level; a crossing names both, no relation says that they meet: trains collide",
+        "two ends of track meet here, and none of another track",
+    ),
+    "crossing of one.railml": _of(
+        railml(BOTH, SPOTS, CROSSES.format("")),
+        "the same, and the crossing names one of the lines alone",
+        "two ends of track meet here, and none of another track",
+    ),
+    "one way.railml": _of(
+        railml(relation("we", "w", "e", "BA") + relation("ns", "n", "s"), SPOTS),
+        "track may be run over one way alone, and the route runs the other",
+        "navigable one way",
+        "we",
+    ),
+    "two places.railml": _of(
+        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "0.2", ELSEWHERE))),
+        "a signal and its detector lie in two places, 125 m apart: a train stands behind the wrong one",
+        "an element lies in one place",
+        "B",
+    ),
+    "closed.railml": _of(
+        railml(BOTH, SPOTS, CLOSED),
+        "the track that a route runs over is closed",
+        "not in use",
+        "T",
+    ),
+}
+"""Every file with what must be said of it."""

@@ -1,0 +1,42 @@
+"""Of every file that is dangerous on the track, the verdict says so: by a violation, a remark or a refusal."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from models.layouts import BadInput, check, load_text
+from tests.independent.layouts.dangerous import BOTH, DANGERS, ROWS, SPOTS, railml, table
+
+REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
+"""Files that are no layout; of a train that is none there is no element to name."""
+
+
+@pytest.mark.parametrize("name", DANGERS)
+def test_the_danger_is_said_of_the_elements(name: str) -> None:
+    text, danger, said, elements = DANGERS[name]
+    if name in REFUSED:
+        with pytest.raises(BadInput, match=re.escape(said)):
+            load_text(name, text)
+        return
+    result = check(load_text(name, text))
+    told = [(f"{each.axiom}: {each.text}", each.elements) for each in result.violations]
+    told += [(each.text, each.elements) for each in result.remarks]
+    found = {str(element) for text, named in told if said in text for element in named}
+    assert any(said in text for text, _ in told), danger
+    assert elements <= found, danger
+
+
+@pytest.mark.parametrize("name", [name for name in DANGERS if "not read" in DANGERS[name].said])
+def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
+    result = check(load_text(name, DANGERS[name].text), strict=True)
+    refused = {str(element) for each in result.violations for element in each.elements if "not read" in each.text}
+    assert refused >= DANGERS[name].elements
+
+
+@pytest.mark.parametrize(("name", "text"), [("table.yml", table(*ROWS)), ("two lines.railml", railml(BOTH, SPOTS))])
+def test_without_its_danger_nothing_of_the_kind_is_said(name: str, text: str) -> None:
+    result = check(load_text(name, text))
+    assert result.verdict == "holds"
+    assert not any(danger.said in each.text for danger in DANGERS.values() for each in result.remarks)
