@@ -99,7 +99,7 @@ def at_a_loss(text: str) -> str:
 def commanded(text: str, budget: int, seed: int, options: Mapping[str, str]) -> tuple[cvc5.Solver, Iterator[str]]:
     """A fresh cvc5 with a budget, and what it says to each command of a text, as it is asked for one after another.
 
-    What it would learn of a text before it begins leads it astray among products, and helps nowhere else.
+    What it would learn of a text before it begins leads it astray among products; no question needs it.
     """
     solver = cvc5.Solver()
     for name, value in {"rlimit": str(budget), "seed": str(seed), "static-learning": "false", **options}.items():
