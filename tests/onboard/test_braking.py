@@ -40,7 +40,7 @@ class World:
 
     def __init__(self, bounds: BrakeBounds, end_mm: int) -> None:
         self.bounds = bounds
-        self.play = Play(THEORY, Vehicle(bounds, TABLE), standing(end_mm=end_mm))
+        self.play = Play(THEORY, Vehicle(bounds, TABLE), standing(end_mm=end_mm, bounds=bounds))
 
     def cycle(
         self, speed_um_s: int, *, wide_mm: int = 0, demanded: bool = False, acknowledged: bool = False, way: int = 100

@@ -21,8 +21,8 @@ SITE = Vehicle(BOUNDS, TABLE)
 END_MM = 3_000_000
 
 
-def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
-    """A train that stands with its brake on, its head a way before the end."""
+def standing(head_mm: int = 0, end_mm: int = END_MM, bounds: BrakeBounds = BOUNDS) -> Approach:
+    """A train of such bounds that stands with its brake on, its head a way before the end."""
     return Approach(
         head_nm=head_mm * NM_A_MM,
         speed_um_s=0,
@@ -35,7 +35,7 @@ def standing(head_mm: int = 0, end_mm: int = END_MM) -> Approach:
         brake=Brake(applied=True, end_mm=end_mm, withheld=True),
         wanted=False,
         wanted_mm=0,
-        slowing=slowing.at_rest(BOUNDS, head_mm * NM_A_MM, end_mm),
+        slowing=slowing.at_rest(bounds, head_mm * NM_A_MM, end_mm),
     )
 
 
