@@ -34,6 +34,15 @@ EXCESS = 1.05
 """A driver may exceed a limit by so much before the line's train protection brakes (ours, typical)."""
 
 
+OWN_WAY_M = 5.0
+"""A train's own range reaches so far to either side of its head: a tag each few hundred metres, and a wheel (ours)."""
+OWN_SPEED_M_S = 0.3
+"""And its speed's range so far to either side, by wheel and inertial sensor (ours)."""
+CEILING_OVER_M_S = 1.0
+"""A promised ceiling is so much above what the driver keeps to: 0.3 m/s of the speed's range, and what a train gains in
+the three quarters of a second until its supervision has cut traction off (ours)."""
+
+
 @dataclass(frozen=True)
 class Kind:
     """One kind of train.
@@ -62,6 +71,8 @@ class Trial:
     ``likely_m_s2``: what the paper's reckoning takes a train to gain from a standstill: 3.3 km/h/s (practice).
     ``brakes_m_s2``: the most that a driver slows down by (practice).
     ``loss``: seconds in which none of the radios in reach brings a ranging.
+    ``own_way_error_m``, ``own_speed_error_m_s``: of the range that a train that promises tells in place of a ranging.
+    ``ceiling_over_m_s``: what it promises is so much above what its driver keeps to.
     """
 
     name: str
@@ -82,6 +93,9 @@ class Trial:
     excess: float = EXCESS
     likely_m_s2: float = 0.92
     brakes_m_s2: float = 1.2
+    own_way_error_m: float = OWN_WAY_M
+    own_speed_error_m_s: float = OWN_SPEED_M_S
+    ceiling_over_m_s: float = CEILING_OVER_M_S
 
     @property
     def way_error_m(self) -> float:
