@@ -82,6 +82,8 @@ DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "crossing.let_go": "the crossing lets no train start too soon: that is its decision",
+    "arrival.acknowledge": "the crossing lets no train go faster that is due even so: that is its decision",
+    "due.acknowledge": "the crossing lets no train go faster that is not far even so: that is its decision",
     "interlocking.correct_statement": "the first person reads off what the unit shows: what it shows is its decision",
     "interlocking.relay_order": "a unit relays what it decides to relay",
     "interlocking.start_rolling": "the brake takes the end that the unit works out, as the joint proves",
@@ -93,6 +95,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
         "begins_mm": "where the lists of the train's runs begin: what its unit was given",
         "block_ends_mm": "where the blocks of those lists end: what its unit was given",
     },
+    "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
 }
 """Fields of a state, by theory, that are what a machine was told, though no record of the kernel holds them; why."""
 

@@ -58,7 +58,7 @@ def keep(run: Any, train: int, noted: Any) -> None:
 @compiled
 def forget_promise(run: Any, line: Any, train: int, kind: Any) -> None:
     """Let the crossing forget, as it does of a new contact and at a restart."""
-    keep(run, train, nothing_promised(line.line_um[kind] // CYCLE_MS))
+    keep(run, train, nothing_promised(-(-line.line_um[kind] // CYCLE_MS)))
 
 
 @compiled
@@ -74,7 +74,7 @@ def promises(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> N
         ceiling_m_s = line.limit_m_s[kind] * day.trains[train].share + line.ceiling_over_m_s
         held = lower(held, min(held.ceiling_mm_s, 1 + int(1e3 * ceiling_m_s)), speed_most_mm_s)
         out[PROMISED] += held.number > before
-    elif run[train].asks == 0 and run[train].way_um <= day.trains[train].asks_um:
+    elif run[train].asks == 0 and 0 < run[train].way_um <= day.trains[train].asks_um:
         run[train].asks = 1
         held = ask(line.line_um[kind] // CYCLE_MS, held, line.line_um[kind] // CYCLE_MS)
         out[ASKED] += held.number > before

@@ -11,7 +11,6 @@ from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE, NOTHING
 from models.crossing.motion import arrives_by_likely_reckoning
-from models.crossing.sites import SETTINGS
 from models.crossing.traffic import POOL
 
 Ranging = MADE.arrival.Ranging
@@ -107,4 +106,4 @@ def likely(day: Any, run: Any, line: Any, train: int, told: Any) -> Any:
     way_error_m, speed_error_m_s = errors(day, line, train)
     way_m = told.way_mm / 1e3 + way_error_m
     speed_m_s = told.speed_mm_s / 1e3 - speed_error_m_s
-    return arrives_by_likely_reckoning(line, day.trains[train].local, way_m, speed_m_s, SETTINGS.warning_cycles)
+    return arrives_by_likely_reckoning(line, day.trains[train].local, way_m, speed_m_s, line.warning_cycles)

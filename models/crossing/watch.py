@@ -73,6 +73,7 @@ LINE = np.dtype(
         *((name, np.float64, (2,)) for name in ("limit_m_s",)),
         *((name, np.int64, (2,)) for name in ("length_um", "stops", "line_um", "start_um", "old_um")),
         *((name, np.int64) for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s")),
+        *((name, np.int64) for name in ("warning_cycles", "start_cycles")),
         *((name, np.float64) for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s")),
         *((name, np.float64) for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2")),
         *((name, np.float64) for name in OWN),
@@ -130,6 +131,8 @@ def line_of(trial: Trial) -> Any:
     line["old_um"] = [trial.conventional_um(kind) for kind in kinds]
     for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s"):
         line[name] = getattr(trial.bounds(kinds[0]), name)
+    for name in ("warning_cycles", "start_cycles"):
+        line[name] = getattr(trial.settings, name)
     for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s"):
         line[name] = getattr(trial, name)
     for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2", *OWN):
@@ -144,7 +147,7 @@ def bounds_of(line: Any, kind: Any) -> Any:
         line.line_um[kind],
         line.gain_um,
         SET.cycle_ms,
-        SET.warning_cycles,
+        line.warning_cycles,
         line.silence_cycles,
         line.way_spread_mm,
         line.speed_spread_mm_s,
@@ -161,7 +164,7 @@ def run_of(day: Day, line: Any) -> Records:
     for name in ("sent_number", "last_number"):
         run[name] = NEVER
     for name in ("held_mm_s", "held_asked_mm_s", "noted_mm_s", "noted_asked_mm_s"):
-        run[name] = line["line_um"][day.trains["local"]] // SETTINGS.cycle_ms
+        run[name] = -(-line["line_um"][day.trains["local"]] // SETTINGS.cycle_ms)
     return run
 
 
@@ -353,7 +356,7 @@ def note_opening(run: Any, crossing: Any, window: Any) -> None:
 
 
 @compiled
-def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
+def judge_trains(day: Any, run: Any, line: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
     """Hold arrivals and openings against what is claimed; give how many arrived (X2 to X5)."""
     arrivals = 0
     for train in range(window[track, 0], window[track, 1]):
@@ -369,16 +372,16 @@ def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: 
         arrivals += 1
         out[IN_CONTACT] += run[train].contact == 1 and run[train].lost == 0
         out[CONVENTIONAL] += run[train].contact == 0
-        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < SET.start_cycles
-        out[LATE_WARNING] += moment.warned <= SET.warning_cycles
+        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < line.start_cycles
+        out[LATE_WARNING] += moment.warned <= line.warning_cycles
         out[SHORT_CLOSURE] += moment.down < LEAST_DOWN_S
-        least_cycles = SET.warning_cycles + SET.reopening_cycles
+        least_cycles = line.warning_cycles + SET.reopening_cycles
         out[LIFTED_BETWEEN] += run[train].was_known == 1 and moment.opened <= least_cycles
         if run[train].likely_s >= 0 and day.trains[train].radio == 1:
-            out[LIKELY_LATE] += now - run[train].likely_s < SET.warning_cycles
+            out[LIKELY_LATE] += now - run[train].likely_s < line.warning_cycles
         if run[train].asked_s >= 0:
-            out[BEYOND] += now - run[train].asked_s - SET.warning_cycles
-        out[OLD_BEYOND] += now - run[train].old_s - SET.warning_cycles
+            out[BEYOND] += now - run[train].asked_s - line.warning_cycles
+        out[OLD_BEYOND] += now - run[train].old_s - line.warning_cycles
     return arrivals
 
 
@@ -480,7 +483,7 @@ def live(
         arrivals = 0
         for track in range(TRACKS):
             run_trains(day, run, line, window, track, out)
-            arrivals += judge_trains(day, run, window, track, now, moment, out)
+            arrivals += judge_trains(day, run, line, window, track, now, moment, out)
         old_on, off_s = old_crossing(run, window, moment, out)
         out[ARRIVALS] += arrivals
         moment = Moment(
