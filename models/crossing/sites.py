@@ -72,7 +72,7 @@ class Trial:
     ``brakes_m_s2``: the most that a driver slows down by (practice).
     ``loss``: seconds in which none of the radios in reach brings a ranging.
     ``own_way_error_m``, ``own_speed_error_m_s``: of the range that a train that promises tells in place of a ranging.
-    ``warning_s``: the crossing's warning time; ``settings`` are those of it.
+    ``warning_s``: the crossing's warning time; ``settings`` are those of it.  The old crossing's is always 35 s.
     ``ceiling_over_m_s``: what it promises is so much above what its driver keeps to.
     """
 
@@ -122,13 +122,14 @@ class Trial:
 
     @property
     def way_spread_m(self) -> float:
-        """The width of a ranging's error: as much to either side."""
-        return 2 * self.way_error_m
+        """The width of a ranging's error, or of a train's own range: as much to either side."""
+        return 2 * max(self.way_error_m, self.own_way_error_m)
 
     @property
     def speed_spread_m_s(self) -> float:
         """The width of a speed's error: noise to either side, and that its mean lags, gaining or braking."""
-        return 8 * self.speed_sigma_m_s + self.gain_m_s2 + self.brakes_m_s2
+        noise_m_s = max(8 * self.speed_sigma_m_s, 2 * self.own_speed_error_m_s)
+        return noise_m_s + self.gain_m_s2 + self.brakes_m_s2
 
     def bounds(self, kind: Kind) -> ArrivalBounds:
         """What the kernel holds a kind of train to: the train's identification tells its kind (003, 2.4)."""
@@ -149,7 +150,7 @@ class Trial:
     def conventional_um(self, kind: Kind) -> int:
         """Where the old crossing's start point lies: the warning time at the greatest speed of who strikes it."""
         fastest = kind if self.tells_kinds else max((self.express, self.local), key=lambda each: each.limit_m_s)
-        return round(1e6 * self.warning_s * fastest.limit_m_s)
+        return round(1e6 * WARNING_S * fastest.limit_m_s)
 
 
 HOURS = tuple(range(5, 24))

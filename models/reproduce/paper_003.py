@@ -225,9 +225,9 @@ def rows_of(number: int, paper: Trials, found: Measured) -> tuple[Row, ...]:
 
 
 def shorter(number: int, site: Trial, seed: int) -> tuple[Row, ...]:
-    """What is saved with a warning time of 30 s, old start points and all: a sensitivity (ours)."""
+    """What is saved with a warning time of 30 s against old start points as they are: a sensitivity (ours)."""
     found = measured(replace(site, warning_s=SHORTER_S), seed, 1)
-    at = f"trial {number}: at {SHORTER_S} s of warning, trains as at {WARNING_S} s, "
+    at = f"trial {number}: at {SHORTER_S} s of warning, old start points as at {WARNING_S} s, "
     return (
         *(
             Row(at + f"saving, {HOW[how]}", "ours", "not given", f"{found.saved(how).mean():.1f} s", None,

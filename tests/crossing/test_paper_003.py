@@ -28,7 +28,7 @@ def test_the_paper_is_reproduced() -> None:
         saved_s = float(rows[f"trial {number}: least saving, the kernel, all trains promise"]["ours"].split()[0])
         assert saved_s > (20.0, 1.5)[number - 1]
         assert rows[f"trial {number}: saving, the kernel, all trains promise"]["agrees"] is (number == 1)
-        at = f"trial {number}: at 30 s of warning, trains as at 35 s, "
+        at = f"trial {number}: at 30 s of warning, old start points as at 35 s, "
         assert rows[at + "least time from warning to arrival, the kernel"]["agrees"] is True
     assert found.parameters["promises"].startswith("a ceiling")
     assert all(row["paper"] and row["ours"] and row["criterion"] for row in record["rows"])
