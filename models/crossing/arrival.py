@@ -236,7 +236,7 @@ def acknowledge(site: Crossing, system: Coming, asked_um: int) -> Coming:
     followed = arrival.held_to(site.bounds, system.followed, asked_um)
     return replace(
         system,
-        ceiling_um=asked_um,
+        ceiling_um=followed.ceiling_um,
         followed=followed,
         worst=followed,
         left_cycles=site.bounds.warning_cycles + 2,

@@ -141,7 +141,7 @@ def acknowledge(site: Way, system: Answered, asked_um: int) -> Answered:
     followed = arrival.held_to(site.bounds, system.followed, asked_um)
     return replace(
         system,
-        ceiling_um=asked_um,
+        ceiling_um=followed.ceiling_um,
         followed=followed,
         worst=followed,
         left_cycles=secured_cycles(site.settings.warning_cycles, reopening_cycles, Due.FAR),

@@ -36,14 +36,6 @@ class Promising:
     acknowledged: frozenset[int]
 
 
-# ---- premises
-
-
-def the_line_has_a_speed(site: Line) -> bool:
-    """Trains move (X2)."""
-    return site.line_mm_s > 0
-
-
 # ---- assumptions
 
 

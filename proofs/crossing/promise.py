@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from models.crossing import promise as world
-from models.crossing.promise import Line, Promising, the_line_has_a_speed
+from models.crossing.promise import Line, Promising
 from proofs.theory import Theory, by_name
 
 
@@ -118,7 +118,6 @@ INVARIANTS = (
     only_what_is_heard_first_may_have_been_acknowledged,
     what_was_acknowledged_is_noted,
 )
-PREMISES = (the_line_has_a_speed,)
 STEPS = (
     world.run,
     world.lower,
@@ -138,6 +137,5 @@ THEORY = Theory(
     by_name(INITIAL),
     by_name(INVARIANTS),
     by_name(SAFETY),
-    by_name(PREMISES),
     quantified=True,
 )
