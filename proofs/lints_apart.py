@@ -82,8 +82,6 @@ DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "crossing.let_go": "the crossing lets no train start too soon: that is its decision",
-    "arrival.acknowledge": "the crossing lets no train go faster that is due even so: that is its decision",
-    "due.acknowledge": "the crossing lets no train go faster that is not far even so: that is its decision",
     "interlocking.correct_statement": "the first person reads off what the unit shows: what it shows is its decision",
     "interlocking.relay_order": "a unit relays what it decides to relay",
     "interlocking.start_rolling": "the brake takes the end that the unit works out, as the joint proves",

@@ -231,7 +231,9 @@ def acknowledge(site: Crossing, system: Coming, asked_um: int) -> Coming:
 
     Here for the warning alone: without a least opening of the road in mind.
     """
-    if not system.decided or not machine.may_go_faster(site.bounds, system.followed, asked_um, 0):
+    if a_decision_begins_each_cycle(system):
+        return system
+    if not machine.may_go_faster(site.bounds, system.followed, asked_um, 0):
         return system
     followed = arrival.held_to(site.bounds, system.followed, asked_um)
     return replace(
