@@ -92,3 +92,11 @@ TRAM_DISPLAY: Mapping[str, tuple[Memory, str]] = {
     "made_ms": (Memory.LOST, "now_ms"),
 }
 """A tram's display: nothing survives (`kernel.tram.display.begun`)."""
+
+ALARM_UNIT: Mapping[str, tuple[Memory, str]] = {
+    "place_mm": (Memory.LOST, "GREATEST_PLACE_MM + 1"),
+    "age_ms": (Memory.LOST, "GREATEST_AGE_MS + 1"),
+    "direction": (Memory.LOST, "Direction.UNKNOWN"),
+    "is_running": (Memory.LOST, "False"),
+}
+"""The unit that sends a train's place to the track worker's alarm: no fix (`kernel.alarm.distance.NO_TRAIN_FIX`)."""

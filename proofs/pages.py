@@ -11,6 +11,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from kernel import persistence
+from kernel.alarm.distance import TrainFix
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
@@ -72,6 +73,10 @@ TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
     " those to a unit that has been swapped for a spare one, which starts in the same way."
 )
+ALARM_UNIT = (
+    "Nothing survives. The receiver may have hung before the start, and nobody knows since when it has told its place:"
+    " the first place after a start is no fix until another is told, to the millimetre."
+)
 
 
 def persistence_page() -> str:
@@ -94,6 +99,7 @@ def persistence_page() -> str:
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
+        ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),
     ):
         said = described(state)
         lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]

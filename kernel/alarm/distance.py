@@ -76,9 +76,11 @@ class WorkerFix:
     age_ms: int
 
 
-NO_TRAIN_FIX = TrainFix(place_mm=0, age_ms=GREATEST_AGE_MS + 1, direction=Direction.UNKNOWN, is_running=False)
+NO_TRAIN_FIX = TrainFix(
+    place_mm=GREATEST_PLACE_MM + 1, age_ms=GREATEST_AGE_MS + 1, direction=Direction.UNKNOWN, is_running=False
+)
 NO_WORKER_FIX = WorkerFix(place_mm=0, age_ms=GREATEST_AGE_MS + 1)
-"""Before the first fix: nothing is known (A8)."""
+"""Before the first fix, and after a start: nothing is known (A8).  No place that can be is that of a train."""
 
 
 def is_fix(place_mm: int, age_ms: int) -> bool:
@@ -108,7 +110,10 @@ def fix_of_the_unit(held: TrainFix, told: TrainFix) -> TrainFix:
 
     A place told again, to the mm, is no new fix: the receiver hangs, and so may the speed and direction that it tells.
     It is as old as when it was told first, and goes on until it is too old to count.  ``held``: as old as it is now.
+    The first place after a start is none until another is told: nobody knows since when the receiver has told it.
     """
+    if not is_fix(held.place_mm, 0):
+        return replace(told, age_ms=NO_TRAIN_FIX.age_ms)
     return replace(told, age_ms=held.age_ms) if told.place_mm == held.place_mm else told
 
 

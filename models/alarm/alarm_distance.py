@@ -147,6 +147,11 @@ def receive(site: Line, system: Lookout, place_mm: int, direction: Direction, is
     return replace(system, received_mm=place_mm, unit=distance.fix_of_the_unit(system.unit, told))
 
 
+def restart(site: Line, system: Lookout) -> Lookout:
+    """The unit on board starts anew, at any moment; its receiver goes on, right or hung (A1, A8)."""
+    return replace(system, unit=distance.NO_TRAIN_FIX)
+
+
 def take_train_fix(site: Line, system: Lookout, fix: TrainFix, at_um: int) -> Lookout:
     """A report of the train arrives; ``at_um``: where its antenna really was (A1).
 

@@ -54,10 +54,10 @@ class OfTrain:
 
 
 NOTHING_TOLD = OfTrain(
-    fix=TrainFix(place_mm=0, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
+    fix=TrainFix(place_mm=1_000_000_001, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
     display=Display(from_mm=0, to_mm=0, age_ms=3_600_001),
     jumped=False,
-    newest=TrainFix(place_mm=0, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
+    newest=TrainFix(place_mm=1_000_000_001, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
 )
 """Of a train that the list has just named."""
 

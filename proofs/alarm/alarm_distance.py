@@ -12,6 +12,7 @@ from models.alarm.alarm_distance import (
     no_train_is_longer_than_written,
     no_train_turns_sooner,
     receive,
+    restart,
     run_on,
     take_train_fix,
     take_worker_fix,
@@ -32,7 +33,7 @@ def nothing_was_told(site: Line, system: Lookout) -> bool:
         and not is_report(system.worker.place_mm, system.worker.age_ms)
         and not is_report(system.told.place_mm, system.told.age_ms)
         and not is_report(system.unit.place_mm, system.unit.age_ms)
-        and system.unit.place_mm == system.received_mm
+        and not is_report(system.unit.place_mm, 0)
     )
 
 
@@ -96,8 +97,8 @@ def what_is_held_was_told(site: Line, system: Lookout) -> bool:
 
 
 def the_unit_holds_what_was_received(site: Line, system: Lookout) -> bool:
-    """The unit holds the place that its receiver told last (A1)."""
-    return system.unit.place_mm == system.received_mm
+    """The unit holds the place that its receiver told last, or has started and holds none that can be (A1)."""
+    return system.unit.place_mm == system.received_mm or not is_report(system.unit.place_mm, 0)
 
 
 def a_told_direction_still_holds(site: Line, system: Lookout) -> bool:
@@ -120,7 +121,7 @@ INVARIANTS = (
     a_told_direction_still_holds,
 )
 PREMISES = (no_train_is_longer_than_written,)
-STEPS = (run_on, receive, take_train_fix, take_worker_fix)
+STEPS = (run_on, receive, restart, take_train_fix, take_worker_fix)
 
 THEORY = Theory(
     "alarm_distance",

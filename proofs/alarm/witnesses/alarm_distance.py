@@ -309,6 +309,7 @@ def what_is_no_report_never_becomes_one() -> None:
 def a_receiver_that_hangs_makes_no_new_fix() -> None:
     """Its place grows old, running or not, until it is none; the first place that is another is new (A1)."""
     day = Watch(1_000_000)
+    day.step("receive", place_mm=1_000_001, direction=DOWN, is_running=True)
     for place_mm, running in ((1_000_000, True), (1_000_000, True), (1_000_000, False)):
         day.step("receive", place_mm=place_mm, direction=DOWN, is_running=running)
         age_ms = (day.system.antenna_um - UM_A_MM * 1_000_000) // 27_000
@@ -328,8 +329,32 @@ def a_receiver_that_hangs_makes_no_new_fix() -> None:
         assert day.system.unit.age_ms == 0
 
 
+def a_receiver_that_hangs_makes_none_through_a_start() -> None:
+    """After each start its place is none, however often it is told; the first that is another counts at once (A1)."""
+    day = Watch(1_000_000)
+    day.step("receive", place_mm=1_000_000, direction=DOWN, is_running=True)
+    day.step("receive", place_mm=1_000_001, direction=DOWN, is_running=True)
+    assert day.system.unit == TrainFix(1_000_001, 0, DOWN, is_running=True)
+    for _ in range(3):
+        day.run(9_000, DOWN)
+        day.step("restart")
+        assert day.system.unit == NO_TRAIN_FIX
+        for _ in range(2):
+            day.step("receive", place_mm=1_000_001, direction=DOWN, is_running=True)
+            assert day.system.unit == TrainFix(1_000_001, GREATEST_AGE_MS + 1, DOWN, is_running=True)
+            day.run(1_000, DOWN)
+    here_mm = day.system.antenna_um // UM_A_MM
+    day.step("receive", place_mm=here_mm, direction=DOWN, is_running=True)
+    assert day.system.unit == TrainFix(here_mm, 0, DOWN, is_running=True)
+    assert not machine.is_fix(NO_TRAIN_FIX.place_mm, 0)
+    assert not machine.is_fix(0, NO_TRAIN_FIX.age_ms)
+    for edge_mm in (-GREATEST_PLACE_MM, GREATEST_PLACE_MM):
+        assert machine.fix_of_the_unit(TrainFix(edge_mm, 5, DOWN, is_running=True), day.system.unit) == day.system.unit
+
+
 WITNESSES = (
     a_receiver_that_hangs_makes_no_new_fix,
+    a_receiver_that_hangs_makes_none_through_a_start,
     what_is_no_report_never_becomes_one,
     a_train_comes_passes_and_goes,
     the_deductions_are_all_made,
