@@ -74,6 +74,12 @@ def source(row: str, column: str) -> Source:
     """Tell where the claim of an obligation stands: the predicate's lines, or the transition's."""
     theory, name = theory_of(row)
     function = theory.steps[name] if column == EVERY_LOOKUP_IS_DEFINED else theory.said(column)
+    return place_of(function)
+
+
+@cache
+def place_of(function: Callable[..., object]) -> Source:
+    """Tell where a function stands."""
     lines, first = inspect.getsourcelines(function)
     path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
     return {"file": str(path), "lines": (first, first + len(lines) - 1)}

@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import metadata
 from typing import Literal
 
@@ -32,6 +33,7 @@ class Reply:
     seconds: float
 
 
+@cache
 def version(solver: str) -> str:
     """Give the version of a solver."""
     return metadata.version({"z3": "z3-solver"}.get(solver, solver))
