@@ -14,6 +14,7 @@
 # make papers   the papers' figures beside ours, with pictures
 # make test     ruff, mypy, pytest; make slow: tests that take longer, of which these have samples
 # make bench    print the measured figures
+# make kept     how long a daily proof takes with answers kept, after 30 changes of one line; CHANGES=10 for fewer
 #
 # Needs Python 3.11 or later and make; everything else is installed into .venv, once.
 
@@ -40,13 +41,14 @@ CERTIFICATES ?= 150
 BEYOND ?= 128
 FILES  ?= 10000
 RUNS   ?= 500
+CHANGES ?= 30
 BATCHES ?= 8
 # So many simulated hours in all, on these layouts.
 HOURS ?= 240
 LINES ?= $(foreach seed,1 2 3,out/networks/$(seed).toml)
 
 .DELETE_ON_ERROR:
-.PHONY: help interruptions assure record prove certify certificates check ride days fuzz lines beyond papers mutate mutants joints cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
+.PHONY: help interruptions assure record prove certify certificates check ride days fuzz lines beyond papers kept mutate mutants joints cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
 
 help:
 	@sed -n '/^#/!q;s/^# \{0,1\}//p' Makefile
@@ -180,6 +182,9 @@ pages: setup
 
 bench: setup
 	$(BIN)/python -m tests.bench
+
+kept: setup
+	$(BIN)/python -m tests.bench_kept_proofs --changes $(CHANGES)
 
 # A second opinion on the lifter: contracts checked on the real bytecode.
 crosshair: $(VENV)/.crosshair $(VENV)/.project

@@ -36,7 +36,6 @@ from models.commands import (
     complain,
     console,
     metres,
-    pattern,
     print_line,
     progress,
     record_alone,
@@ -48,6 +47,7 @@ from models.layouts.export.command import export
 from models.layouts.measures import CLEARANCE_MM
 from models.streams import outlet, write_whole
 from proofs.certificates.command import certify
+from proofs.command import prove
 from proofs.mutants.command import mutate
 from proofs.records import about, write_json
 
@@ -62,14 +62,6 @@ app = typer.Typer(
     help="A railway safety kernel without track circuits, proved once for every layout.\n\n"
     "Exit codes: 0 holds, 1 does not hold, 2 bad input or usage, 3 undecided.",
 )
-
-
-class Solvers(StrEnum):
-    """Which solvers to ask."""
-
-    z3 = "z3"
-    cvc5 = "cvc5"
-    both = "both"
 
 
 class Paper(StrEnum):
@@ -92,7 +84,6 @@ class Day(StrEnum):
 
 Layouts = Annotated[list[Path], typer.Argument(metavar="LAYOUT", help="Layout files.", show_default=False)]
 Layout = Annotated[Path, typer.Argument(metavar="LAYOUT", help="A layout file.", show_default=False)]
-JUnit = Annotated[Path | None, typer.Option("--junit", metavar="F", help="Write JUnit XML there.", show_default=False)]
 
 
 @app.callback()
@@ -101,53 +92,7 @@ def options(version: Version = False) -> None:
     record_alone(None)
 
 
-@app.command()
-def prove(
-    json: Json = None,
-    junit: JUnit = None,
-    solver: Annotated[Solvers, typer.Option(help="Which solver to ask.")] = Solvers.z3,
-    jobs: Jobs = EVERY_CORE,
-    seeds: Annotated[int, typer.Option(metavar="N", min=1, help="Seeds to repeat every obligation with.")] = 1,
-    only: Annotated[
-        str | None,
-        typer.Option(metavar="PATTERN", help='Only obligations, as "row column", that match.', show_default=False),
-    ] = None,
-    keep: Annotated[
-        Path | None,
-        typer.Option(metavar="DIR", help="Keep the SMT-LIB text of every obligation there.", show_default=False),
-    ] = None,
-    whole: Annotated[
-        bool, typer.Option("--whole", help="Print what the theorem rests on, as a tree, and no matrix.")
-    ] = False,
-) -> None:
-    """Prove the kernel: every transition keeps every invariant, on every layout.
-
-    Examples:
-
-    * `heisoku prove`
-    * `heisoku prove --solver both --json out/prove.json --junit out/prove.xml`
-    * `heisoku prove --only "^request " --seeds 10`
-    * `heisoku prove --whole`
-    """
-    from proofs.chain import print_chain
-    from proofs.junit import write_junit
-    from proofs.matrix import print_matrix
-    from proofs.run import prove_all
-
-    writable(json, junit)
-    pattern(only)
-    if whole and only:
-        refuse("--whole: what the theorem rests on is all of it; leave out --only")
-    with progress("proving") as step:
-        report = prove_all(solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step, keep=keep)
-    if not report.obligations:
-        refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
-    (print_chain if whole else print_matrix)(console(), report)
-    if json:
-        write_json(json, report.record())
-    if junit:
-        write_junit(junit, report)
-    raise typer.Exit(report.exit_code)
+app.command()(prove)
 
 
 @app.command()

@@ -64,6 +64,13 @@ CROSSING: Mapping[str, tuple[Memory, str]] = {
 }
 """The crossing: it warns, and its arms go down without waiting for the bell, until each track is accounted for."""
 
+PROMISE: Mapping[str, tuple[Memory, str]] = {
+    "number": (Memory.LASTING, ""),
+    "ceiling_mm_s": (Memory.LASTING, ""),
+    "asked_mm_s": (Memory.LASTING, ""),
+}
+"""A train's promise to a crossing: it is kept through restarts of the train (`kernel.crossing.promise`)."""
+
 TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),
     "opens_ms": (Memory.LOST, "now_ms + limits.coming_ms"),

@@ -1,6 +1,6 @@
 """Supervised release: two persons on the spot account for a train whose unit cannot (T8, ours).
 
-The first isolates the unit, which begins a new life that no authority reaches, and states
+The first isolates the unit, which begins a new life that no authority granted before reaches, and states
 where the train stands; the second looks for himself and confirms the place.  Only if both say the
 same, and only while the signaller keeps the procedure open, is it taken for the train's own word.
 

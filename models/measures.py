@@ -14,6 +14,11 @@ def greater(one: int, other: int) -> int:
     return one if one > other else other
 
 
+def lesser(one: int, other: int) -> int:
+    """Give the lesser of two."""
+    return one if one <= other else other
+
+
 def apart(one: int, other: int) -> int:
     """Give how far two are from each other."""
     return one - other if one >= other else other - one

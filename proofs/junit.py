@@ -75,6 +75,9 @@ def add_case(suite: etree._Element, obligation: Obligation) -> None:
         line=str(first),
         time=f"{obligation['seconds']:.3f}",
     )
+    if "kept" in obligation:
+        told = etree.SubElement(case, "system-out")
+        told.text = f"no evidence: answered at {obligation['kept']}, and kept from that run"
     if obligation["verdict"] == "proved":
         return
     failure = etree.SubElement(

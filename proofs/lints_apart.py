@@ -93,8 +93,9 @@ TOLD: Mapping[str, Mapping[str, str]] = {
         "begins_mm": "where the lists of the train's runs begin: what its unit was given",
         "block_ends_mm": "where the blocks of those lists end: what its unit was given",
     },
+    "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
 }
-"""Fields of a state, by theory, that are what a machine was told, though no record of the kernel holds them; why."""
+"""Fields of a state or a site, by theory, that are what a machine was told, though in no record of the kernel; why."""
 
 SIMULATIONS = ("models/simulation", "models/simulator", "models/rides", "fuzz/traffic")
 """Folders in which machines run beside what is really there."""

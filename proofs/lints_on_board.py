@@ -41,6 +41,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
     },
     "train": {"awaited_mm": "where a list has the tag that the orders told of, and nothing of where it lies"},
     "crossing": {"tracks": "which tracks lead over the road is how the crossing is set up; it says nothing of trains"},
+    "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }
 """Fields by theory that a machine may be told although they are no machine's; why.

@@ -147,6 +147,7 @@ def totals(report: Report, theories: Mapping[str, Sequence[Obligation]]) -> list
         counted(report.obligations),
         *_empty(cells),
         f"{len(report.obligations)} answers from {' and '.join(solvers) or 'no solver'} at {len(seeds)} seeds",
+        *on_kept(report),
         *on_canaries(report.canaries),
         *(f"{offence}: what rests on it is not proved" for offence in report.offences),
         f"lifting {report.lifting_seconds:.1f} s, wall {report.wall_seconds:.1f} s",
@@ -161,6 +162,12 @@ def _empty(cells: Cells) -> list[str]:
     """How many cells there are in which nothing was asked."""
     empty = sum(all("note" in answer for answer in cell) for cell in cells.values())
     return [f"in {empty} of them nothing is looked up, so nothing was asked"] * bool(empty)
+
+
+def on_kept(report: Report) -> list[str]:
+    """How many answers nobody was asked for in this run."""
+    line = f"{len(report.obligations):,} answers, {report.kept:,} of them kept from earlier runs, which are no evidence"
+    return [line] * bool(report.kept)
 
 
 def on_canaries(seen: Sequence[CanarySeen]) -> list[str]:

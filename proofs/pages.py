@@ -14,6 +14,7 @@ from kernel import persistence
 from kernel.alarm.distance import TrainFix
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
+from kernel.crossing.promise import Promise
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
@@ -63,6 +64,11 @@ CROSSING = (
     " counted: a train that waits at a starting signal asks anew, and one that was let go is under way, so that its"
     " track is not empty; a message that comes twice changes nothing."
 )
+PROMISE = (
+    "All of it survives a restart of the train: it is written before it is told. The crossing forgets what it has"
+    " noted, and holds the train to the line's speed until it is told anew. A spare unit that holds none is not let go"
+    " before a person has told the crossing."
+)
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
     " those to a unit that has been swapped for a spare one, which starts in the same way."
@@ -90,6 +96,7 @@ def persistence_page() -> str:
         ("The on-board unit", Unit, persistence.UNIT, "Without orders it has no authority, so it stands."),
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
+        ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),

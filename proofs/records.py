@@ -63,6 +63,7 @@ class Obligation(TypedDict):
     assumed of the state before, ``axioms`` what holds of the symbols in it, whatever they stand for
     (:meth:`proofs.workbench.Workbench.always`).  ``rlimit`` is the budget, ``rlimit_spent`` what was used, both in
     the solver's own units.  ``smt2_sha256`` is the hash of the SMT-LIB text that was solved.
+    ``kept``: when it was answered, where nobody was asked in this run: such an answer is no evidence.
     """
 
     transition: str
@@ -80,6 +81,7 @@ class Obligation(TypedDict):
     source: Source
     theory: NotRequired[str]
     note: NotRequired[str]
+    kept: NotRequired[str]
 
 
 class CanarySeen(TypedDict):
@@ -113,6 +115,7 @@ class Report:
 
     ``canaries``: what each solver answered to questions whose answer is known, in every process that worked.
     ``offences``: what assumptions and claims take from the kernel that they must not (:mod:`proofs.lints_apart`).
+    ``said``: what went wrong with the file in which answers are kept, a line each.
     """
 
     obligations: Sequence[Obligation]
@@ -120,6 +123,12 @@ class Report:
     wall_seconds: float
     canaries: Sequence[CanarySeen] = ()
     offences: Sequence[str] = ()
+    said: Sequence[str] = ()
+
+    @property
+    def kept(self) -> int:
+        """How many answers are kept from earlier runs."""
+        return sum("kept" in each for each in self.obligations)
 
     @property
     def verdict(self) -> Verdict:

@@ -7,14 +7,17 @@ import hashlib
 import inspect
 import re
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 
 from models.processes import spread
 from models.streams import write_whole
 from proofs import canaries, lints_apart, lookups, promised, scripts, smtlib, solvers
+from proofs.kept import Answered, Keeping, Laid, opened
 from proofs.records import CanarySeen, Obligation, Report, Source, Verdict
 from proofs.theories import ROWS, THEORIES, columns, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED, READING
@@ -26,13 +29,17 @@ NOTHING_TO_ASK = "nothing is asked: nothing is looked up there"
 
 @dataclass(frozen=True)
 class Task:
-    """A few obligations of one row, for one process; ``keep``: the folder in which their texts are kept."""
+    """A few obligations of one row, for one process.
+
+    ``keep``: the folder in which their texts are kept; ``answers``: the file of answers from earlier runs.
+    """
 
     row: str
     columns: tuple[str, ...]
     solvers: tuple[str, ...]
     seeds: int
     keep: Path | None = None
+    answers: Path | None = None
 
 
 @cache
@@ -67,6 +74,12 @@ def source(row: str, column: str) -> Source:
     """Tell where the claim of an obligation stands: the predicate's lines, or the transition's."""
     theory, name = theory_of(row)
     function = theory.steps[name] if column == EVERY_LOOKUP_IS_DEFINED else theory.said(column)
+    return place_of(function)
+
+
+@cache
+def place_of(function: Callable[..., object]) -> Source:
+    """Tell where a function stands."""
     lines, first = inspect.getsourcelines(function)
     path = Path(inspect.getfile(function)).resolve().relative_to(ROOT)
     return {"file": str(path), "lines": (first, first + len(lines) - 1)}
@@ -98,39 +111,56 @@ def settle(row: str, column: str, solver: str, seed: int, asked: list[Part], dig
     replies = [solvers.ask(solver, part, seed) for part in asked]
     answers = {reply.answer for reply in replies}
     verdict: Verdict = "refuted" if "sat" in answers else "proved" if answers <= {"unsat"} else "undecided"
-    empty = not asked
-    if empty and column != EVERY_LOOKUP_IS_DEFINED and theory_of(row)[1] != READING:
-        verdict = "undecided"
+    spent = max((reply.spent for reply in replies), default=0)
+    seconds = round(sum(reply.seconds for reply in replies), 4)
+    answer: Answered = {"verdict": verdict, "rlimit_spent": spent, "seconds": seconds}
+    return recorded((row, column), (solver, seed), Laid(digest, axioms_of(row, column, asked), not asked), answer)
+
+
+def recorded(cell: tuple[str, str], by: tuple[str, int], laid: Laid, answer: Answered) -> Obligation:
+    """What is recorded of an obligation that was laid out, of a solver at a seed, and of its answer."""
+    (row, column), (solver, seed) = cell, by
     told: Obligation = {
         "transition": row,
         "invariant": column,
         "hypotheses": scripts.hypotheses(row, column),
-        "axioms": axioms_of(row, column, asked),
-        "verdict": verdict,
+        "axioms": laid.axioms,
+        "verdict": answer["verdict"],
         "solver": solver,
         "solver_version": solvers.version(solver),
         "seed": seed,
         "rlimit": solvers.BUDGET[solver],
-        "rlimit_spent": max((reply.spent for reply in replies), default=0),
-        "seconds": round(sum(reply.seconds for reply in replies), 4),
-        "smt2_sha256": digest,
+        "rlimit_spent": answer["rlimit_spent"],
+        "seconds": answer["seconds"],
+        "smt2_sha256": laid.digest,
         "source": source(row, column),
     }
-    return {**told, "note": NOTHING_TO_ASK} if empty else told
+    if "kept" in answer:
+        told["kept"] = answer["kept"]
+    if laid.is_empty:
+        told["note"] = NOTHING_TO_ASK
+        if column != EVERY_LOOKUP_IS_DEFINED and theory_of(row)[1] != READING:
+            told["verdict"] = "undecided"
+    return told
 
 
 @dataclass(frozen=True)
 class Done:
-    """A task settled; ``lifting``: seconds.  ``canaries``: what the solvers noticed in the process that settled it."""
+    """A task settled; ``lifting``: seconds.  ``canaries``: what the solvers noticed in the process that settled it.
+
+    ``altered``: answers that are not as they were kept.
+    """
 
     obligations: list[Obligation]
     lifting: float
     canaries: list[CanarySeen]
+    altered: Sequence[str] = ()
 
 
 def work(task: Task) -> Done:
-    """Settle a task, once the solvers of this process have been put to the test."""
-    seen = canaries.seen(task.solvers, theory_of(task.row)[0].name)
+    """Settle a task, once the solvers of this process have been put to the test; what is kept is not asked."""
+    store = opened(task.answers) if task.answers else None
+    seen = [] if store else canaries.seen(task.solvers, theory_of(task.row)[0].name)
     before = lifting_seconds()
     found = []
     for column in task.columns:
@@ -138,12 +168,16 @@ def work(task: Task) -> Done:
         digest = digest_of(asked)
         if task.keep is not None:
             write_whole(kept(task.keep, task.row, column), gzip.compress(text_of(asked), mtime=0))
-        found += [
-            settle(task.row, column, solver, seed, asked, digest)
-            for solver in task.solvers
-            for seed in range(task.seeds)
-        ]
-    return Done(found, lifting_seconds() - before, seen)
+        laid = Laid(digest, axioms_of(task.row, column, asked), not asked)
+        by = [(solver, seed) for solver in task.solvers for seed in range(task.seeds)]
+        answers = store.answers(laid, by) if store else {}
+        for each in by:
+            if each in answers:
+                found.append(recorded((task.row, column), each, laid, answers[each]))
+                continue
+            seen = seen or canaries.seen(task.solvers, theory_of(task.row)[0].name)
+            found.append(settle(task.row, column, *each, asked, digest))
+    return Done(found, lifting_seconds() - before, seen, store.altered if store else ())
 
 
 def kept(folder: Path, row: str, column: str) -> Path:
@@ -151,13 +185,18 @@ def kept(folder: Path, row: str, column: str) -> Path:
     return folder / row / f"{column}.smt2.gz"
 
 
-def tasks(asked: tuple[str, ...], seeds: int, only: str | None, keep: Path | None = None) -> Iterator[Task]:
-    """Cut the matrix into tasks, whole rows in a few pieces so that every process stays busy."""
+def chosen(only: str | None) -> list[tuple[str, str]]:
+    """Every obligation whose row and column match, in the order of the matrix."""
     pattern = re.compile(only or "")
-    for row in ROWS:
-        chosen = [column for column in columns(row) if pattern.search(f"{row} {column}")]
-        for start in range(0, len(chosen), 20):
-            yield Task(row, tuple(chosen[start : start + 20]), asked, seeds, keep)
+    return [(row, column) for row in ROWS for column in columns(row) if pattern.search(f"{row} {column}")]
+
+
+def tasks(cells: Iterable[tuple[str, str]], like: Task) -> Iterator[Task]:
+    """Cut obligations into tasks, whole rows in a few pieces so that every process stays busy."""
+    for row, of_row in groupby(cells, itemgetter(0)):
+        named = [column for _, column in of_row]
+        for start in range(0, len(named), 20):
+            yield replace(like, row=row, columns=tuple(named[start : start + 20]))
 
 
 def prove_all(
@@ -167,22 +206,44 @@ def prove_all(
     seeds: int = 1,
     only: str | None = None,
     keep: Path | None = None,
+    answers: Path | None = None,
     progress: Callable[[int, int, str], object] = lambda done, total, what: None,
 ) -> Report:
     """Prove every obligation whose row and column match ``only``; nothing matched gives an empty report.
 
-    ``keep``: a folder for the SMT-LIB text of each.
+    ``keep``: a folder for the SMT-LIB text of each; ``answers``: a file of answers, to take from and to add to.
     """
     began = time.perf_counter()
     asked = ("z3", "cvc5") if solver == "both" else (solver,)
-    todo = list(tasks(asked, seeds, only, keep))
+    cells = chosen(only)
+    keeping = Keeping(answers, [(one, seed) for one in asked for seed in range(seeds)]) if answers else None
+    known = keeping.known(cells) if keeping else {}
+    found = {
+        cell: [recorded(cell, by, laid, answer) for by, answer in of.items()] for cell, (laid, of) in known.items()
+    }
+    todo = list(tasks((cell for cell in cells if cell not in found), Task("", (), asked, seeds, keep, answers)))
     seen: dict[tuple[int, str, str], CanarySeen] = {}
-    obligations: list[Obligation] = []
     lifting = 0.0
-    for done, settled in enumerate(spread(work, todo, jobs), 1):
-        obligations += settled.obligations
-        lifting += settled.lifting
-        seen |= {(each["process"], each["solver"], each["canary"]): each for each in settled.canaries}
-        progress(done, len(todo), todo[done - 1].row)
-    offences = lints_apart.unlisted(lints_apart.offences(), lints_apart.listed()) if todo else []
-    return Report(obligations, lifting, time.perf_counter() - began, [*seen.values()], offences)
+    try:
+        for done, settled in enumerate(spread(work, todo, jobs), 1):
+            for each in settled.obligations:
+                found.setdefault((each["transition"], each["invariant"]), []).append(each)
+            lifting += settled.lifting
+            seen |= {(each["process"], each["solver"], each["canary"]): each for each in settled.canaries}
+            if keeping:
+                keeping.keep(settled.obligations, settled.canaries, settled.altered)
+            progress(done, len(todo), todo[done - 1].row)
+        offences = _offences(keeping) if cells else []
+    finally:
+        if keeping:
+            keeping.write()
+    obligations = [each for cell in cells for each in found[cell]]
+    said = keeping.said if keeping else ()
+    return Report(obligations, lifting, time.perf_counter() - began, [*seen.values()], offences, said)
+
+
+def _offences(keeping: Keeping | None) -> list[str]:
+    def found() -> list[str]:
+        return lints_apart.unlisted(lints_apart.offences(), lints_apart.listed())
+
+    return keeping.once("offences", found) if keeping else found()

@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from importlib import metadata
 from typing import Literal
 
@@ -32,6 +33,7 @@ class Reply:
     seconds: float
 
 
+@cache
 def version(solver: str) -> str:
     """Give the version of a solver."""
     return metadata.version({"z3": "z3-solver"}.get(solver, solver))
@@ -83,7 +85,7 @@ def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
 
 
 def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
-    """Ask cvc5, by the text; at a loss it enumerates instances, or covers the reals by cells."""
+    """Ask cvc5, by the text; at a loss it enumerates instances, or decides by its search and not by the text."""
     answer, spent = _ask_cvc5_once(text, seed)
     if answer != "unknown":
         return answer, spent
@@ -91,9 +93,9 @@ def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
     return answer, spent + more
 
 
-def at_a_loss(text: str) -> str:
-    """The option by which cvc5 tries again: instances of quantifiers enumerated, or the reals covered by cells."""
-    return "full-saturate-quant" if QUANTIFIER.search(text) else "nl-cov"
+def at_a_loss(text: str) -> Mapping[str, str]:
+    """The option by which cvc5 tries again: instances of quantifiers enumerated, or other choices of what to split."""
+    return {"full-saturate-quant": "true"} if QUANTIFIER.search(text) else {"decision": "internal"}
 
 
 def commanded(text: str, budget: int, seed: int, options: Mapping[str, str]) -> tuple[cvc5.Solver, Iterator[str]]:
@@ -115,8 +117,8 @@ def _said(solver: cvc5.Solver, text: str) -> Iterator[str]:
         yield command.invoke(solver, symbols).strip()
 
 
-def _ask_cvc5_once(text: str, seed: int, *more: str) -> tuple[Answer, int]:
-    solver, says = commanded(text, max(1, BUDGET["cvc5"] // 2), seed, dict.fromkeys(more, "true"))
+def _ask_cvc5_once(text: str, seed: int, options: Mapping[str, str] | None = None) -> tuple[Answer, int]:
+    solver, says = commanded(text, max(1, BUDGET["cvc5"] // 2), seed, options or {})
     said = ""
     for each in says:
         said = each or said

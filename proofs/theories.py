@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
-from proofs.crossing import arrival, crossing, due
+from proofs.crossing import arrival, crossing, due, promise
 from proofs.onboard import (
     antenna_spacing,
     brake_demand,
@@ -60,6 +60,7 @@ IN_ORDER: tuple[Theory, ...] = (
     stopping.THEORY,
     cycle.THEORY,
     due.THEORY,
+    promise.THEORY,
     crossing.THEORY,
 )
 """The theories, in the order of the matrix."""

@@ -13,12 +13,14 @@ import random
 import resource
 import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -42,6 +44,10 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
         *("--json", "{out}/prove.json", "--junit", "{out}/prove.xml"),
     ),
     ("prove", "--only", r"^display\.", "--jobs", "1", "--json", "{out}/prove.json"),
+    (
+        *("prove", "--only", r"^(display|brake_watch)\.", "--jobs", "2"),
+        *("--kept", "{out}/proofs.sqlite", "--json", "{out}/prove.json"),
+    ),
     ("certify", "--only", r"^brake_watch\.init ", "--jobs", "1", "--json", "{out}/certificates.json"),
     ("mutate", "--only", r"^kernel\.onboard\.split\.is_intact", "--jobs", "2", "--json", "{out}/mutate.json"),
     ("ride", "--rides", "2", "--jobs", "2", "--json", "{out}/ride.json"),
@@ -192,11 +198,14 @@ def _damaged(out: Path) -> Iterator[str]:
         try:
             if path.suffix == ".json":
                 json.loads(path.read_bytes())
+            elif path.suffix == ".sqlite":
+                with closing(sqlite3.connect(path)) as kept:
+                    yield from (line for (line,) in kept.execute("PRAGMA integrity_check") if line != "ok")
             elif path.suffix in (".xml", ".svg"):
                 etree.fromstring(path.read_bytes())
             elif path.suffix == ".html" and not path.read_bytes().rstrip().endswith(b"</html>"):
                 yield f"{path.name}: is cut off"
-        except (ValueError, etree.XMLSyntaxError) as error:
+        except (ValueError, sqlite3.Error, etree.XMLSyntaxError) as error:
             yield f"{path.name}: {error}"
 
 

@@ -25,6 +25,8 @@ from proofs.theories import is_transition, theory_of
 
 Told = Mapping[str, Any]
 PROOF = "prove.json"
+KEPT = "--kept"
+"""Made with it, a record has answers of earlier runs in it."""
 
 
 def proved(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
@@ -39,6 +41,10 @@ def proved(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
         now = laid_out.get((each["transition"], each["invariant"]))
         if now is not None:
             yield from _as_laid_out(each, now, told["versions"])
+    if any(word.partition("=")[0] == KEPT for word in told["command"].split()):
+        yield Finding(
+            "kept answer", PROOF, f"was made with {KEPT}: with answers of earlier runs, which are no evidence"
+        )
     yield from _canaries(told["canaries"], solvers)
     offences = lints_apart.unlisted(lints_apart.offences(), lints_apart.listed())
     if list(told["offences"]) != offences:
@@ -67,6 +73,8 @@ def _as_laid_out(each: Told, now: LaidOut, versions: Told) -> Iterator[Finding]:
         yield Finding("other version", PROOF, f"{what}: by version {each['solver_version']}, not the record's")
     if each["verdict"] not in ("proved", "refuted", "undecided"):
         yield Finding("other verdict", PROOF, f"{what}: {each['verdict']} is no verdict")
+    if "kept" in each:
+        yield Finding("kept answer", PROOF, f"{what}: nobody was asked, the answer is one of {each['kept']}")
     if now.parts and not each["rlimit_spent"] and each["seconds"] == 0:
         yield Finding("nothing spent", PROOF, f"{what}: an answer for which nothing was spent")
 

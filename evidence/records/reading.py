@@ -52,6 +52,11 @@ class Kept:
             by_solver.setdefault(each["solver"], set()).add(each["verdict"])
         return found
 
+    @cached_property
+    def from_earlier(self) -> Set[Cell]:
+        """The obligations with an answer for which nobody was asked in the run that the record is of."""
+        return {(each["transition"], each["invariant"]) for each in self.data["obligations"] if "kept" in each}
+
     @property
     def commit(self) -> str | None:
         """The commit that it says it is of."""

@@ -68,6 +68,9 @@ def _proved(record: Kept, which: str) -> tuple[Came, str]:
     refuted = [row for (row, _), verdicts in told.items() if "refuted" in verdicts]
     if refuted:
         return "does not hold", f"refuted over {', '.join(refuted)}"
+    earlier = [row for row, _ in asked if (row, column) in record.from_earlier]
+    if earlier:
+        return "not shown", f"answers over {_few(earlier)} were kept from earlier runs; prove without --kept"
     missed = [each for each in record.data["canaries"] if not each["noticed"]]
     if missed or not record.data["canaries"]:
         which = f"{missed[0]['solver']} missed {missed[0]['canary']}" if missed else "no canary was put to the solvers"

@@ -1,7 +1,8 @@
 """The earliest possible arrival of a train at a crossing, and the moment to warn for it (X1, X2, X3).
 
 From one ranging to the next the train is held to be the worst that it may be: it gains speed as hard as it
-can, up to the greatest speed of the line.  The earliest arrival counts, and not the likely one (X2, ours).
+can, up to the ceiling that it has promised, or else the greatest speed of the line.  The earliest arrival counts,
+and not the likely one (X2, ours).
 
 Each ranging is held against the one before (ours).  Both cannot be of this train if it would have had to be
 faster than the line allows, either way, or to gain more than it can, by more than rangings err: then the
@@ -16,7 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, larger, magnitude
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, larger, limited, magnitude
 
 UM_A_MM = 1_000
 
@@ -66,7 +67,8 @@ class Followed:
     """What is known of a train in contact (X2).
 
     ``way_um``: the nearest that its head may be to the crossing; ``short_um``: by how
-    much it is slower than the greatest pace on the line, at least.
+    much it is slower than ``ceiling_um``, at least.
+    ``ceiling_um``: it runs no faster up to the road: the greatest pace on the line, or what it has promised.
     ``age_cycles``: how old the ranging is that this rests on; beyond ``silence_cycles`` nothing is claimed.
     ``told_way_mm``, ``told_speed_mm_s``: what that ranging told; of one that moves away, that it stands.
     ``warns``: it asks for the warning; it does so until it has passed.
@@ -74,22 +76,31 @@ class Followed:
 
     way_um: int
     short_um: int
+    ceiling_um: int
     age_cycles: int
     told_way_mm: int
     told_speed_mm_s: int
     warns: bool
 
 
-def cannot_arrive(bounds: ArrivalBounds, way_um: int, short_um: int, cycles: int) -> bool:
+def cannot_arrive(bounds: ArrivalBounds, followed: Followed, cycles: int) -> bool:
     """Tell whether a train that is no nearer and no faster than this does not arrive within so many cycles (X2).
 
-    Either it gains all the while; or it comes to the greatest pace on the way, and what it is short of that
+    Either it gains all the while; or it comes to its ceiling on the way, and what it is short of that
     now shortens the way that it would make at it.  ``short_um`` is not negative.
     """
-    line_nearer_um = cycles * bounds.line_um - way_um
+    short_um = followed.short_um
+    nearer_um = cycles * followed.ceiling_um - followed.way_um
     if cycles * bounds.gain_um <= short_um:
-        return 2 * line_nearer_um < 2 * cycles * short_um - cycles * (cycles + 1) * bounds.gain_um
-    return 2 * bounds.gain_um * line_nearer_um < short_um * (short_um - bounds.gain_um)
+        return 2 * nearer_um < 2 * cycles * short_um - cycles * (cycles + 1) * bounds.gain_um
+    return 2 * bounds.gain_um * nearer_um < short_um * (short_um - bounds.gain_um)
+
+
+def held_to(bounds: ArrivalBounds, followed: Followed, ceiling_um: int) -> Followed:
+    """Reckon with another ceiling, within the line's speed (X2, ours)."""
+    now_um = limited(ceiling_um, 0, bounds.line_um)
+    short_um = larger(0, followed.short_um + now_um - followed.ceiling_um)
+    return replace(followed, ceiling_um=now_um, short_um=short_um)
 
 
 def counts(bounds: ArrivalBounds, ranging: Ranging) -> bool:
@@ -113,7 +124,7 @@ def taken(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Follow
     return replace(
         followed,
         way_um=UM_A_MM * ranging.way_mm - ranging.age_cycles * bounds.line_um,
-        short_um=larger(0, bounds.line_um - pace_um),
+        short_um=larger(0, followed.ceiling_um - pace_um),
         age_cycles=ranging.age_cycles,
         told_way_mm=ranging.way_mm,
         told_speed_mm_s=larger(0, ranging.speed_mm_s),
@@ -144,7 +155,7 @@ def must_warn(bounds: ArrivalBounds, followed: Followed) -> bool:
     """
     if followed.warns or followed.age_cycles > bounds.silence_cycles:
         return True
-    return not cannot_arrive(bounds, followed.way_um, followed.short_um, bounds.warning_cycles + 2)
+    return not cannot_arrive(bounds, followed, bounds.warning_cycles + 2)
 
 
 def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
@@ -154,7 +165,7 @@ def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
     short_um = larger(0, followed.short_um - bounds.gain_um)
     return replace(
         followed,
-        way_um=followed.way_um - bounds.line_um + short_um,
+        way_um=followed.way_um - followed.ceiling_um + short_um,
         short_um=short_um,
         age_cycles=followed.age_cycles + 1,
     )

@@ -131,6 +131,16 @@ def due(bounds: ArrivalBounds, followed: Followed, reopening_cycles: int) -> Due
     return Due.FAR
 
 
+def may_go_faster(bounds: ArrivalBounds, followed: Followed, asked_um: int, reopening_cycles: int) -> bool:
+    """Tell whether a train's ask to go as fast as this is acknowledged: it is far even so (X2, ours).
+
+    So whatever an answer has secured until now is still secured; one that is near or warned of stays with its ceiling.
+    """
+    if not followed.ceiling_um <= asked_um <= bounds.line_um:
+        return False
+    return due(bounds, arrival.held_to(bounds, followed, asked_um), reopening_cycles) == Due.FAR
+
+
 # ---- what the crossing is told
 
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.crossing import arrival
+from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from models.measures import UM_A_MM, apart, greater
+from models.measures import UM_A_MM, apart, greater, lesser
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class Coming:
     """One moment of a train that is in contact.
 
     ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
+    ``ceiling_um``: it keeps to this, and raises it by the crossing's acknowledgement alone.
     ``ranged``: where the train was, and how fast, when the ranging that is under way was taken, or the last one.
     ``arrived``: its head has been seen at the crossing, or beyond.
     ``decided``: the crossing has decided for the cycle that begins.
@@ -51,6 +53,7 @@ class Coming:
 
     way_um: int
     pace_um: int
+    ceiling_um: int
     ranged: Taken
     arrived: bool
     decided: bool
@@ -143,9 +146,22 @@ def the_train_gains_no_more(site: Crossing, system: Coming, pace_um: int) -> boo
     return pace_um - system.pace_um <= site.bounds.gain_um
 
 
-def the_train_keeps_to_the_line_speed(site: Crossing, pace_um: int) -> bool:
-    """No train is faster than the greatest speed of the line, and what a driver may exceed it by (X2)."""
-    return pace_um <= site.bounds.line_um
+def the_train_keeps_to_its_ceiling(system: Coming, pace_um: int) -> bool:
+    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by."""
+    return pace_um <= system.ceiling_um
+
+
+def only_a_ceiling_that_is_kept_is_promised(system: Coming, ceiling_um: int) -> bool:
+    """Who promises a ceiling is no faster than that already (X2)."""
+    return system.pace_um <= ceiling_um
+
+
+def the_crossing_holds_it_to_no_less(system: Coming, ceiling_um: int) -> bool:
+    """The ceiling that the crossing has noted is no lower than the one that the train keeps to, as ``promise`` proves.
+
+    Whatever was lost, late or repeated (X2).
+    """
+    return system.ceiling_um <= ceiling_um
 
 
 def who_is_at_the_crossing_has_come_all_the_way(system: Coming) -> bool:
@@ -196,11 +212,44 @@ def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
     )
 
 
+def keep_to(site: Crossing, system: Coming, ceiling_um: int) -> Coming:
+    """The train promises a lower ceiling; whether the crossing hears of it is another matter (X2)."""
+    if not only_a_ceiling_that_is_kept_is_promised(system, ceiling_um):
+        return system
+    return replace(system, ceiling_um=lesser(system.ceiling_um, ceiling_um))
+
+
+def take_ceiling(site: Crossing, system: Coming, ceiling_um: int) -> Coming:
+    """The crossing reckons with a ceiling that it has noted of the train (X2)."""
+    if not the_crossing_holds_it_to_no_less(system, ceiling_um):
+        return system
+    return replace(system, followed=arrival.held_to(site.bounds, system.followed, ceiling_um))
+
+
+def acknowledge(site: Crossing, system: Coming, asked_um: int) -> Coming:
+    """Once it has decided, it acknowledges an ask to go faster, if it is for it to be: the train may keep to that (X2).
+
+    Here for the warning alone: without a least opening of the road in mind.
+    """
+    if a_decision_begins_each_cycle(system):
+        return system
+    if not machine.may_go_faster(site.bounds, system.followed, asked_um, 0):
+        return system
+    followed = arrival.held_to(site.bounds, system.followed, asked_um)
+    return replace(
+        system,
+        ceiling_um=followed.ceiling_um,
+        followed=followed,
+        worst=followed,
+        left_cycles=site.bounds.warning_cycles + 2,
+    )
+
+
 def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Coming:
     """The train runs for a cycle as it likes: on, slower, back, or as hard as it can (X2)."""
     if a_decision_begins_each_cycle(system) or not the_way_follows_the_speed(site, system, to_um, pace_um):
         return system
-    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_the_line_speed(site, pace_um):
+    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_its_ceiling(system, pace_um):
         return system
     run = replace(
         system,
@@ -213,10 +262,11 @@ def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Com
         warned_cycles=system.warned_cycles + 1 if system.followed.warns else 0,
         followed=arrival.aged(site.bounds, system.followed),
     )
+    worst_um = system.worst.ceiling_um
     if system.worst.short_um <= site.bounds.gain_um:
-        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - site.bounds.line_um, short_um=0))
+        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - worst_um, short_um=0))
     short_um = system.worst.short_um - site.bounds.gain_um
-    way_um = system.worst.way_um - site.bounds.line_um + short_um
+    way_um = system.worst.way_um - worst_um + short_um
     return replace(run, worst=replace(system.worst, way_um=way_um, short_um=short_um))
 
 

@@ -12,12 +12,13 @@ CLAIMS: Mapping[str, str] = {
     "lifted_between": "an arrival too soon after an opening at which its train was known (X4)",
     "opened_before_rear": "a warning ended while a train that was warned of was not past (X4)",
     "unwarned_silence": "a start point's terminal was silent for too long without a warning (T14)",
+    "beyond_ceiling": "seconds in which a train in contact was faster than the crossing held it to be (X2)",
     "opened_unseen": "seconds with the road open and a track that nobody had seen empty since power failed (X3)",
 }
 ASSUMPTIONS: Mapping[str, str] = {
     "ranging_broken": "`the_ranging_bounds_the_train`: a train was nearer or faster than its ranging said",
     "age_broken": "`a_ranging_is_no_older_than_it_says`",
-    "gain_broken": "`the_train_gains_no_more`, `the_train_keeps_to_the_line_speed`",
+    "gain_broken": "`the_train_gains_no_more`, `the_train_keeps_to_its_ceiling`",
     "strike_broken": "`the_terminal_tells_every_strike_first`: one was missed, or put down to another train",
     "rear_broken": "`a_whole_train_told_gone_is_gone`",
     "account_broken": "`a_person_accounts_for_a_track_seen_empty`: a train was there",
@@ -50,6 +51,9 @@ COUNTS: Mapping[str, str] = {
     "warnings": "warnings that began",
     "likely_late": "arrivals that the paper's reckoning, without bounds, would have warned of late",
     "rangings": "rangings that counted",
+    "promised": "trains that promised a ceiling (X2)",
+    "asked_faster": "of them that asked to go faster",
+    "let_faster": "of those that were let",
     "seconds": "seconds of traffic",
 }
 DRAWN: Mapping[str, str] = {f"fault_{fault.name}": fault.says for fault in FAULTS}

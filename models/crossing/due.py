@@ -12,7 +12,7 @@ from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Due, Settings
 from models.crossing.crossing import secured_cycles
-from models.measures import UM_A_MM, greater
+from models.measures import UM_A_MM, greater, lesser
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,7 @@ class Answered:
     """One moment of a train.
 
     ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
+    ``ceiling_um``: it keeps to this, and raises it by the crossing's acknowledgement alone.
     ``followed``: what the crossing knows.
     ``worst``: history: what was known at the answer that is held; since then the worst that it allows.
     ``left_cycles``: within so many cycles it cannot arrive, by that answer.
@@ -36,6 +37,7 @@ class Answered:
 
     way_um: int
     pace_um: int
+    ceiling_um: int
     followed: Followed
     worst: Followed
     left_cycles: int
@@ -77,9 +79,22 @@ def the_train_gains_no_more(site: Way, system: Answered, pace_um: int) -> bool:
     return pace_um - system.pace_um <= site.bounds.gain_um
 
 
-def the_train_keeps_to_the_line_speed(site: Way, pace_um: int) -> bool:
-    """No train is faster than the greatest speed of the line, and what a driver may exceed it by (X2)."""
-    return pace_um <= site.bounds.line_um
+def the_train_keeps_to_its_ceiling(system: Answered, pace_um: int) -> bool:
+    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by."""
+    return pace_um <= system.ceiling_um
+
+
+def only_a_ceiling_that_is_kept_is_promised(system: Answered, ceiling_um: int) -> bool:
+    """Who promises a ceiling is no faster than that already (X2)."""
+    return system.pace_um <= ceiling_um
+
+
+def the_crossing_holds_it_to_no_less(system: Answered, ceiling_um: int) -> bool:
+    """The ceiling that the crossing has noted is no lower than the one that the train keeps to, as ``promise`` proves.
+
+    Whatever was lost, late or repeated (X2).
+    """
+    return system.ceiling_um <= ceiling_um
 
 
 def who_is_at_the_crossing_has_come_all_the_way(system: Answered) -> bool:
@@ -97,6 +112,46 @@ def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
     if not the_ranging_bounds_the_train(site, system, ranging):
         return system
     return replace(system, followed=arrival.follow(site.bounds, system.followed, ranging))
+
+
+def keep_to(site: Way, system: Answered, ceiling_um: int) -> Answered:
+    """The train promises a lower ceiling; whether the crossing hears of it is another matter (X2)."""
+    if not only_a_ceiling_that_is_kept_is_promised(system, ceiling_um):
+        return system
+    return replace(system, ceiling_um=lesser(system.ceiling_um, ceiling_um))
+
+
+def take_ceiling(site: Way, system: Answered, ceiling_um: int) -> Answered:
+    """The crossing reckons with a ceiling that it has noted of the train (X2)."""
+    if not the_crossing_holds_it_to_no_less(system, ceiling_um):
+        return system
+    return replace(system, followed=arrival.held_to(site.bounds, system.followed, ceiling_um))
+
+
+def acknowledge(site: Way, system: Answered, asked_um: int) -> Answered:
+    """It acknowledges an ask to go faster, if it is for it to be: from now on the train may keep to that (X2).
+
+    With the answer by which that was decided, which is the one that is held.
+    """
+    if not machine.have_one_warning_time(site.bounds, site.settings):
+        return system
+    reopening_cycles = site.settings.reopening_cycles
+    if not machine.may_go_faster(site.bounds, system.followed, asked_um, reopening_cycles):
+        return system
+    followed = arrival.held_to(site.bounds, system.followed, asked_um)
+    return replace(
+        system,
+        ceiling_um=followed.ceiling_um,
+        followed=followed,
+        worst=followed,
+        left_cycles=secured_cycles(site.settings.warning_cycles, reopening_cycles, Due.FAR),
+    )
+
+
+def restart(site: Way, system: Answered) -> Answered:
+    """The crossing restarts, and has forgotten rangings and ceiling; what was promised is kept all the same (X3)."""
+    silence_cycles, line_um = site.bounds.silence_cycles, site.bounds.line_um
+    return replace(system, followed=Followed(0, 0, line_um, silence_cycles + 1, 0, 0, False))
 
 
 def answer(site: Way, system: Answered) -> Answered:
@@ -122,14 +177,15 @@ def run_a_cycle(site: Way, system: Answered, to_um: int, pace_um: int) -> Answer
     """The train runs for a cycle as it likes (X2)."""
     if not the_way_follows_the_speed(system, to_um, pace_um):
         return system
-    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_the_line_speed(site, pace_um):
+    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_its_ceiling(system, pace_um):
         return system
     run = replace(system, way_um=to_um, pace_um=pace_um, left_cycles=system.left_cycles - 1)
     run = replace(run, followed=arrival.aged(site.bounds, system.followed))
+    worst_um = system.worst.ceiling_um
     if system.worst.short_um <= site.bounds.gain_um:
-        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - site.bounds.line_um, short_um=0))
+        return replace(run, worst=replace(system.worst, way_um=system.worst.way_um - worst_um, short_um=0))
     short_um = system.worst.short_um - site.bounds.gain_um
-    way_um = system.worst.way_um - site.bounds.line_um + short_um
+    way_um = system.worst.way_um - worst_um + short_um
     return replace(run, worst=replace(system.worst, way_um=way_um, short_um=short_um))
 
 

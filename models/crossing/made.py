@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.crossing import arrival, crossing
+from kernel.crossing import arrival, crossing, promise
 from kernel.crossing.arrival import Followed, Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
 from kernel.maps import Map
@@ -11,10 +11,10 @@ from models.compiled import compile_machines, packed
 from models.crossing.sites import SETTINGS
 from models.crossing.traffic import TRACKS
 
-MADE = compile_machines([arrival, crossing])
+MADE = compile_machines([arrival, crossing, promise])
 NOTHING = packed(Ranging(False, 0, 0, 0))
-UNKNOWN = packed(Followed(0, 0, 10**6, 0, 0, False))
-"""Of a train of which there is no ranging."""
+UNKNOWN = packed(Followed(0, 0, 0, 10**6, 0, 0, False))
+"""Of a train of which there is no ranging; the ceiling is to be told."""
 OPEN = Crossing(asks={}, starts={}, silent_cycles={}, unaccounted={}, warns=False, warned_cycles=0)
 """A crossing before anything is told."""
 START = restart_crossing(SETTINGS, frozenset(map(CrossingTrack, range(TRACKS))))  # type: ignore[arg-type]

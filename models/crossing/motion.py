@@ -48,7 +48,9 @@ def signal_m(block_m: Any, rear_um: Any) -> Any:
 def aim(day: Any, run: Any, line: Any, train: int, ahead: int) -> Any:
     """Give the speed that a driver may have at most."""
     way_m, kind = run[train].way_um / 1e6, day.trains[train].local
-    aim_m_s = line.limit_m_s[kind] * day.trains[train].share
+    aim_m_s = line.limit_m_s[kind] * (1.0 if run[train].hurries == 1 else day.trains[train].share)
+    if keeps(run, train):
+        aim_m_s = min(aim_m_s, max(0.0, run[train].held_mm_s / 1e3 - line.ceiling_over_m_s))
     if ahead >= 0:
         signal = signal_m(line.block_m, run[ahead].way_um + line.length_um[day.trains[ahead].local])
         aim_m_s = min(aim_m_s, allowed(way_m, signal))
@@ -63,6 +65,12 @@ def aim(day: Any, run: Any, line: Any, train: int, ahead: int) -> Any:
     if trick in (SPRINTS, STRONG) and way_m > there_m:
         aim_m_s = min(aim_m_s, max(SLOW_M_S, allowed(way_m, there_m)))
     return aim_m_s
+
+
+@compiled
+def keeps(run: Any, train: int) -> Any:
+    """Tell whether a train keeps a promise: it has made one, and nobody has proved its rear past the road."""
+    return run[train].held_number > 0 and run[train].gone == 0
 
 
 @compiled
@@ -106,6 +114,8 @@ def move(day: Any, run: Any, line: Any, train: int, ahead: int) -> None:
             clear_m_s = allowed(run[train].way_um / 1e6, signal_m(line.block_m, rear_um))
         if clear_m_s * 1e6 > pace_um + gain_um:
             run[train].pace_um = min(pace_um + gain_um, line.line_um[kind])
+            if keeps(run, train):
+                run[train].pace_um = min(run[train].pace_um, 1_000 * run[train].held_mm_s)
             run[train].way_um -= run[train].pace_um
             return
     speed_m_s = pace_um / 1e6

@@ -10,6 +10,7 @@ from models.compiled import compiled
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE, NOTHING
+from models.crossing.motion import arrives_by_likely_reckoning
 from models.crossing.traffic import POOL
 
 Ranging = MADE.arrival.Ranging
@@ -41,8 +42,16 @@ def cut(value: float) -> float:
 
 
 @compiled
+def errors(day: Any, line: Any, train: int) -> Any:
+    """Give the bounds of what is told of a train: of rangings, or of its own range if it tells that."""
+    if day.trains[train].promises == 1:
+        return line.own_way_error_m, line.own_speed_error_m_s
+    return line.way_error_m, line.speed_error_m_s
+
+
+@compiled
 def measure(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> None:
-    """Take a ranging of a train, with its errors, and keep it; what is told of it is its bound."""
+    """Take a ranging of a train, or its own range, with its errors, and keep it; what is told of it is its bound."""
     place = (train * STRIDE + 3 * now) % (POOL - 3)
     run[train].bias = STEADY * run[train].bias + np.sqrt(1 - STEADY**2) * 0.6 * day.normal[place]
     bias = max(-1.0, min(1.0, run[train].bias))
@@ -53,8 +62,12 @@ def measure(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> No
         off_m += day.faults[REFLECTION].size
     way_um, before_um = run[train].way_um, run[train].before_um
     speed_m_s = (before_um - way_um) / 2e6 + line.speed_sigma_m_s * cut(day.normal[place + 2])
-    way_mm = int(np.floor(way_um / 1e3 + 1e3 * (off_m - line.way_error_m)))
-    speed_mm_s = int(np.ceil(1e3 * (speed_m_s + line.speed_error_m_s)))
+    if day.trains[train].promises == 1:
+        off_m = line.own_way_error_m * bias
+        speed_m_s = run[train].pace_um / 1e6 + line.own_speed_error_m_s * cut(day.normal[place + 2]) / NOISE_MOST
+    way_error_m, speed_error_m_s = errors(day, line, train)
+    way_mm = int(np.floor(way_um / 1e3 + 1e3 * (off_m - way_error_m)))
+    speed_mm_s = int(np.ceil(1e3 * (speed_m_s + speed_error_m_s)))
     if way_mm * 1_000 > way_um or run[train].pace_um > 1_000 * speed_mm_s:
         out[RANGING_BROKEN] += 1
     run[train].told_way_mm[now % KEPT] = way_mm
@@ -78,7 +91,19 @@ def ranging(day: Any, run: Any, line: Any, train: int, now: int, out: Any) -> An
     place = (now - age) % KEPT
     if now - age < 0 or run[train].told_s[place] != now - age:
         return NOTHING
+    run[train].brought_place = place
     told_age = 0 if day.on[STALE] else age
     if told_age < age:
         out[AGE_BROKEN] += 1
     return Ranging(True, run[train].told_way_mm[place], run[train].told_speed_mm_s[place], told_age)
+
+
+@compiled
+def likely(day: Any, run: Any, line: Any, train: int, told: Any) -> Any:
+    """Tell whether the paper's reckoning warns now: its ranging has no bounds taken off; or it is lost (003, 2.3)."""
+    if not told.valid:
+        return run[train].lost == 1
+    way_error_m, speed_error_m_s = errors(day, line, train)
+    way_m = told.way_mm / 1e3 + way_error_m
+    speed_m_s = told.speed_mm_s / 1e3 - speed_error_m_s
+    return arrives_by_likely_reckoning(line, day.trains[train].local, way_m, speed_m_s, line.warning_cycles)

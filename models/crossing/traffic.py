@@ -23,6 +23,10 @@ TRACTION_M_S2 = (0.55, 0.88)
 """2.0 to 3.2 km/h/s from a standstill (practice)."""
 CONTACT_M = (1_600.0, 2_200.0)
 """Where contact is made, before the crossing: the reach of the outermost trackside radio (ours)."""
+PROMISE = 0.7
+"""The share of trains with radio that promise a ceiling, on days with faults (ours)."""
+ASKS, ASKS_M = 0.2, (200.0, 1_600.0)
+"""So many of them ask to go faster, as after a late departure; so far before the road (ours)."""
 PERSON_S = (240, 900)
 """Until somebody has come, looked and released (ours)."""
 
@@ -30,7 +34,7 @@ PERSON_S = (240, 900)
 TRAIN = np.dtype(
     [
         *((name, np.int64) for name in ("track", "local", "at_s", "radio", "contact_um")),
-        *((name, np.int64) for name in ("trick", "trick_um", "trick_s", "person_s")),
+        *((name, np.int64) for name in ("trick", "trick_um", "trick_s", "person_s", "promises", "asks_um")),
         ("dwell_s", np.int64, (2,)),
         *((name, np.float64) for name in ("share", "traction_m_s2")),
     ]
@@ -40,6 +44,7 @@ TRAIN = np.dtype(
 ``local``: it is the second kind.  ``at_s``: when it is due at the line's beginning.  ``dwell_s``: at both stations.
 ``share``: of its limit.  ``traction_m_s2``: from a standstill.  ``contact_um``: where contact is made, if it has radio.
 ``trick``: a fault of this train's, by its number; ``trick_um``, ``trick_s``: where, and how long.
+``promises``: it promises a ceiling; ``asks_um``: it asks to go faster so far before the road, if it is not -1.
 ``person_s``: how long somebody takes to come and look.
 """
 WINDOW = np.dtype([("begin_s", np.int64), ("end_s", np.int64), ("track_of", np.int64), ("size", np.float64)])
@@ -65,8 +70,12 @@ def generator(seed: int, *of: int) -> np.random.Generator:
     return np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=of)))
 
 
-def drawn(seed: int, day: int, trial: Trial, beyond: tuple[str, ...] = (), quiet: bool = False) -> Day:
+def drawn(
+    seed: int, day: int, trial: Trial, beyond: tuple[str, ...] = (), quiet: bool = False, promise: float = PROMISE
+) -> Day:
     """Draw a day; ``beyond``: faults beyond what is assumed, by name; ``quiet``: no faults at all, and all have radio.
+
+    ``promise``: the share of trains with radio that promise a ceiling; on quiet days none of them asks to go faster.
 
     Raises:
         KeyError: ``beyond`` names no fault.
@@ -91,10 +100,19 @@ def drawn(seed: int, day: int, trial: Trial, beyond: tuple[str, ...] = (), quiet
     trains["traction_m_s2"] = source.uniform(*TRACTION_M_S2, count)
     trains["person_s"] = source.integers(*PERSON_S, count)
     trick(source, trains, windows)
+    promised(generator(seed, day, 2), trains, promise, quiet)
     arms_cycles = int(source.integers(8, 11))
     return Day(
         trains, windows, np.zeros(len(FAULTS), np.bool_), source.standard_normal(POOL), source.random(POOL), arms_cycles
     )
+
+
+def promised(source: np.random.Generator, trains: Records, promise: float, quiet: bool) -> None:
+    """Draw which trains promise a ceiling, and which of them ask to go faster, and where."""
+    count = len(trains)
+    trains["promises"] = (source.random(count) < promise) & (trains["radio"] == 1)
+    asks = source.random(count) < (0.0 if quiet else ASKS)
+    trains["asks_um"] = np.where(asks, np.round(1e6 * source.uniform(*ASKS_M, count)), NEVER)
 
 
 def timetable(source: np.random.Generator, trial: Trial) -> tuple[Ints, Ints]:

@@ -11,11 +11,20 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from models.compiled import compiled, packed
+from models.crossing.ceilings import answer_ask, forget_promise, judge_ceiling, promises, take_promise
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE, NO_DUES, OPEN, START, UNKNOWN
-from models.crossing.motion import COMES_UM, GOES_M, TURNS_BACK, allowed, arrives_by_likely_reckoning, move, signal_m
-from models.crossing.radio import KEPT, is_on, ranging
+from models.crossing.motion import (
+    COMES_UM,
+    GOES_M,
+    TURNS_BACK,
+    allowed,
+    keeps,
+    move,
+    signal_m,
+)
+from models.crossing.radio import KEPT, is_on, likely, ranging
 from models.crossing.sites import SETTINGS, Trial
 from models.crossing.staff import OTHER_NAME, account, forget, has_no_power, prove_rear, stays_s
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
@@ -55,6 +64,7 @@ CLEAR_UM = 600_000_000
 """A train comes onto the line when the one before is so far."""
 DRAIN_S = 1_200
 """After the last hour the trains under way run out."""
+OWN = ("own_way_error_m", "own_speed_error_m_s", "ceiling_over_m_s")
 WAITING, UNDER_WAY, AWAY = 0, 1, 2
 
 
@@ -63,8 +73,10 @@ LINE = np.dtype(
         *((name, np.float64, (2,)) for name in ("limit_m_s",)),
         *((name, np.int64, (2,)) for name in ("length_um", "stops", "line_um", "start_um", "old_um")),
         *((name, np.int64) for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s")),
+        *((name, np.int64) for name in ("warning_cycles", "start_cycles")),
         *((name, np.float64) for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s")),
         *((name, np.float64) for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2")),
+        *((name, np.float64) for name in OWN),
     ]
 )
 """A trial's numbers as compiled code takes them; pairs are of express and local."""
@@ -72,9 +84,14 @@ RUN = np.dtype(
     [
         *((name, np.int64) for name in ("state", "way_um", "before_um", "last_um", "pace_um", "stage")),
         *((name, np.int64) for name in ("dwelt_s", "stood_s", "contact", "warns", "lost", "gone", "was_known", "name")),
-        *((name, np.int64) for name in ("near_um", "short_um", "age_cycles", "followed_way_mm", "followed_mm_s")),
+        *((name, np.int64) for name in ("near_um", "short_um", "ceiling_um", "age_cycles")),
         *((name, np.int64) for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s")),
         *((name, np.int64, (KEPT,)) for name in ("told_way_mm", "told_speed_mm_s", "told_s")),
+        *((name, np.int64, (KEPT,)) for name in ("told_number", "told_ceiling_mm_s", "told_asked_mm_s")),
+        *((name, np.int64) for name in ("held_number", "held_mm_s", "held_asked_mm_s", "asks", "hurries")),
+        *((name, np.int64) for name in ("noted_number", "noted_mm_s", "noted_asked_mm_s", "heard_asking")),
+        *((name, np.int64) for name in ("sent_number", "last_number", "brought_place")),
+        *((name, np.int64) for name in ("followed_way_mm", "followed_mm_s")),
         ("bias", np.float64),
     ]
 )
@@ -114,9 +131,11 @@ def line_of(trial: Trial) -> Any:
     line["old_um"] = [trial.conventional_um(kind) for kind in kinds]
     for name in ("gain_um", "silence_cycles", "way_spread_mm", "speed_spread_mm_s"):
         line[name] = getattr(trial.bounds(kinds[0]), name)
+    for name in ("warning_cycles", "start_cycles"):
+        line[name] = getattr(trial.settings, name)
     for name in ("station_m", "block_m", "way_sigma_m", "multipath_m", "speed_sigma_m_s"):
         line[name] = getattr(trial, name)
-    for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2"):
+    for name in ("way_error_m", "speed_error_m_s", "loss", "likely_m_s2", *OWN):
         line[name] = getattr(trial, name)
     return line
 
@@ -128,27 +147,32 @@ def bounds_of(line: Any, kind: Any) -> Any:
         line.line_um[kind],
         line.gain_um,
         SET.cycle_ms,
-        SET.warning_cycles,
+        line.warning_cycles,
         line.silence_cycles,
         line.way_spread_mm,
         line.speed_spread_mm_s,
     )
 
 
-def run_of(day: Day) -> Records:
+def run_of(day: Day, line: Any) -> Records:
     """Give a day's trains before anything happens."""
     run = np.zeros(len(day.trains), RUN)
     for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s", "name", "told_s"):
         run[name] = NEVER
     for name in ("way_um", "before_um", "last_um"):
         run[name] = COMES_UM
+    for name in ("sent_number", "last_number"):
+        run[name] = NEVER
+    for name in ("held_mm_s", "held_asked_mm_s", "noted_mm_s", "noted_asked_mm_s"):
+        run[name] = -(-line["line_um"][day.trains["local"]] // SETTINGS.cycle_ms)
     return run
 
 
 def watched(trial: Trial, day: Day, out: Any, decides: Any = decide, settings: Any = SET) -> Records:
     """Watch a day; counts go into ``out``.  ``decides``, ``settings``: the machine's own, where tests plant faults."""
-    run = run_of(day)
-    live(day, run, line_of(trial), decides, settings, packed(OPEN), packed(START), NO_DUES, out)
+    line = line_of(trial)
+    run = run_of(day, line)
+    live(day, run, line, decides, settings, packed(OPEN), packed(START), NO_DUES, out)
     return run
 
 
@@ -189,6 +213,7 @@ def run_trains(day: Any, run: Any, line: Any, window: Any, track: int, out: Any)
             gained_um > line.gain_um
             or now_um > line.line_um[day.trains[train].local]
             or way_um - run[train].way_um > max(pace_um, now_um)
+            or (keeps(run, train) and now_um > 1_000 * run[train].held_mm_s)
         ):
             out[GAIN_BROKEN] += 1
         if run[train].gone == 1 and (run[train].way_um < goes_um or run[train].way_um > COMES_UM):
@@ -250,8 +275,9 @@ def followed_of(run: Any, train: int) -> Any:
     """Give what is followed of a train."""
     held = run[train]
     return Followed(
-        held.near_um, held.short_um, held.age_cycles, held.followed_way_mm, held.followed_mm_s, held.warns == 1
-    )
+        held.near_um, held.short_um, held.ceiling_um, held.age_cycles, held.followed_way_mm, held.followed_mm_s,
+        held.warns == 1,
+    )  # fmt: skip
 
 
 @compiled
@@ -268,32 +294,24 @@ def follow_train(
             return crossing
         run[train].contact = 1
         crossing = note_contact(crossing, train)
-        known = taken(bounds, UNKNOWN, told)
+        forget_promise(run, line, train, day.trains[train].local)
+        known = taken(bounds, take_promise(bounds, run, train, UNKNOWN, told), told)
     else:
-        held = followed_of(run, train)
+        held = take_promise(bounds, run, train, followed_of(run, train), told)
         out[CONTRADICTED] += run[train].arrived_s < 0 and contradicts(bounds, held, told)
         known = follow(bounds, held, told)
     if known.age_cycles > bounds.silence_cycles and run[train].lost == 0:
         run[train].lost = 1
         out[LOST] += run[train].arrived_s < 0
-    if run[train].likely_s < 0 and likely(run, line, train, day.trains[train].local, told):
+    if run[train].likely_s < 0 and likely(day, run, line, train, told):
         run[train].likely_s = now
+    known = answer_ask(bounds, run, train, known)
     dues.append((train, due_of(bounds, known, settings.reopening_cycles)))
     later = aged_train(bounds, known)
-    run[train].near_um, run[train].short_um = later.way_um, later.short_um
+    run[train].near_um, run[train].short_um, run[train].ceiling_um = later.way_um, later.short_um, later.ceiling_um
     run[train].followed_way_mm, run[train].followed_mm_s = later.told_way_mm, later.told_speed_mm_s
     run[train].age_cycles, run[train].warns = later.age_cycles, int(known.warns)
     return crossing
-
-
-@compiled
-def likely(run: Any, line: Any, train: int, kind: int, told: Any) -> Any:
-    """Tell whether the paper's reckoning warns now: its ranging has no bounds taken off; or it is lost (003, 2.3)."""
-    if not told.valid:
-        return run[train].lost == 1
-    way_m = told.way_mm / 1e3 + line.way_error_m
-    speed_m_s = told.speed_mm_s / 1e3 - line.speed_error_m_s
-    return arrives_by_likely_reckoning(line, kind, way_m, speed_m_s, SET.warning_cycles)
 
 
 @compiled
@@ -309,6 +327,8 @@ def tell(
         crossing = prove_rear(day, run, line, train, now, crossing, out)
         in_reach = run[train].contact == 1 or run[train].way_um <= day.trains[train].contact_um
         if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
+            if day.trains[train].promises == 1:
+                promises(day, run, line, train, now, out)
             crossing = follow_train(day, run, line, train, now, crossing, dues, settings, out)
     return crossing
 
@@ -336,12 +356,13 @@ def note_opening(run: Any, crossing: Any, window: Any) -> None:
 
 
 @compiled
-def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
+def judge_trains(day: Any, run: Any, line: Any, window: Any, track: int, now: int, moment: Any, out: Any) -> int:
     """Hold arrivals and openings against what is claimed; give how many arrived (X2 to X5)."""
     arrivals = 0
     for train in range(window[track, 0], window[track, 1]):
         if run[train].state != UNDER_WAY:
             continue
+        judge_ceiling(run, train, out)
         there = run[train].out_s < 0 or now < run[train].out_s + stays_s(day, run, train)
         if run[train].asked_s >= 0 and there and not moment.crossing.warns:
             out[OPENED_BEFORE_REAR] += 1
@@ -351,16 +372,16 @@ def judge_trains(day: Any, run: Any, window: Any, track: int, now: int, moment: 
         arrivals += 1
         out[IN_CONTACT] += run[train].contact == 1 and run[train].lost == 0
         out[CONVENTIONAL] += run[train].contact == 0
-        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < SET.start_cycles
-        out[LATE_WARNING] += moment.warned <= SET.warning_cycles
+        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < line.start_cycles
+        out[LATE_WARNING] += moment.warned <= line.warning_cycles
         out[SHORT_CLOSURE] += moment.down < LEAST_DOWN_S
-        least_cycles = SET.warning_cycles + SET.reopening_cycles
+        least_cycles = line.warning_cycles + SET.reopening_cycles
         out[LIFTED_BETWEEN] += run[train].was_known == 1 and moment.opened <= least_cycles
         if run[train].likely_s >= 0 and day.trains[train].radio == 1:
-            out[LIKELY_LATE] += now - run[train].likely_s < SET.warning_cycles
+            out[LIKELY_LATE] += now - run[train].likely_s < line.warning_cycles
         if run[train].asked_s >= 0:
-            out[BEYOND] += now - run[train].asked_s - SET.warning_cycles
-        out[OLD_BEYOND] += now - run[train].old_s - SET.warning_cycles
+            out[BEYOND] += now - run[train].asked_s - line.warning_cycles
+        out[OLD_BEYOND] += now - run[train].old_s - line.warning_cycles
     return arrivals
 
 
@@ -462,7 +483,7 @@ def live(
         arrivals = 0
         for track in range(TRACKS):
             run_trains(day, run, line, window, track, out)
-            arrivals += judge_trains(day, run, window, track, now, moment, out)
+            arrivals += judge_trains(day, run, line, window, track, now, moment, out)
         old_on, off_s = old_crossing(run, window, moment, out)
         out[ARRIVALS] += arrivals
         moment = Moment(

@@ -5,9 +5,14 @@ warning time by its position, speed and acceleration.  The other is the kernel's
 sooner: it takes every error off, and reckons with the line's speed and the most that any train gains.  The paper's
 figures are compared with both, by the same criteria.
 
+The kernel stands here twice: with trains that promise a ceiling of speed, which is so much above what their drivers
+keep to, and tell their own range; and with trains that promise nothing, which may speed up to their limit's excess.
+
 The old crossing takes nothing off: its start points lie where a train at the limit needs the warning time.  So the
 kernel stands beside a crossing of the same guarantee too, its own under conventional control: start points that lie
 where no train arrives too early, whatever a terminal's silence and a driver's excess.
+
+Warning times of less than 35 s are sensitivities: 30 s leave 15 s from barriers down to the arrival, the least (2.1).
 
 One number at each site is *calibrated*: by how much trains are slower than the limit, so that the old crossing's mean
 is the paper's.  The paper tells nothing else of the traffic.  All else was written down in ``models/crossing/sites.py``
@@ -24,7 +29,18 @@ import numpy as np
 import numpy.typing as npt
 
 from models.crossing.columns import COLUMNS, NUMBER
-from models.crossing.sites import CURVED, HOURS, PEAK, SETTINGS, STRAIGHT, WARNING_S, Trial
+from models.crossing.sites import (
+    CEILING_OVER_M_S,
+    CURVED,
+    HOURS,
+    OWN_SPEED_M_S,
+    OWN_WAY_M,
+    PEAK,
+    SETTINGS,
+    STRAIGHT,
+    WARNING_S,
+    Trial,
+)
 from models.crossing.traffic import drawn
 from models.crossing.watch import watched
 from models.reproduce.tables import Picture, Reproduction, Row, Sensitivity
@@ -39,6 +55,10 @@ STEPS = 7
 CALIBRATED_BY = 2
 """Days by which it is found."""
 SLOWEST, FASTEST = 0.4, 1.1
+SAVES_S = (20.0, 2.0)
+"""What trains that promise have to save at each site, against the old crossing: by a trial before this was built."""
+SHORTER_S = 30
+"""The warning time beside 35 s: 15 s to barriers down, and the least of 15 s from then on (2.1, note 2)."""
 
 Progress = Callable[[int, int, str], None]
 Floats = npt.NDArray[np.float64]
@@ -71,9 +91,10 @@ class Measured:
     """Warning times of every train of some days, in s, and the hour in which each came.
 
     ``old``: the old crossing's.  ``struck``: by the kernel's start points alone.
-    ``likely``: by the paper's reckoning.  ``sure``: by the kernel's.
-    ``least_s``: the shortest from the kernel's warning to an arrival; ``late``: arrivals that the paper's reckoning
-    warned of late.
+    ``likely``: by the paper's reckoning.  ``sure``: by the kernel's, with trains that promise nothing.
+    ``promised``: by the kernel's, with trains that promise a ceiling.
+    ``least_s``: the shortest from a warning of the kernel's to an arrival; ``late``: arrivals that the paper's
+    reckoning warned of late.
     """
 
     hour: npt.NDArray[np.int64]
@@ -81,6 +102,7 @@ class Measured:
     struck: Floats
     likely: Floats
     sure: Floats
+    promised: Floats
     least_s: int
     late: int
 
@@ -90,7 +112,12 @@ class Measured:
 
     def saved(self, how: str) -> Floats:
         """What one way of reckoning saves, of each train: against its old crossing."""
-        return {"likely": self.old - self.likely, "sure": self.old - self.sure, "alike": self.struck - self.sure}[how]
+        return {
+            "likely": self.old - self.likely,
+            "sure": self.old - self.sure,
+            "promised": self.old - self.promised,
+            "alike": self.struck - self.sure,
+        }[how]
 
 
 def slowed(trial: Trial, by: float) -> Trial:
@@ -100,21 +127,29 @@ def slowed(trial: Trial, by: float) -> Trial:
 
 
 def measured(trial: Trial, seed: int, days: int) -> Measured:
-    """Let days pass without faults, all trains with radio, as in the trials."""
+    """Let days pass without faults, all trains with radio, as in the trials; each day again with promises."""
     parts: list[Any] = []
     late = 0
     for day in range(days):
         out = np.zeros(len(COLUMNS), np.int64)
-        began = drawn(seed, day, trial, quiet=True)
+        began = drawn(seed, day, trial, quiet=True, promise=0.0)
         run = watched(trial, began, out)
         late += int(out[NUMBER["likely_late"]])
+        again = watched(trial, drawn(seed, day, trial, quiet=True, promise=1.0), np.zeros(len(COLUMNS), np.int64))
         ended_s = run["out_s"] + 1
         hour = HOURS[0] + began.trains["at_s"] // 3_600
         warned = [ended_s - run[name] for name in ("old_s", "struck_s", "likely_s", "asked_s")]
-        parts.append([hour, *warned, run["arrived_s"] - run["asked_s"]])
-    hour, *values, shortest = (np.concatenate([part[place] for part in parts]) for place in range(6))
-    old, struck, likely, sure = (each.astype(float) for each in values)
-    return Measured(hour, old, struck, likely, sure, int(shortest.min()), late)
+        shortest = np.minimum(run["arrived_s"] - run["asked_s"], again["arrived_s"] - again["asked_s"])
+        parts.append([hour, *warned, again["out_s"] + 1 - again["asked_s"], shortest])
+    hour, *values, shortest = (np.concatenate([part[place] for part in parts]) for place in range(7))
+    old, struck, likely, sure, promised = (each.astype(float) for each in values)
+    return Measured(hour, old, struck, likely, sure, promised, int(shortest.min()), late)
+
+
+def old_s(trial: Trial, seed: int, day: int) -> float:
+    """Give the mean of the old crossing's warning times on one day."""
+    run = watched(trial, drawn(seed, day, trial, quiet=True, promise=0.0), np.zeros(len(COLUMNS), np.int64))
+    return float((run["out_s"] + 1 - run["old_s"]).mean())
 
 
 def calibrated(paper: Trials, seed: int) -> float:
@@ -122,7 +157,7 @@ def calibrated(paper: Trials, seed: int) -> float:
     slow, fast = SLOWEST, FASTEST
     for _ in range(STEPS):
         middle = (slow + fast) / 2
-        mean_s = measured(slowed(paper.trial, middle), seed, CALIBRATED_BY).old.mean()
+        mean_s = np.mean([old_s(slowed(paper.trial, middle), seed, day) for day in range(CALIBRATED_BY)])
         slow, fast = (middle, fast) if mean_s > paper.old_s else (slow, middle)
     return (slow + fast) / 2
 
@@ -139,7 +174,7 @@ def reproduce(seed: int, runs: int, progress: Progress) -> Reproduction:
         share = calibrated(paper, seed)
         site = slowed(paper.trial, share)
         found = measured(site, seed + 1, runs)
-        rows += [*rows_of(number, paper, found), *costs(number, site, seed + 1)]
+        rows += [*rows_of(number, paper, found), *shorter(number, site, seed + 1), *costs(number, site, seed + 1)]
         pictures += pictures_of(number, paper, found)
         progress(len(PAPER) + number, 2 * len(PAPER), f"{paper.trial.name}: sensitivities")
         changes += sensitivities(paper, site, seed + 1)
@@ -167,7 +202,16 @@ def rows_of(number: int, paper: Trials, found: Measured) -> tuple[Row, ...]:
         Row(of + "mean, the paper's reckoning", paper.where, f"{paper.new_s} s", mean,
             abs(mean_s - paper.new_s) <= CLOSE * paper.new_s, "within a tenth"),
         *savings(of, paper, found, "likely"),
-        Row(of + "mean, the kernel", paper.where, f"{paper.new_s} s", f"{found.sure.mean():.1f} s",
+        Row(of + f"mean, {HOW['promised']}", paper.where, f"{paper.new_s} s", f"{found.promised.mean():.1f} s",
+            bool(found.promised.mean() <= (1 + CLOSE) * paper.new_s), "a tenth longer at most"),
+        Row(of + f"least saving, {HOW['promised']}", "ours", f"{SAVES_S[number - 1]:.0f} s at least",
+            f"{found.saved('promised').mean():.1f} s", bool(found.saved("promised").mean() >= SAVES_S[number - 1]),
+            "calibrated: ceiling and range of promises"),
+        Row(of + f"saving, {HOW['promised']}", paper.where, f"{paper.saved_s:.1f} s",
+            f"{found.saved('promised').mean():.1f} s",
+            bool(found.saved("promised").mean() >= (1 - THIRD) * paper.saved_s), "two thirds at least"),
+        *savings(of, paper, found, "promised")[1:],
+        Row(of + f"mean, {HOW['sure']}", paper.where, f"{paper.new_s} s", f"{found.sure.mean():.1f} s",
             bool(abs(found.sure.mean() - paper.new_s) <= CLOSE * paper.new_s), "within a tenth"),
         *savings(of, paper, found, "sure"),
         Row(of + "mean, the kernel by start points alone", "not given", "not given", f"{found.struck.mean():.1f} s",
@@ -180,6 +224,21 @@ def rows_of(number: int, paper: Trials, found: Measured) -> tuple[Row, ...]:
     )  # fmt: skip
 
 
+def shorter(number: int, site: Trial, seed: int) -> tuple[Row, ...]:
+    """What is saved with a warning time of 30 s against old start points as they are: a sensitivity (ours)."""
+    found = measured(replace(site, warning_s=SHORTER_S), seed, 1)
+    at = f"trial {number}: at {SHORTER_S} s of warning, old start points as at {WARNING_S} s, "
+    return (
+        *(
+            Row(at + f"saving, {HOW[how]}", "ours", "not given", f"{found.saved(how).mean():.1f} s", None,
+                "none: a sensitivity")
+            for how in ("likely", "promised", "sure")
+        ),
+        Row(at + "least time from warning to arrival, the kernel", "2.1, note 2", f"{SHORTER_S} s at least",
+            f"{found.least_s} s", found.least_s >= SHORTER_S, "every one"),
+    )  # fmt: skip
+
+
 def costs(number: int, site: Trial, seed: int) -> tuple[Row, ...]:
     """What of the kernel's warning is owed to single margins: each left out by itself (ours)."""
     without = {
@@ -187,17 +246,20 @@ def costs(number: int, site: Trial, seed: int) -> tuple[Row, ...]:
         "rangings without error": erring(site, 0.0),
         "no gain of speed": replace(site, gain_m_s2=1e-6),
     }
-    base = measured(site, seed, 1).sure.mean()
+    base = measured(site, seed, 1)
     return tuple(
-        Row(f"trial {number}: {name}, the kernel", "ours", "not given",
-            f"{measured(changed, seed, 1).sure.mean() - base:+.1f} s", None, "none: what the margin costs")
+        Row(f"trial {number}: {name}, {HOW[how]}", "ours", "not given",
+            f"{(found.saved(how) - base.saved(how)).mean():+.1f} s saved", None, "none: what the margin costs")
         for name, changed in without.items()
+        for found in (measured(changed, seed, 1),)
+        for how in ("promised", "sure")
     )  # fmt: skip
 
 
 HOW = {
     "likely": "the paper's reckoning",
-    "sure": "the kernel",
+    "promised": "the kernel, all trains promise",
+    "sure": "the kernel, no train promises",
     "alike": "the kernel against its start points",
 }
 
@@ -224,7 +286,8 @@ def pictures_of(number: int, paper: Trials, found: Measured) -> tuple[Picture, .
         "old crossing": found.old,
         "the paper's reckoning": found.likely,
         "the kernel by start points": found.struck,
-        "the kernel": found.sure,
+        "the kernel, all promise": found.promised,
+        "the kernel, none promises": found.sure,
     }
     return (
         Picture(
@@ -296,6 +359,8 @@ def parameters() -> dict[str, str]:
         "old start points": "the warning time at the greatest speed: of the line in trial 1, of each kind in trial 2"
         " (2.1, 3.1); no margin",
         "the kernel's decision": f"each {SETTINGS.cycle_ms} ms; errors, age and two cycles are taken off (ours)",
+        "promises": f"a ceiling {CEILING_OVER_M_S} m/s above what the driver keeps to: the speed's range, and what is"
+        f" gained until the supervision acts; own range ±{OWN_WAY_M:.0f} m, ±{OWN_SPEED_M_S} m/s (ours)",
         "excess": f"{100 * (STRAIGHT.excess - 1):.0f} % over the limit is reckoned with by the kernel alone (ours)",
         "lines": "100 km/h, 20 trains an hour and track at the peak (Isesaki line); 85 km/h for expresses and 65 km/h"
         " for locals, 21 (Oimachi line): public, or practice",

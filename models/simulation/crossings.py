@@ -200,7 +200,7 @@ class Crossings:
                 known = arrival.follow(BOUNDS, state.followed[train], ranging)
             elif arrival.counts(BOUNDS, ranging):
                 state.crossing = machine.note_contact(state.crossing, Known(train))
-                known = arrival.taken(BOUNDS, Followed(0, 0, 10**6, 0, 0, False), ranging)
+                known = arrival.taken(BOUNDS, Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False), ranging)
             else:
                 continue
             dues[Known(train)] = machine.due(BOUNDS, known, SETTINGS.reopening_cycles)

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -78,9 +79,9 @@ def proved(part: Part) -> tuple[str, str]:
     return _once(text, at_a_loss(text))
 
 
-def _once(text: str, *more: str) -> tuple[str, str]:
-    options = {"produce-proofs": "true", "check-proofs": "true", "proof-format-mode": "cpc"}
-    _, says = commanded(text + "(get-proof)\n", BUDGET["cvc5"], 0, options | dict.fromkeys(more, "true"))
+def _once(text: str, more: Mapping[str, str] | None = None) -> tuple[str, str]:
+    options = {"produce-proofs": "true", "check-proofs": "true", "proof-format-mode": "cpc", **(more or {})}
+    _, says = commanded(text + "(get-proof)\n", BUDGET["cvc5"], 0, options)
     said: list[str] = []
     try:
         for each in says:

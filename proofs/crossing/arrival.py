@@ -8,11 +8,14 @@ from models.crossing.arrival import (
     Coming,
     Crossing,
     Taken,
+    acknowledge,
     arrive,
     bounds_are_above_zero,
     decide,
     is_of_this_line,
+    keep_to,
     run_a_cycle,
+    take_ceiling,
     take_ranging,
     towards_mm_s,
 )
@@ -37,9 +40,12 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.silent_cycles == 0
         and system.followed.way_um <= system.way_um
         and system.pace_um <= site.bounds.line_um - system.followed.short_um
+        and system.ceiling_um == site.bounds.line_um
         and 0 <= system.followed.short_um <= site.bounds.line_um
+        and system.followed.ceiling_um == site.bounds.line_um
         and system.worst.way_um == system.followed.way_um
         and system.worst.short_um == system.followed.short_um
+        and system.worst.ceiling_um == site.bounds.line_um
         and system.left_cycles == site.bounds.warning_cycles + 1
         and system.worst.way_um > (site.bounds.warning_cycles + 1) * site.bounds.line_um + site.bounds.gain_um
         and is_of_this_line(site.bounds, system.told)
@@ -86,9 +92,15 @@ def the_ranging_before_is_kept(site: Crossing, system: Coming) -> bool:
     )
 
 
-def no_pace_is_beyond_the_lines(site: Crossing, system: Coming) -> bool:
-    """What is reckoned with is no faster than the line allows, and does not move away (X2)."""
-    return 0 <= system.followed.short_um <= site.bounds.line_um and 0 <= system.worst.short_um <= site.bounds.line_um
+def no_pace_is_beyond_its_ceiling(site: Crossing, system: Coming) -> bool:
+    """What is reckoned with is no faster than its ceiling, does not move away, and has no lower one than the train."""
+    return (
+        0 <= system.followed.short_um <= system.followed.ceiling_um
+        and 0 <= system.worst.short_um <= system.worst.ceiling_um
+        and system.pace_um <= system.ceiling_um
+        and system.ceiling_um <= system.followed.ceiling_um <= site.bounds.line_um
+        and system.ceiling_um <= system.worst.ceiling_um <= site.bounds.line_um
+    )
 
 
 def the_ranging_still_bounds_the_train(site: Crossing, system: Coming) -> bool:
@@ -118,13 +130,14 @@ def no_ranging_counts_as_newer_than_it_is(site: Crossing, system: Coming) -> boo
 def what_is_followed_bounds_the_train(site: Crossing, system: Coming) -> bool:
     """While the ranging counts, the train is no nearer and no faster than the crossing holds it to be (X2)."""
     return system.followed.age_cycles > site.bounds.silence_cycles or (
-        system.followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.followed.short_um
+        system.followed.way_um <= system.way_um
+        and system.pace_um <= system.followed.ceiling_um - system.followed.short_um
     )
 
 
 def the_worst_bounds_the_train(site: Crossing, system: Coming) -> bool:
     """The train is no nearer and no faster than the worst since the last decision not to warn (X2)."""
-    return system.worst.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.worst.short_um
+    return system.worst.way_um <= system.way_um and system.pace_um <= system.worst.ceiling_um - system.worst.short_um
 
 
 def cycles_are_counted_from_none(site: Crossing, system: Coming) -> bool:
@@ -142,9 +155,7 @@ def what_is_not_warned_of_is_left(site: Crossing, system: Coming) -> bool:
 
 def even_the_worst_cannot_arrive_too_early(site: Crossing, system: Coming) -> bool:
     """For what is left of the warning time, even the worst does not arrive (X2)."""
-    return system.left_cycles <= 0 or arrival.cannot_arrive(
-        site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles
-    )
+    return system.left_cycles <= 0 or arrival.cannot_arrive(site.bounds, system.worst, system.left_cycles)
 
 
 INITIAL = (contact_is_made_in_time,)
@@ -156,7 +167,7 @@ SAFETY = (
 INVARIANTS = (
     *SAFETY,
     the_ranging_before_is_kept,
-    no_pace_is_beyond_the_lines,
+    no_pace_is_beyond_its_ceiling,
     the_ranging_still_bounds_the_train,
     no_ranging_counts_as_newer_than_it_is,
     what_is_followed_bounds_the_train,
@@ -166,7 +177,7 @@ INVARIANTS = (
     even_the_worst_cannot_arrive_too_early,
 )
 PREMISES = (bounds_are_above_zero,)
-STEPS = (decide, run_a_cycle, arrive, take_ranging)
+STEPS = (decide, run_a_cycle, arrive, take_ranging, keep_to, take_ceiling, acknowledge)
 
 THEORY = Theory(
     "arrival",

@@ -3,7 +3,19 @@
 from __future__ import annotations
 
 from kernel.crossing import arrival
-from models.crossing.due import Answered, Way, answer, arrive, bounds_are_above_zero, run_a_cycle, take_ranging
+from models.crossing.due import (
+    Answered,
+    Way,
+    acknowledge,
+    answer,
+    arrive,
+    bounds_are_above_zero,
+    keep_to,
+    restart,
+    run_a_cycle,
+    take_ceiling,
+    take_ranging,
+)
 from proofs.theory import Theory, by_name
 
 
@@ -14,9 +26,12 @@ def nothing_is_secured(site: Way, system: Answered) -> bool:
         and system.sooner_cycles == 0
         and system.worst.way_um <= system.way_um
         and system.pace_um <= site.bounds.line_um
+        and system.ceiling_um == site.bounds.line_um
         and system.worst.short_um == 0
+        and system.worst.ceiling_um == site.bounds.line_um
         and system.followed.age_cycles > site.bounds.silence_cycles
         and 0 <= system.followed.short_um <= site.bounds.line_um
+        and system.followed.ceiling_um == site.bounds.line_um
     )
 
 
@@ -31,41 +46,46 @@ def nobody_arrives_before_he_can(site: Way, system: Answered) -> bool:
 # ---- what it rests on
 
 
-def no_pace_is_beyond_the_lines(site: Way, system: Answered) -> bool:
-    """What is reckoned with is no faster than the line allows, and does not move away (X2)."""
-    return 0 <= system.followed.short_um <= site.bounds.line_um and 0 <= system.worst.short_um <= site.bounds.line_um
+def no_pace_is_beyond_its_ceiling(site: Way, system: Answered) -> bool:
+    """What is reckoned with is no faster than its ceiling, does not move away, and has no lower one than the train."""
+    return (
+        0 <= system.followed.short_um <= system.followed.ceiling_um
+        and 0 <= system.worst.short_um <= system.worst.ceiling_um
+        and system.pace_um <= system.ceiling_um
+        and system.ceiling_um <= system.followed.ceiling_um <= site.bounds.line_um
+        and system.ceiling_um <= system.worst.ceiling_um <= site.bounds.line_um
+    )
 
 
 def what_is_followed_bounds_the_train(site: Way, system: Answered) -> bool:
     """While the ranging counts, the train is no nearer and no faster than the crossing holds it to be (X2)."""
     return system.followed.age_cycles > site.bounds.silence_cycles or (
-        system.followed.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.followed.short_um
+        system.followed.way_um <= system.way_um
+        and system.pace_um <= system.followed.ceiling_um - system.followed.short_um
     )
 
 
 def the_worst_bounds_the_train(site: Way, system: Answered) -> bool:
     """The train is no nearer and no faster than the worst since the answer (X2)."""
-    return system.worst.way_um <= system.way_um and system.pace_um <= site.bounds.line_um - system.worst.short_um
+    return system.worst.way_um <= system.way_um and system.pace_um <= system.worst.ceiling_um - system.worst.short_um
 
 
 def even_the_worst_cannot_arrive_too_early(site: Way, system: Answered) -> bool:
     """For what is left, even the worst does not arrive (X2)."""
-    return system.left_cycles <= 0 or arrival.cannot_arrive(
-        site.bounds, system.worst.way_um, system.worst.short_um, system.left_cycles
-    )
+    return system.left_cycles <= 0 or arrival.cannot_arrive(site.bounds, system.worst, system.left_cycles)
 
 
 INITIAL = (nothing_is_secured,)
 SAFETY = (nobody_arrives_before_he_can,)
 INVARIANTS = (
     *SAFETY,
-    no_pace_is_beyond_the_lines,
+    no_pace_is_beyond_its_ceiling,
     what_is_followed_bounds_the_train,
     the_worst_bounds_the_train,
     even_the_worst_cannot_arrive_too_early,
 )
 PREMISES = (bounds_are_above_zero,)
-STEPS = (take_ranging, answer, run_a_cycle, arrive)
+STEPS = (take_ranging, keep_to, take_ceiling, acknowledge, answer, run_a_cycle, arrive, restart)
 
 THEORY = Theory(
     "due",

@@ -91,7 +91,7 @@ def nobody_is_must_not_be_warned_of(warned_cycles: int) -> None:
 def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:
     """To the micrometre (X2, X4)."""
     assert 0 <= way_um <= 3_000_000_000
-    answer = due(BOUNDS, Followed(way_um, 0, 0, 0, 0, False), 20)
+    answer = due(BOUNDS, Followed(way_um, 0, 30_000_000, 0, 0, 0, False), 20)
     assert (answer == Due.NOW) == (way_um <= 42 * 30_000_000)
     assert (answer == Due.FAR) == (way_um > 62 * 30_000_000)
 
@@ -99,4 +99,4 @@ def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:
 def what_is_lost_is_due(way_um: int, age_cycles: int) -> None:
     """However far it was (X3)."""
     assert age_cycles > 3
-    assert due(BOUNDS, Followed(way_um, 30_000_000, age_cycles, 0, 0, False), 20) == Due.NOW
+    assert due(BOUNDS, Followed(way_um, 30_000_000, 30_000_000, age_cycles, 0, 0, False), 20) == Due.NOW

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel.crossing import arrival as machine
-from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Ranging
+from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Followed, Ranging
 from proofs.crossing.witnesses.arrival import BOUNDS, NOTHING, WITNESSES, Train, contacted
 
 HUGE = 2**62
@@ -33,17 +33,19 @@ def test_witness(witness: Callable[[], None]) -> None:
     witness()
 
 
-@given(SITES, st.integers(0, 20_000), st.integers(-1_000, 10**6), st.integers(1, 60))
+@given(SITES, st.integers(0, 20_000), st.integers(0, 20_000), st.integers(-1_000, 10**6), st.integers(1, 60))
 def test_it_cannot_arrive_exactly_if_the_worst_train_does_not(
-    bounds: ArrivalBounds, short_um: int, way_um: int, cycles: int
+    bounds: ArrivalBounds, ceiling_um: int, short_um: int, way_um: int, cycles: int
 ) -> None:
     """Neither too early nor too late: to the cycle and to the micrometre (X2)."""
-    short_um = min(short_um, bounds.line_um)
-    pace_um, left_um = bounds.line_um - short_um, way_um
+    ceiling_um = min(ceiling_um, bounds.line_um)
+    short_um = min(short_um, ceiling_um)
+    pace_um, left_um = ceiling_um - short_um, way_um
     for _ in range(cycles):
-        pace_um = min(pace_um + bounds.gain_um, bounds.line_um)
+        pace_um = min(pace_um + bounds.gain_um, ceiling_um)
         left_um -= pace_um
-    told = machine.cannot_arrive(bounds, way_um, short_um, cycles)
+    known = Followed(way_um, short_um, ceiling_um, 0, 0, 0, False)
+    told = machine.cannot_arrive(bounds, known, cycles)
     assert not told or left_um > 0
     if left_um > bounds.gain_um:
         assert told

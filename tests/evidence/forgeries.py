@@ -154,6 +154,18 @@ QUICK = (
         "other solvers",
         PROOF,
     ),
+    Forgery(
+        "an answer that was kept from an earlier run",
+        edited(PROOF, lambda told: first_cell(told).update(kept="2026-01-01T00:00:00+00:00")),
+        "kept answer",
+        PROOF,
+    ),
+    Forgery(
+        "answers kept from earlier runs, their marks taken off",
+        edited(PROOF, set_to("command", value="heisoku prove --solver both --kept out/proofs.sqlite")),
+        "kept answer",
+        PROOF,
+    ),
     Forgery("no command line", edited("check.json", lambda told: told.pop("command")), "unsaid", "check.json"),
 )
 """A sample that needs little."""

@@ -22,16 +22,18 @@ BOUNDS = ArrivalBounds(
 )
 """30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s and err by rounding alone."""
 SITE = Crossing(BOUNDS)
+LINE_UM = BOUNDS.line_um
 NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
 
 
 def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
     """A train that has just been ranged, exactly."""
     way_um, pace_um = UM_A_MM * way_mm, BOUNDS.cycle_ms * speed_mm_s
-    known = Followed(way_um, BOUNDS.line_um - max(0, pace_um), 0, way_mm, max(0, speed_mm_s), False)
+    known = Followed(way_um, LINE_UM - max(0, pace_um), LINE_UM, 0, way_mm, max(0, speed_mm_s), False)
     return Coming(
         way_um=way_um,
         pace_um=pace_um,
+        ceiling_um=LINE_UM,
         ranged=Taken(way_um, pace_um, 0),
         arrived=False,
         decided=False,
@@ -51,6 +53,12 @@ class Train(Play[Crossing, Coming]):
     def __init__(self, system: Coming | None = None) -> None:
         """Begin."""
         super().__init__(THEORY, SITE, contacted() if system is None else system)
+
+    def promise(self, ceiling_um: int) -> None:
+        """Promise a ceiling, which the crossing hears."""
+        self.step("keep_to", ceiling_um=ceiling_um)
+        self.step("take_ceiling", ceiling_um=ceiling_um)
+        assert self.system.ceiling_um == self.system.followed.ceiling_um == ceiling_um
 
     def range(self) -> None:
         """Take a ranging."""
@@ -83,7 +91,7 @@ class Train(Play[Crossing, Coming]):
 
     def faster(self) -> int:
         """The pace that it has after gaining all that it can."""
-        return min(self.system.pace_um + BOUNDS.gain_um, BOUNDS.line_um)
+        return min(self.system.pace_um + BOUNDS.gain_um, self.system.ceiling_um)
 
     def warns(self) -> bool:
         """Whether it asks for the warning."""
@@ -130,14 +138,14 @@ def a_slow_train_is_warned_of_later() -> None:
     """From 1056 m at 30 m/s, from 745 m at 5 m/s, from 608 m at a standstill: to the micrometre (X2)."""
     for speed_mm_s, begins_mm in ((30_000, 1_056_000), (5_000, 744_750), (0, 607_500)):
         pace_um = BOUNDS.cycle_ms * speed_mm_s
-        short_um = BOUNDS.line_um - pace_um
-        assert worst_way_um(pace_um, 352) == UM_A_MM * begins_mm
-        assert not machine.cannot_arrive(BOUNDS, UM_A_MM * begins_mm, short_um, 352)
-        assert machine.cannot_arrive(BOUNDS, UM_A_MM * begins_mm + 1, short_um, 352)
+        at = Followed(UM_A_MM * begins_mm, LINE_UM - pace_um, LINE_UM, 0, 0, 0, False)
+        assert worst_way_um(pace_um, 352) == at.way_um
+        assert not machine.cannot_arrive(BOUNDS, at, 352)
+        assert machine.cannot_arrive(BOUNDS, replace(at, way_um=at.way_um + 1), 352)
     for cycles in (1, 249, 250, 251):
-        way_um = worst_way_um(500_000, cycles)
-        assert not machine.cannot_arrive(BOUNDS, way_um, 2_500_000, cycles)
-        assert machine.cannot_arrive(BOUNDS, way_um + 1, 2_500_000, cycles)
+        at = Followed(worst_way_um(500_000, cycles), 2_500_000, LINE_UM, 0, 0, 0, False)
+        assert not machine.cannot_arrive(BOUNDS, at, cycles)
+        assert machine.cannot_arrive(BOUNDS, replace(at, way_um=at.way_um + 1), cycles)
 
 
 def worst_way_um(pace_um: int, cycles: int) -> int:
@@ -227,7 +235,7 @@ def a_ranging_again_takes_the_place_of_the_worst() -> None:
     assert train.system.followed.short_um == 850_000
     train.range()
     train.decide()
-    assert train.system.followed == Followed(train.system.way_um, 1_000_000, 0, 2_970_000, 20_000, False)
+    assert train.system.followed == Followed(train.system.way_um, 1_000_000, LINE_UM, 0, 2_970_000, 20_000, False)
     assert train.system.silent_cycles == 0
 
 
@@ -240,10 +248,11 @@ def a_late_ranging_is_shortened_by_its_age() -> None:
         train.decide(NOTHING)
         train.run(2_000_000)
     train.decide(Ranging(True, told.way_mm, told.speed_mm_s, 5))
-    assert train.system.followed == Followed(3_000_000_000 - 5 * 3_000_000, 950_000, 5, 3_000_000, 20_000, False)
+    held = train.system.followed
+    assert held == Followed(3_000_000_000 - 5 * 3_000_000, 950_000, LINE_UM, 5, 3_000_000, 20_000, False)
     for age_cycles, counts in ((20, True), (21, False), (0, True), (-1, False)):
         assert machine.counts(BOUNDS, Ranging(True, 0, 0, age_cycles)) == counts
-    assert machine.taken(BOUNDS, train.system.followed, Ranging(True, 9_000, 29_950, 7)).short_um == 0
+    assert machine.taken(BOUNDS, held, Ranging(True, 9_000, 29_950, 7)).short_um == 0
 
 
 def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
@@ -320,8 +329,89 @@ def every_number_fits_into_64_bits() -> None:
     for way_mm in (-FARTHEST_MM, 0, FARTHEST_MM, 2**62):
         for speed_mm_s in (-(2**62), 0, 200_000, 2**62):
             ranging = Ranging(True, Checked(way_mm), Checked(speed_mm_s), Checked(10))
-            held = Followed(Checked(0), Checked(200_000_000), Checked(0), Checked(-FARTHEST_MM), Checked(0), False)
-            assert machine.aged(bounds, machine.follow(bounds, held, ranging)).age_cycles <= 11
+            for ceiling_um in (0, 200_000_000, 2**62):
+                held = with_ints(Checked, Followed(0, 200_000_000, 200_000_000, 0, -FARTHEST_MM, 0, False))
+                held = machine.held_to(bounds, held, Checked(ceiling_um))
+                assert machine.aged(bounds, machine.follow(bounds, held, ranging)).age_cycles <= 11
+
+
+# ---- ceilings
+
+
+def by_its_ceiling_the_warning_time_is_met_to_the_cycle() -> None:
+    """A train at 20 m/s that promises no more is warned of 352 m nearer; one that stands and promises 0 never (X2)."""
+    for way_mm in (1_000_000, 1_001_000):
+        train = Train(contacted(2_000_000, 20_000))
+        train.promise(2_000_000)
+        while train.system.way_um > UM_A_MM * way_mm:
+            train.cycle(2_000_000)
+        assert not train.warns()
+        assert 350 <= train.to_the_crossing() <= 351
+    stands = Train(contacted(1_060_000, 3_000))
+    while stands.system.pace_um > 0:
+        stands.cycle(stands.system.pace_um - 10_000)
+    stands.promise(0)
+    for _ in range(1_000):
+        stands.cycle(0)
+        assert not stands.warns()
+
+
+def who_promises_nothing_is_held_to_the_lines_speed() -> None:
+    """And so is one whose promise is not heard: what it keeps to is its own matter (X2)."""
+    for promises in (True, False):
+        train = Train(contacted(1_060_000, 20_000))
+        if promises:
+            train.step("keep_to", ceiling_um=2_000_000)
+            assert train.system.ceiling_um == 2_000_000
+        train.cycle(2_000_000)
+        assert train.system.followed.ceiling_um == LINE_UM
+        for _ in range(160):
+            train.cycle(2_000_000)
+        assert train.warns()
+        assert train.system.way_um > 704 * 2_000_000 // 2
+
+
+def to_go_faster_takes_an_acknowledgement() -> None:
+    """It is given where the train needs no warning even so, and after the decision; then the train does its worst."""
+    far = Train(contacted(1_300_000, 20_000))
+    far.promise(2_000_000)
+    held = far.system
+    assert far.step("run_a_cycle", to_um=held.way_um, pace_um=2_010_000) == held
+    assert far.step("acknowledge", asked_um=LINE_UM) == held
+    far.range()
+    far.decide()
+    assert far.step("run_a_cycle", to_um=held.way_um, pace_um=2_010_000) == far.system
+    for asked_um in (1_999_999, LINE_UM + 1):
+        held = far.system
+        assert far.step("acknowledge", asked_um=asked_um) == held
+    raised = far.step("acknowledge", asked_um=LINE_UM)
+    assert raised.ceiling_um == raised.followed.ceiling_um == raised.worst.ceiling_um == LINE_UM
+    assert (raised.followed.short_um, raised.worst.short_um) == (1_000_000, 1_000_000)
+    far.run(2_010_000)
+    assert 350 <= far.to_the_crossing() <= 351
+    near = Train(contacted(1_060_000, 5_000))
+    near.promise(500_000)
+    while near.system.way_um > 600_000_000:
+        near.cycle(500_000)
+    near.range()
+    near.decide()
+    held = near.system
+    assert not near.warns()
+    assert near.step("acknowledge", asked_um=LINE_UM) == held
+
+
+def no_ceiling_is_promised_that_is_not_kept() -> None:
+    """Nor does the crossing reckon with less than the train keeps to (X2)."""
+    train = Train(contacted(2_000_000, 20_000))
+    start = train.system
+    assert train.step("keep_to", ceiling_um=1_999_999) == start
+    assert train.step("take_ceiling", ceiling_um=LINE_UM - 1) == start
+    assert train.step("keep_to", ceiling_um=2_500_000).ceiling_um == 2_500_000
+    assert train.step("keep_to", ceiling_um=2_600_000).ceiling_um == 2_500_000
+    assert train.step("take_ceiling", ceiling_um=2_499_999).followed.ceiling_um == LINE_UM
+    assert train.step("take_ceiling", ceiling_um=2_500_000).followed.ceiling_um == 2_500_000
+    assert train.system.followed.short_um == 500_000
+    assert train.step("take_ceiling", ceiling_um=LINE_UM + 1).followed.ceiling_um == LINE_UM
 
 
 # ---- nature
@@ -389,5 +479,9 @@ WITNESSES = (
     what_does_not_count_contradicts_nothing,
     what_is_out_of_range_does_not_count,
     every_number_fits_into_64_bits,
+    by_its_ceiling_the_warning_time_is_met_to_the_cycle,
+    who_promises_nothing_is_held_to_the_lines_speed,
+    to_go_faster_takes_an_acknowledgement,
+    no_ceiling_is_promised_that_is_not_kept,
     what_nature_does_not_do_does_not_happen,
 )

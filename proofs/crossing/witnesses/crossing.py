@@ -286,9 +286,9 @@ def a_train_is_far_by_the_longer_time() -> None:
         speed_spread_mm_s=1,
     )
     for cycles, due in ((42, NOW), (43, NEAR), (62, NEAR), (63, FAR)):
-        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 0, 0, 0, False), 20) == due
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 0, 0, 0, True), 20) == NOW
-    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 4, 0, 0, False), 20) == NOW
+        assert machine.due(bounds, Followed(30_000_000 * cycles, 0, 30_000_000, 0, 0, 0, False), 20) == due
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 30_000_000, 0, 0, 0, True), 20) == NOW
+    assert machine.due(bounds, Followed(30_000_000 * 63, 0, 30_000_000, 4, 0, 0, False), 20) == NOW
 
 
 def every_number_fits_into_64_bits() -> None:

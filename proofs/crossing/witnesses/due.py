@@ -21,6 +21,9 @@ BOUNDS = ArrivalBounds(
 )
 """30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
 NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
+LINE_UM = BOUNDS.line_um
+UNKNOWN = Followed(0, 0, LINE_UM, 21, 0, 0, False)
+"""Of a train of which nothing is known."""
 SITE = Way(BOUNDS, Settings(100, 350, 50, 100, 200, 60, 200, 20, 372))
 
 
@@ -30,10 +33,8 @@ class Train(Play[Way, Answered]):
     def __init__(self, way_mm: int, speed_mm_s: int) -> None:
         """Begin."""
         way_um = 1_000 * way_mm
-        nothing = Followed(0, 0, 21, 0, 0, False)
-        super().__init__(
-            THEORY, SITE, Answered(way_um, 100 * speed_mm_s, nothing, Followed(way_um, 0, 0, 0, 0, False), 0, 0)
-        )
+        worst = Followed(way_um, 0, LINE_UM, 0, 0, 0, False)
+        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, LINE_UM, UNKNOWN, worst, 0, 0))
 
     def ranging(self) -> Ranging:
         """A ranging, exact but for rounding to the safe side."""
@@ -43,7 +44,9 @@ class Train(Play[Way, Answered]):
         """What is known by it."""
         told = self.ranging()
         towards_mm_s = max(0, told.speed_mm_s)
-        return Followed(1_000 * told.way_mm, BOUNDS.line_um - 100 * towards_mm_s, 0, told.way_mm, towards_mm_s, False)
+        ceiling_um = self.system.followed.ceiling_um
+        short_um = ceiling_um - 100 * towards_mm_s
+        return Followed(1_000 * told.way_mm, short_um, ceiling_um, 0, told.way_mm, towards_mm_s, False)
 
     def answer(self) -> int:
         """Give the answer's cycles."""
@@ -59,7 +62,7 @@ class Train(Play[Way, Answered]):
 
     def faster(self) -> int:
         """The pace after gaining all that it can."""
-        return min(self.system.pace_um + BOUNDS.gain_um, BOUNDS.line_um)
+        return min(self.system.pace_um + BOUNDS.gain_um, self.system.ceiling_um)
 
     def to_the_crossing(self) -> int:
         """Run at its worst until it is there; give what is left then."""
@@ -131,6 +134,58 @@ def the_worst_gains_until_the_lines_speed() -> None:
         assert (slow.system.worst.short_um, slow.system.worst.way_um) == (short_um, 2_000_000_000 - way_um)
 
 
+def with_its_ceiling_an_answer_secures_what_it_says() -> None:
+    """At 20 m/s that it has promised not to exceed: two thirds of the way (X2, X4)."""
+    for begins_mm, cycles in ((704_000, 0), (704_001, 352), (1_104_000, 352), (1_104_001, 552)):
+        train = Train(begins_mm, 20_000)
+        train.step("keep_to", ceiling_um=2_000_000)
+        train.step("take_ceiling", ceiling_um=2_000_000)
+        assert train.answer() == cycles
+        if cycles:
+            assert train.to_the_crossing() <= 0
+
+
+def only_who_is_far_even_so_may_go_faster() -> None:
+    """With the ask's own answer, which secures no less than any before; then it does its worst (X2, X4)."""
+    for way_mm, acknowledged in ((1_608_501, True), (1_608_500, False)):
+        train = Train(way_mm, 20_000)
+        train.step("keep_to", ceiling_um=2_000_000)
+        train.step("take_ceiling", ceiling_um=2_000_000)
+        assert train.answer() == 552
+        for asked_um in (1_999_999, LINE_UM + 1):
+            held = train.system
+            assert train.step("acknowledge", asked_um=asked_um) == held
+        train.run(2_000_000)
+        train.step("take_ranging", ranging=train.ranging())
+        held = train.system
+        raised = train.step("acknowledge", asked_um=LINE_UM)
+        assert (raised != held) == acknowledged
+        if acknowledged:
+            assert (raised.left_cycles, raised.ceiling_um) == (552, LINE_UM)
+            assert raised.worst == raised.followed == train.followed()
+            assert raised.followed.short_um == 1_000_000
+        assert train.to_the_crossing() <= 0
+
+
+def a_restart_forgets_the_ceiling_and_the_train_keeps_it() -> None:
+    """And after it the crossing reckons with the line's speed until the promise is heard anew (X3)."""
+    train = Train(1_100_000, 20_000)
+    train.step("keep_to", ceiling_um=2_000_000)
+    train.step("take_ceiling", ceiling_um=2_000_000)
+    assert train.answer() == 352
+    assert train.step("restart").followed == UNKNOWN
+    held = train.system
+    assert train.step("run_a_cycle", to_um=held.way_um, pace_um=2_000_001) == held
+    assert train.answer() == 352
+    assert train.system.followed.ceiling_um == LINE_UM
+    train.run(2_000_000)
+    near = Train(1_050_000, 20_000)
+    near.step("keep_to", ceiling_um=2_000_000)
+    assert near.answer() == 352
+    assert near.step("take_ceiling", ceiling_um=1_999_999).followed.ceiling_um == LINE_UM
+    assert near.step("take_ceiling", ceiling_um=2_000_000).followed.ceiling_um == 2_000_000
+
+
 def what_nature_does_not_do_does_not_happen() -> None:
     """Each of the assumptions refuses its event, at its edge and not within (X2)."""
     train = Train(2_000_000, 20_000)
@@ -162,6 +217,7 @@ def another_warning_time_or_cycle_is_refused() -> None:
         start = train.system
         assert train.step("take_ranging", ranging=train.ranging()) == start
         assert train.step("answer") == start
+        assert train.step("acknowledge", asked_um=LINE_UM) == start
     assert have_one_warning_time(BOUNDS, SITE.settings)
 
 
@@ -171,5 +227,8 @@ WITNESSES = (
     each_answer_takes_the_place_of_the_one_before,
     an_answer_that_is_not_held_leaves_the_one_before,
     the_worst_gains_until_the_lines_speed,
+    with_its_ceiling_an_answer_secures_what_it_says,
+    only_who_is_far_even_so_may_go_faster,
+    a_restart_forgets_the_ceiling_and_the_train_keeps_it,
     what_nature_does_not_do_does_not_happen,
 )
