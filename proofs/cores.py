@@ -30,7 +30,8 @@ from proofs.records import about, write_json
 from proofs.run import bench
 from proofs.search import NARROW, core
 from proofs.theories import ROWS, is_transition, theory_of
-from proofs.workbench import Part, Way
+from proofs.ways import Way
+from proofs.workbench import Part
 
 HYPOTHESIS, GUARD, UPDATE = "hypothesis", "guard", "update"
 Named = Mapping[str, Sequence[Any]]
@@ -140,15 +141,17 @@ def field_of(formula: Any) -> str:
 
 
 def core_of(row: str, column: str, notes: Notes) -> Core:
-    """The core of one obligation: of all its parts together."""
+    """The core of one obligation: of all its parts together, and of each way by itself."""
     theory, name = theory_of(row)
     lifted = bench(theory.name)
     found: dict[str, dict[str, None]] = {HYPOTHESIS: {}, GUARD: {}, UPDATE: {}}
-    laid_out = lifted.parts(name, column, scripts.hypotheses(row, column))
-    ways = [way for way in lifted.ways(name) for _ in lifted.claim(way.after, column)]
+    chosen = lifted.chosen(name, scripts.hypotheses(row, column))
+    apart = [(way, goal) for ways, goal in lifted.questions(name, column, chosen) for way in ways or (None,)]
+    laid_out = lifted.asked(chosen, [([way.condition, *way.definitions] if way else [], goal) for way, goal in apart])
     missing = 0
-    for part, way in zip(laid_out, ways, strict=True):
-        names = named_core(part, guards_of(way, notes, row)[0], updates_of(way))
+    for part, (way, _) in zip(laid_out, apart, strict=True):
+        guards, updates = (guards_of(way, notes, row)[0], updates_of(way)) if way else ({}, {})
+        names = named_core(part, guards, updates)
         missing += names is None
         for each in names or ():
             kind, _, text = each.partition(" ")

@@ -75,6 +75,9 @@ READINGS: Mapping[str, str] = {
     "brake_demand.decide.acknowledged": "a button that the driver presses",
     "speed_limit.run_on.known": "whether the unit's odometry claims a range",
     "speed_limit.pass_tag.known": "whether the unit's odometry claims a range",
+    "speed_limit.miss_a_tag.known": "whether the unit's odometry claims a range",
+    "speed_limit.come_to_listed.curve": "whether a list has a curve where the front may be by the unit's odometry",
+    "speed_limit.come_to_listed.turnout": "whether a list has a turnout where it may be",
 }
 """Truths and sets that an event may bring a machine, by row and name: what says them, beside the truth itself."""
 

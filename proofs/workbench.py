@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import time
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,18 +13,11 @@ from typing import Any
 from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
 from proofs.promise import Predicate
+from proofs.reads import Path, Seen, noting
 from proofs.smtlib import symbols_of
 from proofs.theory import START, Theory
 from proofs.transitions import event_types
-
-
-@dataclass(frozen=True)
-class Way:
-    """One way that a transition changes the state: its condition, what it defines, the state after."""
-
-    condition: Any
-    definitions: list[Any]
-    after: Any
+from proofs.ways import Way, together
 
 
 @dataclass(frozen=True)
@@ -57,6 +51,8 @@ class Workbench:
         self.before = self.scope.fresh(self.theory.system, "pre")
         self._ways: dict[str, tuple[list[Way], list[Any]]] = {}
         self._claims: dict[tuple[int, str], list[Any]] = {}
+        self._seen: defaultdict[str, Seen] = defaultdict(Seen)
+        self._conditions: dict[tuple[int, ...], list[Any]] = {}
         self._conjuncts: dict[int, tuple[Any, Sequence[Any]]] = {}
         self.seconds += time.perf_counter() - began
 
@@ -64,7 +60,7 @@ class Workbench:
         """The same, with other functions in its steps; what holds before them is not lifted again."""
         other = copy.copy(self)
         other.lifter, other.sources = Lifter(self.scope, sources), sources
-        other._ways, other._claims = {}, {}
+        other._ways, other._claims, other._seen, other._conditions = {}, {}, defaultdict(Seen), {}
         return other
 
     @cached_property
@@ -119,14 +115,16 @@ class Workbench:
             began = time.perf_counter()
             ways, refusals = list[Way](), list[Any]()
             event = self.event(transition).values()
-            for condition, after in self.lifter.cases(self.theory.steps[transition], self.site, self.before, *event):
+            for condition, after, tests in self.lifter.cases(
+                self.theory.steps[transition], self.site, self.before, *event
+            ):
                 if after is self.before:
                     refusals.append(condition)
                 elif self.named:
                     state, definitions = self.scope.name(after, "post", relative_to=self.before)
-                    ways.append(Way(condition, [named.formula for named in definitions], state))
+                    ways.append(Way(condition, [named.formula for named in definitions], state, tests))
                 else:
-                    ways.append(Way(condition, [], after))
+                    ways.append(Way(condition, [], after, tests))
             self._ways[transition] = ways, refusals
             self.seconds += time.perf_counter() - began
         return self._ways[transition]
@@ -136,9 +134,15 @@ class Workbench:
         key = (id(state), invariant)
         if key not in self._claims:
             began = time.perf_counter()
-            self._claims[key] = conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, state))
+            self._claims[key] = self._seen[invariant].find(state) or self._said_of(state, invariant)
             self.seconds += time.perf_counter() - began
         return self._claims[key]
+
+    def _said_of(self, state: Any, invariant: str) -> list[Any]:
+        read = dict[Path, Any]()
+        said = conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, noting(state, read)))
+        self._seen[invariant].note(read, said)
+        return said
 
     def always(self) -> Mapping[str, Sequence[Any]]:
         """What always holds of the symbols used so far: identifiers are ordered, a missing key has nothing below it."""
@@ -169,22 +173,43 @@ class Workbench:
             parts.append(Part({**true, **named}, given, goal))
         return parts
 
-    def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
-        """Lay out one obligation; ``None`` means every hypothesis there is.
+    def chosen(self, transition: str, hypotheses: list[str] | None) -> Mapping[str, Any]:
+        """Give hypotheses by their names; ``None`` means every one there is."""
+        available = {**self.assumed, **(self.initial if transition == START else self.invariants)}
+        return available if hypotheses is None else {name: available[name] for name in hypotheses}
 
-        What ways leave as a hypothesis says it is asked once for all of them, as nothing of a way is needed for it.
-        """
-        available = dict(self.assumed)
-        available |= self.initial if transition == START else self.invariants
-        chosen = available if hypotheses is None else {name: available[name] for name in hypotheses}
+    def parts(self, transition: str, invariant: str, hypotheses: list[str] | None) -> list[Part]:
+        """Lay out one obligation; ``None`` means every hypothesis there is."""
+        chosen = self.chosen(transition, hypotheses)
         if transition == START:
             return self.asked(chosen, [([], goal) for goal in self.claim(self.before, invariant)])
+        questions = list[tuple[list[Any], Any]]()
+        for ways, goal in self.questions(transition, invariant, chosen):
+            definitions = [formula for way in ways for formula in way.definitions]
+            questions += [([condition, *definitions], goal) for condition in self._together(ways)] or [([], goal)]
+        return self.asked(chosen, questions)
+
+    def _together(self, ways: list[Way]) -> list[Any]:
+        key = tuple(id(way) for way in ways)
+        if key not in self._conditions:
+            began = time.perf_counter()
+            self._conditions[key] = together(ways) if ways else []
+            self.seconds += time.perf_counter() - began
+        return self._conditions[key]
+
+    def questions(self, transition: str, invariant: str, chosen: Mapping[str, Any]) -> list[tuple[list[Way], Any]]:
+        """Give every conjunct that is to follow, with the ways that it is to follow of.
+
+        What ways leave as a hypothesis says it follows from that, and no way is needed.  What several ways make the
+        same of is asked once for all of them, unless the state after has symbols of its own in each.
+        """
         supposed = {formula.get_id() for formulas in self.split(chosen).values() for formula in formulas}
-        unchanged, questions = dict[int, Any](), list[tuple[list[Any], Any]]()
-        for way in self.ways(transition):
+        changed, unchanged = dict[tuple[int, ...], tuple[list[Way], Any]](), dict[int, tuple[list[Way], Any]]()
+        for number, way in enumerate(self.ways(transition)):
             for goal in self.claim(way.after, invariant):
                 if goal.get_id() in supposed:
-                    unchanged[goal.get_id()] = goal
+                    unchanged[goal.get_id()] = [], goal
                 else:
-                    questions.append(([way.condition, *way.definitions], goal))
-        return self.asked(chosen, [*questions, *(([], goal) for goal in unchanged.values())])
+                    apart = (number,) * bool(way.definitions)
+                    changed.setdefault((goal.get_id(), *apart), ([], goal))[0].append(way)
+        return [*changed.values(), *unchanged.values()]

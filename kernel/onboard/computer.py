@@ -133,7 +133,7 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
     motion = odometry.note_cycle(limits.sensors, known.motion, readings)
     located = odometry.is_located(motion)
     least_mm_s, most_mm_s = motion.speed_least_mm_s, motion.speed_most_mm_s
-    return replace(
+    sensed = replace(
         computer,
         known=Known(
             motion=motion,
@@ -148,6 +148,18 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
         ),
         before=known.motion,
     )
+    return note_entered(sensed)
+
+
+def note_entered(computer: Computer) -> Computer:
+    """Take the listed restrictions where the front may be for entered, whether their tags were read or not (T5, T12).
+
+    So none is forgotten with its list when a tag is missed: it holds until another tag is read.
+    """
+    known, front = computer.known, place(computer)
+    curve = restriction_ahead.may_be_entered(known.ahead.curve_mm, front)
+    turnout = restriction_ahead.may_be_entered(known.ahead.turnout_mm, front)
+    return replace(computer, known=replace(known, limit=speed_limit.note_entered(known.limit, curve, turnout)))
 
 
 # ---- tags
@@ -188,7 +200,7 @@ def note_listed(limits: Limits, computer: Computer, place_mm: int, kind: int) ->
     It is told in the same cycle as the end of authority beyond it, or before.
     """
     ahead = restriction_ahead.note_listed(computer.known.ahead, kind, read_from_mm(limits, place_mm))
-    return replace(computer, known=replace(computer.known, ahead=ahead))
+    return note_entered(replace(computer, known=replace(computer.known, ahead=ahead)))
 
 
 def read_from_mm(limits: Limits, place_mm: int) -> int:
@@ -198,7 +210,7 @@ def read_from_mm(limits: Limits, place_mm: int) -> int:
 
 def await_none(computer: Computer) -> Computer:
     """Await no tag: no order says which comes next, and no list what lies ahead (T5, T12)."""
-    return replace(computer, known=replace(computer.known, window=NONE_AWAITED, ahead=NONE_LISTED))
+    return note_entered(replace(computer, known=replace(computer.known, window=NONE_AWAITED, ahead=NONE_LISTED)))
 
 
 def awaits(limits: Limits, computer: Computer, place_mm: int) -> bool:
@@ -232,12 +244,13 @@ def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, ki
     motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
     fixed = replace(computer, known=replace(computer.known, motion=motion))
     at = place_of_read(fixed)
-    return replace(
+    read = replace(
         fixed,
         known=replace(fixed.known, limit=speed_limit.note_tag(computer.known.limit, kind, at.known, at.most_mm)),
         spacing=antenna_spacing.note_head_read(computer.spacing, uid, at),
         length=train_length.note_head_pass(limits.length, computer.length, tag_passed(fixed, uid, BY_HEAD_MS)),
     )
+    return note_entered(read)
 
 
 def read_unlisted(computer: Computer) -> Computer:

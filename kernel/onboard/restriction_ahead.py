@@ -15,6 +15,7 @@ from kernel.onboard.arithmetic import smaller
 from kernel.onboard.braking import BrakeBounds, slows_before
 from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.tag_kind import is_curve, is_turnout
+from kernel.onboard.way import Way
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,11 @@ def note_listed(ahead: Ahead, kind: int, from_mm: int) -> Ahead:
         curve_mm=smaller(ahead.curve_mm, from_mm) if is_curve(kind) else ahead.curve_mm,
         turnout_mm=smaller(ahead.turnout_mm, from_mm) if is_turnout(kind) else ahead.turnout_mm,
     )
+
+
+def may_be_entered(from_mm: int, front: Way) -> bool:
+    """Tell whether the front may be in a restriction that begins nowhere before ``from_mm``; lost, anywhere (T12)."""
+    return not front.known or front.most_mm >= from_mm
 
 
 def is_kept(

@@ -6,9 +6,10 @@ odometry's range puts it at the least.  One end is remembered for curves and one
 of each; an earlier end lies behind it, and is passed before.
 
 A tag that is not where a list has it says nothing, and what was known of the track counts no more: nobody
-knows which one it is.  That no tag is missed is the second loop's to watch (T5).  What lies ahead of the
-next tag is not known here, but by lists (``kernel.onboard.restriction_ahead``); where no list had it the brake
-slows the train from the tag on.  Nothing is calculated, so that every number of 64 bits is answered.
+knows which one it is.  That a tag is missed is the second loop's to notice (T5); what a list has from it on counts
+from where the front may be there, read or not.  What lies ahead of the next tag is not known here, but by lists
+(``kernel.onboard.restriction_ahead``); where no list had it the brake slows the train from the tag on.  Nothing is
+calculated, so that every number of 64 bits is answered.
 """
 
 from __future__ import annotations
@@ -67,6 +68,11 @@ def note_tag(limit: SpeedLimit, kind: int, known: bool, read_most_mm: int) -> Sp
 def note_unlisted_tag(limit: SpeedLimit) -> SpeedLimit:
     """Take a tag that is none of a list's there: from it on anything may lie, until the next one (T5, T12)."""
     return replace(limit, in_curve=True, at_turnout=True)
+
+
+def note_entered(limit: SpeedLimit, curve: bool, turnout: bool) -> SpeedLimit:
+    """Take the head to be in a listed curve, on a listed turnout, where it may be: the tag may be missed (T5, T12)."""
+    return replace(limit, in_curve=limit.in_curve or curve, at_turnout=limit.at_turnout or turnout)
 
 
 def permitted_mm_s(table: SpeedTable, in_curve: bool, at_turnout: bool) -> int:

@@ -29,6 +29,8 @@ class Passage:
     ``front_nm``, ``speed_um_s``: where its front is, and how fast.
     ``in_curve``, ``at_turnout``: what the track from its last tag on is.
     ``left_curve_nm``, ``left_turnout_nm``: history: where the front last left a curve, a turnout, of those behind it.
+    ``curve_listed``, ``turnout_listed``: history: since the last tag that was read the front may have come, by the
+    odometry, to where a list has a curve, a turnout.
     ``limit``: what the unit knows; ``brakes``: whether it demands the emergency brake.
     """
 
@@ -38,6 +40,8 @@ class Passage:
     at_turnout: bool
     left_curve_nm: int
     left_turnout_nm: int
+    curve_listed: bool
+    turnout_listed: bool
     limit: SpeedLimit
     brakes: bool
 
@@ -70,6 +74,13 @@ def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> 
     is_assigned = 1 <= kind <= 9
     return (kind == 3 or kind == 4 or not is_assigned or not in_curve) and (
         kind == 5 or kind == 6 or not is_assigned or not at_turnout
+    )
+
+
+def a_list_has_what_a_missed_tag_begins(system: Passage, in_curve: bool, at_turnout: bool) -> bool:
+    """What lies from a tag on that is not read goes on, or a list has it where the front may be (T1, T5)."""
+    return (not in_curve or system.in_curve or system.curve_listed) and (
+        not at_turnout or system.at_turnout or system.turnout_listed
     )
 
 
@@ -121,11 +132,49 @@ def pass_tag(
         at_turnout=at_turnout,
         left_curve_nm=here_nm if system.in_curve else smaller(system.left_curve_nm, here_nm),
         left_turnout_nm=here_nm if system.at_turnout else smaller(system.left_turnout_nm, here_nm),
+        curve_listed=False,
+        turnout_listed=False,
         limit=limit,
         brakes=speed_limit.is_overspeed(site.table, limit, known, rear_least_mm, speed_most_mm_s),
     )
 
 
+def miss_a_tag(
+    site: Profile,
+    system: Passage,
+    in_curve: bool,
+    at_turnout: bool,
+    known: bool,
+    rear_least_mm: int,
+    front_most_mm: int,
+    speed_most_mm_s: int,
+) -> Passage:
+    """The front passes a tag that is not read, and the track becomes another; the unit knows nothing of it (T5)."""
+    here_nm = system.front_nm
+    if not a_list_has_what_a_missed_tag_begins(system, in_curve, at_turnout) or not the_range_contains_the_train(
+        site, here_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
+    ):
+        return system
+    return replace(
+        system,
+        in_curve=in_curve,
+        at_turnout=at_turnout,
+        left_curve_nm=here_nm if system.in_curve else smaller(system.left_curve_nm, here_nm),
+        left_turnout_nm=here_nm if system.at_turnout else smaller(system.left_turnout_nm, here_nm),
+        brakes=speed_limit.is_overspeed(site.table, system.limit, known, rear_least_mm, speed_most_mm_s),
+    )
+
+
+def come_to_listed(site: Profile, system: Passage, curve: bool, turnout: bool) -> Passage:
+    """By the odometry the front may be where a list has a curve or a turnout (T12)."""
+    return replace(
+        system,
+        curve_listed=system.curve_listed or curve,
+        turnout_listed=system.turnout_listed or turnout,
+        limit=speed_limit.note_entered(system.limit, curve, turnout),
+    )
+
+
 def locate_anew(site: Profile, system: Passage) -> Passage:
     """The unit begins anew with nothing known of the track; so it does at power-on (T8)."""
-    return replace(system, limit=speed_limit.UNKNOWN, brakes=True)
+    return replace(system, curve_listed=False, turnout_listed=False, limit=speed_limit.UNKNOWN, brakes=True)

@@ -58,6 +58,7 @@ class Whole:
     """One moment.
 
     ``front_nm``, ``speed_um_s``: where the front is, and how fast; ``from_nm``, ``from_um_s``: when the cycle began.
+    ``in_curve``, ``at_turnout``: what the track is from the last tag on that the front has passed, read or not.
     ``runs``: the train has run for a cycle that its computer has yet to sense.
     ``running``, ``approach``, ``watched``, ``expecting``, ``trailing``, ``passing``, ``formation``: the train as
     odometry, brake control, brake watch, the window for the next tag, the antennas' spacing, the speed limit and the
@@ -73,6 +74,8 @@ class Whole:
     speed_um_s: int
     from_nm: int
     from_um_s: int
+    in_curve: bool
+    at_turnout: bool
     runs: bool
     running: Running
     approach: Approach
@@ -363,6 +366,14 @@ def a_tag_is_read_in_the_read_window(site: Train, uid: int, read_at_nm: int) -> 
 def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> bool:
     """Whoever writes a tag writes what lies from it on: a curve, a turnout, or that either may (T1, T12)."""
     return speed_limit.a_kind_hides_no_restriction(in_curve, at_turnout, kind)
+
+
+def what_lies_from_a_missed_tag_is_listed(system: Whole, in_curve: bool, at_turnout: bool) -> bool:
+    """Lists tell of all curves and turnouts up to the end: of one whose tag is not read, too (T1, T5)."""
+    listed = system.approach.slowing
+    return (not in_curve or system.in_curve or listed.curve_nm <= system.front_nm) and (
+        not at_turnout or system.at_turnout or listed.turnout_nm <= system.front_nm
+    )
 
 
 def the_tails_antenna_reads_in_its_window(site: Train, system: Whole, uid: int, read_at_nm: int) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from proofs.lift.terms import Truth, and_, not_, same
+from proofs.lift.terms import Truth, not_, same
 from proofs.lift.values import Record, Tuple, Value, choose
 
 
@@ -46,10 +46,10 @@ def _holds_record(tree: Tree) -> bool:
     return any(isinstance(item, Record) for item in items)
 
 
-def leaves(tree: Tree, path: tuple[Truth, ...] = ()) -> list[tuple[Truth, Value]]:
-    """List the cases with their conditions, leaving out those that cannot be."""
+def leaves(tree: Tree, path: tuple[Truth, ...] = ()) -> list[tuple[tuple[Truth, ...], Value]]:
+    """List the cases with what is tested on the way to each, leaving out those that cannot be."""
     if isinstance(tree, Leaf):
-        return [(and_(*path), tree.value)]
+        return [(path, tree.value)]
     found = [] if tree.condition is False else leaves(tree.yes, (*path, tree.condition))
     return found if tree.condition is True else found + leaves(tree.no, (*path, not_(tree.condition)))
 

@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from kernel.onboard import speed_limit
-from models.onboard.speed_limit import Passage, Profile, locate_anew, pass_tag, run_on
+from models.onboard.speed_limit import (
+    Passage,
+    Profile,
+    come_to_listed,
+    locate_anew,
+    miss_a_tag,
+    pass_tag,
+    run_on,
+)
 from models.onboard.units import NM_A_MM, UM_A_MM
 from proofs.theory import Theory, by_name
 
@@ -46,8 +54,10 @@ def no_restriction_ends_before_the_rear_has_passed(site: Profile, system: Passag
 
 
 def what_the_head_is_on_is_known(site: Profile, system: Passage) -> bool:
-    """In a curve, or on a turnout, the limit says so (T12)."""
-    return (system.limit.in_curve or not system.in_curve) and (system.limit.at_turnout or not system.at_turnout)
+    """In a curve, or on a turnout, the limit says so; as well where a list has one and the front may be there (T12)."""
+    return (system.limit.in_curve or not (system.in_curve or system.curve_listed)) and (
+        system.limit.at_turnout or not (system.at_turnout or system.turnout_listed)
+    )
 
 
 INITIAL = (nothing_is_known_of_the_track,)
@@ -57,7 +67,7 @@ INVARIANTS = (
     no_restriction_ends_before_the_rear_has_passed,
     what_the_head_is_on_is_known,
 )
-STEPS = (run_on, pass_tag, locate_anew)
+STEPS = (run_on, pass_tag, miss_a_tag, come_to_listed, locate_anew)
 
 THEORY = Theory(
     "speed_limit",

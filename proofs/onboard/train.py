@@ -12,23 +12,18 @@ from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
 from kernel.standstill import is_braked, stands
 from models.onboard import antenna_spacing as world_of_antennas
+from models.onboard import train_tags
 from models.onboard.joint import (
     the_brake_takes_the_end_or_stays_applied,
     the_head_stays_inside_authority,
     the_range_contains_the_head,
 )
 from models.onboard.train import (
-    await_none,
-    await_tag,
     come_apart,
     find_whole,
     locate_anew,
-    note_listed,
     note_place,
     put_into_service,
-    read_a_tag,
-    read_by_the_tail,
-    read_unlisted,
     run_a_cycle,
     sense_the_cycle,
     take_end,
@@ -129,6 +124,7 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and speed_limit.nothing_is_known_of_the_track(profile(site), system.passing)
         and system.computer.known.limit == system.passing.limit
         and system.computer.known.ahead == system.approach.slowing.ahead
+        and train_parts.no_list_has_more_where_the_front_may_be(site, system)
     )
 
 
@@ -316,7 +312,7 @@ def the_awaited_tag_is_counted_to_where_it_is_listed(site: Train, system: Whole)
 
 
 def there_is_one_train(site: Train, system: Whole) -> bool:
-    """The worlds of the machines see the same front and the same speed: none has refused what happened."""
+    """The worlds of the machines see the same front, speed and track: none has refused what happened."""
     seen = before(system)
     return (
         system.approach.head_nm == system.front_nm
@@ -332,6 +328,8 @@ def there_is_one_train(site: Train, system: Whole) -> bool:
         and (not system.runs or system.trailing.front_nm == system.from_nm)
         and (not system.runs or system.passing.front_nm == system.from_nm)
         and (not system.runs or system.passing.speed_um_s == system.from_um_s)
+        and system.passing.in_curve == system.in_curve
+        and system.passing.at_turnout == system.at_turnout
     )
 
 
@@ -444,6 +442,7 @@ INVARIANTS = (
     the_heads_last_eight_are_remembered,
     no_restriction_ends_before_the_rear_has_passed,
     what_the_head_is_on_is_known,
+    train_parts.no_list_has_more_where_the_front_may_be,
     *train_parts.BEHIND_THE_LENGTH,
 )
 PREMISES = (
@@ -459,18 +458,19 @@ PREMISES = (
 STEPS = (
     run_a_cycle,
     sense_the_cycle,
-    read_a_tag,
-    read_unlisted,
-    read_by_the_tail,
+    train_tags.read_a_tag,
+    train_tags.miss_a_tag,
+    train_tags.read_unlisted,
+    train_tags.read_by_the_tail,
     come_apart,
     take_end,
     withhold_end,
     locate_anew,
     note_place,
     put_into_service,
-    await_tag,
-    await_none,
-    note_listed,
+    train_tags.await_tag,
+    train_tags.await_none,
+    train_tags.note_listed,
     find_whole,
 )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
+from kernel.onboard.restriction_ahead import may_be_entered
 from kernel.onboard.train_length import PointKind
 from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard.train_nature import (
@@ -205,8 +206,17 @@ def no_restriction_ends_before_the_rear_has_passed(site: Train, system: Whole) -
 
 
 def what_the_head_is_on_is_known(site: Train, system: Whole) -> bool:
-    """In a curve, or on a turnout, the limit says so (T12)."""
+    """In a curve, or on a turnout, the limit says so; as well where a list has one and the front may be there (T12)."""
     return speed_limit.what_the_head_is_on_is_known(profile(site), passage(system, system.front_nm))
+
+
+def no_list_has_more_where_the_front_may_be(site: Train, system: Whole) -> bool:
+    """What a list has where its computer says that the front may be, it has come to (T12)."""
+    known, front = system.computer.known, computer.place(system.computer)
+    return system.runs or (
+        (system.passing.curve_listed or not may_be_entered(known.ahead.curve_mm, front))
+        and (system.passing.turnout_listed or not may_be_entered(known.ahead.turnout_mm, front))
+    )
 
 
 def a_narrow_range_finds_what_the_head_missed(site: Train, system: Whole) -> bool:

@@ -97,8 +97,7 @@ def test_what_is_tied_more_than_by_name_is(joint: Joint, name: str, tie: str) ->
         proved = [THEORIES[of].invariants[claim] for of, _, claim in (each.partition(".") for each in joint.guaranteed)]
         assert all(any(each in called_by(claim) for each in said) for claim in proved)
         return
-    parts = THEORIES[tie].parts
-    assert {theory, *(each.partition(".")[0] for each in joint.guaranteed)} <= set(parts)
+    assert {theory, *(each.partition(".")[0] for each in joint.guaranteed)} <= {tie, *THEORIES[tie].parts}
     assert name not in {f"{tie}.{each}" for each in ASSUMED[tie]}, "it is not assumed again"
 
 

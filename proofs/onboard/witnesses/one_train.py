@@ -82,6 +82,8 @@ def at_rest() -> Whole:
         speed_um_s=0,
         from_nm=front_nm,
         from_um_s=0,
+        in_curve=False,
+        at_turnout=True,
         runs=False,
         running=AT_POWER_ON,
         approach=Approach(
@@ -101,7 +103,9 @@ def at_rest() -> Whole:
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
-        passing=Passage(front_nm, 0, False, True, front_nm, front_nm - 50_000 * NM_A_MM, NO_TRACK_KNOWN, True),
+        passing=Passage(
+            front_nm, 0, False, True, front_nm, front_nm - 50_000 * NM_A_MM, False, False, NO_TRACK_KNOWN, True
+        ),
         formation=replace(NOTHING_MEASURED, length_nm=120_000 * NM_A_MM, state=UNMEASURED),
         awaited_mm=0,
         astern=False,

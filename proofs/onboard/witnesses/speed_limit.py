@@ -21,6 +21,8 @@ AT_START = Passage(
     at_turnout=True,
     left_curve_nm=950_000 * NM_A_MM,
     left_turnout_nm=700_000 * NM_A_MM,
+    curve_listed=False,
+    turnout_listed=False,
     limit=UNKNOWN,
     brakes=True,
 )
@@ -46,6 +48,22 @@ class Train(Play[Profile, Passage]):
         )
         assert (self.system.front_nm, self.system.speed_um_s) == (to_mm * NM_A_MM, speed_mm_s * UM_A_MM)
         return self.system.brakes
+
+    def misses(self, *, curve: bool = False, turnout: bool = False) -> bool:
+        """Pass a tag at the front unread, and what lies behind it; whether such a world can be."""
+        before = self.system
+        front_mm = self.system.front_nm // NM_A_MM
+        self.step(
+            "miss_a_tag",
+            in_curve=curve,
+            at_turnout=turnout,
+            known=True,
+            rear_least_mm=front_mm - SITE.length_mm,
+            front_most_mm=front_mm,
+            speed_most_mm_s=self.system.speed_um_s // UM_A_MM,
+        )
+        assert self.system.limit == before.limit
+        return (self.system.in_curve, self.system.at_turnout) == (curve, turnout)
 
     def tag(
         self,
@@ -132,6 +150,25 @@ def a_curve_ends_when_the_rear_has_left_it() -> None:
     assert train.runs(1_420_000, 25_001)
     assert not train.runs(1_420_000, 25_000)
     assert not train.runs(1_420_001, 36_000)
+
+
+def what_a_list_has_counts_without_its_tag() -> None:
+    """From where the front may be there, until the rear has passed the next tag that is read (T5, T12)."""
+    for curve, turnout, speed in ((True, False, 25_000), (False, True, 11_000)):
+        train = free()
+        assert not train.misses(curve=curve, turnout=turnout), "no list has it"
+        train.step("come_to_listed", curve=curve, turnout=turnout)
+        assert train.runs(1_200_000, speed + 1)
+        assert not train.runs(1_200_000, speed)
+        assert not train.misses(curve=turnout, turnout=curve), "the list has the other"
+        assert train.misses(curve=curve, turnout=turnout)
+        assert train.misses(), "and the plain track after it may be missed too"
+        assert train.runs(1_300_000, speed + 1)
+        assert not train.runs(1_300_000, speed)
+        train.tag()
+        assert train.runs(1_420_000, speed + 1)
+        assert not train.runs(1_420_001, 36_000)
+        assert not train.misses(curve=curve, turnout=turnout), "what was listed before that tag was read"
 
 
 def a_turnout_ends_when_the_rear_has_left_it() -> None:
@@ -273,6 +310,7 @@ WITNESSES = (
     before_the_first_tag_everything_restricts,
     a_curve_ends_when_the_rear_has_left_it,
     a_turnout_ends_when_the_rear_has_left_it,
+    what_a_list_has_counts_without_its_tag,
     short_plain_stretches_do_not_lengthen_a_restriction,
     the_last_end_of_two_counts,
     the_range_counts_and_not_the_point,

@@ -45,7 +45,9 @@ from proofs.onboard.witnesses.train_measured import (
     the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
 )
 from proofs.onboard.witnesses.train_on_its_track import (
+    a_curve_whose_tag_was_missed_is_not_forgotten,
     a_listed_turnout_is_entered_no_faster_than_it_allows,
+    a_restriction_is_entered_with_the_list_that_has_it,
     a_tag_that_hides_a_curve_is_none_of_this_world,
     the_track_is_what_the_tags_say_for_the_whole_train,
     what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
@@ -444,6 +446,8 @@ WITNESSES = (
     a_tag_listed_elsewhere_says_nothing,
     the_track_is_what_the_tags_say_for_the_whole_train,
     what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
+    a_curve_whose_tag_was_missed_is_not_forgotten,
+    a_restriction_is_entered_with_the_list_that_has_it,
     a_listed_turnout_is_entered_no_faster_than_it_allows,
     a_tag_that_hides_a_curve_is_none_of_this_world,
     a_fix_that_contradicts_leaves_the_track_unknown,

@@ -9,7 +9,7 @@ from kernel.onboard.restriction_ahead import NONE_LISTED, Ahead
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.tag_kind import CURVE, PLAIN, TURNOUT
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import LIMITS, Ride, approaching, read_at
+from proofs.onboard.witnesses.one_train import LIMITS, PLAIN_TRACK, Ride, approaching, read_at
 from proofs.onboard.witnesses.rolling_stock import START_MM
 
 
@@ -82,6 +82,48 @@ def a_listed_turnout_is_entered_no_faster_than_it_allows() -> None:
     assert ride.system.speed_um_s < 15_000_000, "no faster than a turnout allows, but it might become so"
     assert ride.system.front_nm < from_mm * NM_A_MM
     ride.stop()
+
+
+def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
+    """Awaiting the next tag its train keeps to it until that is read, and its rear has passed (T5, T12)."""
+    first_mm = START_MM + 100_000
+    ride = approaching(first_mm)
+    ride.step("read_a_tag", place_mm=first_mm, **read_at(ride, first_mm))
+    curve_mm, next_mm = first_mm + 130_000, first_mm + 900_000
+    curve = {"in_curve": True, "at_turnout": False}
+    ride.step("await_tag", place_mm=curve_mm, uid=curve_mm, kind=CURVE, **curve)
+    ride.step("miss_a_tag", **curve)
+    assert not ride.system.passing.in_curve, "the front is not there yet"
+    ride.until(curve_mm + 4_000)
+    assert ride.system.computer.known.limit.in_curve
+    ride.step("miss_a_tag", **curve)
+    assert ride.system.passing.in_curve
+    while not ride.system.computer.brake.applied:
+        ride.cycle(ride.system.speed_um_s // 1_000)
+    assert ride.system.computer.known.window.passed
+    ride.stop()
+    ride.step("await_tag", place_mm=next_mm, uid=next_mm, **PLAIN_TRACK)
+    assert ride.system.computer.known.ahead == NONE_LISTED
+    ride.step("take_end", end_mm=next_mm)
+    ride.cycle(0, acknowledged=True)
+    while not ride.system.computer.brake.applied:
+        ride.cycle(ride.system.speed_um_s // 1_000 + 100)
+    curve_mm_s = LIMITS.train.speeds.curve_mm_s
+    assert curve_mm_s - 1_000 < ride.system.from_um_s // 1_000 <= curve_mm_s
+    assert ride.system.front_nm < next_mm * NM_A_MM
+
+
+def a_restriction_is_entered_with_the_list_that_has_it() -> None:
+    """Where the front is beyond it already, and where another tag before it was read (T12)."""
+    first_mm = START_MM + 100_000
+    ride = approaching(first_mm)
+    curve, turnout = {"in_curve": True, "at_turnout": False}, {"in_curve": False, "at_turnout": True}
+    ride.step("note_listed", place_mm=first_mm + 200, uid=first_mm + 200, kind=TURNOUT, **turnout)
+    ride.step("read_a_tag", place_mm=first_mm, **read_at(ride, first_mm))
+    limit = ride.system.computer.known.limit
+    assert (limit.in_curve, limit.at_turnout) == (False, True), "this tag was read, and not the next"
+    ride.step("note_listed", place_mm=first_mm + 100, uid=first_mm + 100, kind=CURVE, **curve)
+    assert ride.system.computer.known.limit.in_curve
 
 
 def what_is_listed_is_forgotten_with_the_tag_that_is_awaited() -> None:

@@ -1,0 +1,261 @@
+"""One train and its tags: what its antennas read, what is missed, and what the orders list (T1, T2, T5, T12).
+
+Each world takes its own step, as it is proved there: had it refused one, its train would have stayed behind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import computer, restriction_ahead
+from kernel.onboard.antenna_spacing import is_healthy
+from kernel.onboard.computer import Computer
+from models.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_length
+from models.onboard.braking import Approach
+from models.onboard.speed_limit import Passage
+from models.onboard.train_nature import (
+    Train,
+    Whole,
+    a_cycle_begins_when_the_one_before_was_sensed,
+    a_kind_hides_no_restriction,
+    a_tag_is_read_in_the_read_window,
+    a_tag_lies_where_it_is_listed,
+    approach,
+    braked,
+    formation,
+    line,
+    passage,
+    profile,
+    railway,
+    running,
+    stretch,
+    the_rest_of_the_cycle_follows_the_speed,
+    the_tails_antenna_reads_in_its_window,
+    track,
+    way_nm,
+    what_lies_from_a_missed_tag_is_listed,
+)
+from models.onboard.units import NM_A_MM
+
+UNASSIGNED = 0
+"""The kind of a tag whose record is not looked at."""
+
+
+def read_a_tag(
+    site: Train,
+    system: Whole,
+    uid: int,
+    place_mm: int,
+    kind: int,
+    read_at_nm: int,
+    in_curve: bool,
+    at_turnout: bool,
+) -> Whole:
+    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, T5, P7, T12).
+
+    From it on lies a curve, a turnout, both or neither.
+    """
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+        return system
+    if not a_tag_is_read_in_the_read_window(site, uid, read_at_nm):
+        return system
+    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    if place_mm == system.awaited_mm:
+        expecting = tag_window.read_a_tag(
+            stretch(site),
+            system.expecting,
+            way_nm(system, read_at_nm),
+            computer.way_to(system.computer, computer.place_of_read(system.computer)),
+            way_nm(system, NM_A_MM * (uid + site.limits.tags.antenna_mm)),
+        )
+    else:
+        expecting = system.expecting
+    told = computer.read_by_head(site.limits, system.computer, uid, place_mm, kind)
+    counts = computer.reads_in_window(site.limits, system.computer, place_mm)
+    there = _past_a_tag(site, passage(system, read_at_nm), told, counts, kind, in_curve, at_turnout)
+    passing = come_to_listed(site, there, told)
+    seen = replace(
+        system, in_curve=in_curve, at_turnout=at_turnout, expecting=expecting, passing=passing, computer=told
+    )
+    if not counts:
+        return seen
+    fix = computer.fix(site.limits, system.computer, place_mm)
+    apart = antenna_spacing.run(track(site), system.trailing, read_at_nm)
+    return replace(
+        seen,
+        running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
+        trailing=antenna_spacing.head_reads(track(site), apart, uid, computer.place_of_read(told)),
+        formation=train_length.head_passes(
+            railway(site), formation(system), read_at_nm, 0, computer.tag_passed(told, uid, computer.BY_HEAD_MS)
+        ),
+    )
+
+
+def _past_a_tag(
+    site: Train, there: Passage, told: Computer, counts: bool, kind: int, in_curve: bool, at_turnout: bool
+) -> Passage:
+    """The front was at a tag, with other track from it on; the computer knows where that was, if the read counts."""
+    at = computer.place_of_read(told)
+    return speed_limit.pass_tag(
+        profile(site),
+        there,
+        in_curve,
+        at_turnout,
+        kind,
+        at.known and counts,
+        at.least_mm - site.limits.train.length_mm,
+        at.most_mm,
+        told.known.motion.speed_most_mm_s,
+    )
+
+
+def come_to_listed(site: Train, there: Passage, told: Computer) -> Passage:
+    """The computer takes the listed restrictions where its front may be for entered (T12)."""
+    front, ahead = computer.place(told), told.known.ahead
+    return speed_limit.come_to_listed(
+        profile(site),
+        there,
+        restriction_ahead.may_be_entered(ahead.curve_mm, front),
+        restriction_ahead.may_be_entered(ahead.turnout_mm, front),
+    )
+
+
+def miss_a_tag(site: Train, system: Whole, in_curve: bool, at_turnout: bool) -> Whole:
+    """In the newest cycle the front has come past a tag that the head's antenna has not read (T5, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not what_lies_from_a_missed_tag_is_listed(system, in_curve, at_turnout):
+        return system
+    at, motion = computer.place(system.computer), system.computer.known.motion
+    return replace(
+        system,
+        in_curve=in_curve,
+        at_turnout=at_turnout,
+        passing=speed_limit.miss_a_tag(
+            profile(site),
+            passage(system, system.front_nm),
+            in_curve,
+            at_turnout,
+            at.known,
+            at.least_mm - site.limits.train.length_mm,
+            at.most_mm,
+            motion.speed_most_mm_s,
+        ),
+    )
+
+
+def read_unlisted(site: Train, system: Whole, read_at_nm: int, in_curve: bool, at_turnout: bool) -> Whole:
+    """In the newest cycle the head's antenna has read a tag of no list, whatever it says (T5, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    told = computer.read_unlisted(system.computer)
+    there = speed_limit.pass_tag(
+        profile(site), passage(system, read_at_nm), in_curve, at_turnout, UNASSIGNED, False, 0, 0, 0
+    )
+    return replace(
+        system,
+        in_curve=in_curve,
+        at_turnout=at_turnout,
+        passing=come_to_listed(site, there, told),
+        computer=told,
+    )
+
+
+def read_by_the_tail(site: Train, system: Whole, uid: int, read_at_nm: int) -> Whole:
+    """In the newest cycle the antenna that speaks for the tail has read a tag (T2, T13)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not the_tails_antenna_reads_in_its_window(site, system, uid, read_at_nm):
+        return system
+    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
+        return system
+    there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
+    told = computer.read_by_tail(site.limits, system.computer, uid)
+    read = replace(
+        system,
+        trailing=antenna_spacing.tail_reads(track(site), there, uid, computer.place_of_read(system.computer)),
+        computer=told,
+    )
+    if not is_healthy(told.spacing):
+        return read
+    passed = computer.tag_passed(system.computer, uid, computer.BY_TAIL_MS)
+    off_nm = read_at_nm - system.formation.front_nm - system.trailing.apart_nm
+    seen_off_nm = off_nm if train_length.ends_pass_one_point(formation(system), passed) else 0
+    return replace(
+        read,
+        formation=train_length.tail_passes(
+            railway(site), formation(system), read_at_nm, 0, 0, 0, 0, seen_off_nm, passed
+        ),
+    )
+
+
+def await_tag(
+    site: Train, system: Whole, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Whole:
+    """The orders say which tag comes next, where it is listed, and what lies from it on (T5, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    told = computer.await_tag(site.limits, system.computer, place_mm, kind)
+    window = told.known.window
+    awaiting = replace(system, awaited_mm=place_mm, computer=told)
+    return replace(
+        awaiting,
+        passing=come_to_listed(site, passage(system, system.front_nm), told),
+        expecting=tag_window.expect_a_tag(
+            stretch(site), system.expecting, way_nm(awaiting, system.front_nm), window.least_mm, window.most_mm
+        ),
+        approach=_listed(
+            site, braking.list_none(braked(site), approach(system)), place_mm, kind, uid, in_curve, at_turnout
+        ),
+    )
+
+
+def note_listed(
+    site: Train, system: Whole, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Whole:
+    """The list has a further tag ahead, and what lies from it on (T1, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+        return system
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+        return system
+    told = computer.note_listed(site.limits, system.computer, place_mm, kind)
+    return replace(
+        system,
+        computer=told,
+        passing=come_to_listed(site, passage(system, system.front_nm), told),
+        approach=_listed(site, approach(system), place_mm, kind, uid, in_curve, at_turnout),
+    )
+
+
+def _listed(
+    site: Train, there: Approach, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
+) -> Approach:
+    """The head reads it no earlier than at the near end of its read window (T2)."""
+    from_mm, read_from_mm = computer.read_from_mm(site.limits, place_mm), uid - site.read_within_mm
+    read_from_nm = NM_A_MM * (read_from_mm + site.limits.tags.antenna_mm)
+    return braking.list_tag(braked(site), there, in_curve, at_turnout, kind, from_mm, read_from_nm)
+
+
+def await_none(site: Train, system: Whole) -> Whole:
+    """No order says which tag comes next (T5)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    told = computer.await_none(system.computer)
+    return replace(
+        system,
+        expecting=tag_window.expect_none(stretch(site), system.expecting),
+        approach=braking.list_none(braked(site), approach(system)),
+        passing=come_to_listed(site, passage(system, system.front_nm), told),
+        computer=told,
+    )
