@@ -50,9 +50,9 @@ class Workbench:
         self.site = self.scope.fresh(self.theory.site, "site")
         self.before = self.scope.fresh(self.theory.system, "pre")
         self._ways: dict[str, tuple[list[Way], list[Any]]] = {}
-        self._claims: dict[tuple[int, str], list[Any]] = {}
+        self._claims: dict[tuple[int, str], tuple[Any, list[Any]]] = {}
         self._seen: defaultdict[str, Seen] = defaultdict(Seen)
-        self._conditions: dict[tuple[int, ...], list[Any]] = {}
+        self._conditions: dict[tuple[int, ...], tuple[list[Way], list[Any]]] = {}
         self._conjuncts: dict[int, tuple[Any, Sequence[Any]]] = {}
         self.seconds += time.perf_counter() - began
 
@@ -134,9 +134,9 @@ class Workbench:
         key = (id(state), invariant)
         if key not in self._claims:
             began = time.perf_counter()
-            self._claims[key] = self._seen[invariant].find(state) or self._said_of(state, invariant)
+            self._claims[key] = state, self._seen[invariant].find(state) or self._said_of(state, invariant)
             self.seconds += time.perf_counter() - began
-        return self._claims[key]
+        return self._claims[key][1]
 
     def _said_of(self, state: Any, invariant: str) -> list[Any]:
         read = dict[Path, Any]()
@@ -193,9 +193,9 @@ class Workbench:
         key = tuple(id(way) for way in ways)
         if key not in self._conditions:
             began = time.perf_counter()
-            self._conditions[key] = together(ways) if ways else []
+            self._conditions[key] = ways, together(ways) if ways else []
             self.seconds += time.perf_counter() - began
-        return self._conditions[key]
+        return self._conditions[key][1]
 
     def questions(self, transition: str, invariant: str, chosen: Mapping[str, Any]) -> list[tuple[list[Way], Any]]:
         """Give every conjunct that is to follow, with the ways that it is to follow of.

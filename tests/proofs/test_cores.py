@@ -68,3 +68,18 @@ def test_it_tells_how_much_was_asked(capsys: pytest.CaptureFixture[str], monkeyp
     monkeypatch.setattr("sys.argv", ["cores", "--only", "no such row"])
     assert cores.main() == 3
     assert capsys.readouterr().out.startswith("0 obligations, 0 parts")
+
+
+def test_each_way_of_a_theory_of_arithmetic_has_a_core_of_its_own() -> None:
+    """Ways of which one question is asked have their guards apart; what none changes needs no guard."""
+    row, column = "train.take_end", "the_front_stays_before_the_end"
+    lifted, notes = bench("train"), Notes()
+    lifted._ways.pop("take_end", None)
+    lifted._claims.clear()
+    with noting(notes):
+        ways = lifted.ways("take_end")
+    found = core_of(row, column, notes)
+    assert found["open"] == 0
+    assert 1 < found["parts"] <= len(ways)
+    assert found["guards"]
+    assert set(found["hypotheses"]) <= set(scripts.hypotheses(row, column))

@@ -396,11 +396,17 @@ def test_every_way_is_asked_of_or_leaves_what_is_supposed(column: str) -> None:
     asked = {(*(each.get_id() for each in part.given), part.goal.get_id()) for part in parts}
     supposed = {formula.get_id() for part in parts for formulas in part.hypotheses.values() for formula in formulas}
     whole = [(way, goal) for way in bench.ways(row) for goal in bench.claim(way.after, column)]
-    left = {(goal.get_id(),) for _, goal in whole if goal.get_id() in supposed}
-    changed = {(way.condition.get_id(), goal.get_id()) for way, goal in whole if goal.get_id() not in supposed}
-    assert asked == left | changed
+    assert {goal.get_id() for _, goal in whole} == {goal for *_, goal in asked}
+    for way, goal in whole:
+        given = [part.given for part in parts if part.goal.get_id() == goal.get_id()]
+        if goal.get_id() in supposed:
+            assert given == [[]]
+        else:
+            others = z3.Solver()
+            others.add(way.condition, *(z3.Not(z3.And(each)) for each in given))
+            assert others.check() == z3.unsat, "a way of which it is not asked"
     assert len(parts) == len(asked) <= len(whole)
-    assert bool(left) is (column in names)
+    assert bool([goal for _, goal in whole if goal.get_id() in supposed]) is (column in names)
     assert {solvers.ask(solver, part, 0).answer for part in parts for solver in ("z3", "cvc5")} == {"unsat"}
 
 
