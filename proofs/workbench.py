@@ -12,6 +12,7 @@ from typing import Any
 
 from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
+from proofs.lift.terms import and_, to_z3
 from proofs.promise import Predicate
 from proofs.reads import Path, Seen, noting
 from proofs.smtlib import symbols_of
@@ -115,9 +116,9 @@ class Workbench:
             began = time.perf_counter()
             ways, refusals = list[Way](), list[Any]()
             event = self.event(transition).values()
-            for condition, after, tests in self.lifter.cases(
-                self.theory.steps[transition], self.site, self.before, *event
-            ):
+            step = self.theory.steps[transition]
+            for tests, after in self.lifter.paths(step, self.site, self.before, *event):
+                condition = to_z3(and_(*tests))
                 if after is self.before:
                     refusals.append(condition)
                 elif self.named:

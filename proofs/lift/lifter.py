@@ -18,11 +18,10 @@ from proofs.lift.values import Value
 
 
 class Case(NamedTuple):
-    """One way that a function comes out: the condition for it, what is tested on the way, and the result."""
+    """One way that a function comes out: the condition for it, and the result."""
 
     condition: Any
     value: Value
-    tests: tuple[Any, ...]
 
 
 class Lifter:
@@ -68,7 +67,11 @@ class Lifter:
 
     def cases(self, function: Code, *values: Value) -> list[Case]:
         """Return the ways that a function comes out; an argument handed back is the same object."""
-        return [Case(to_z3(and_(*tests)), value, tests) for tests, value in leaves(self.tree(function, *values))]
+        return [Case(to_z3(and_(*tests)), value) for tests, value in self.paths(function, *values)]
+
+    def paths(self, function: Code, *values: Value) -> list[tuple[tuple[Any, ...], Value]]:
+        """Return the same, each with what is tested one after the other in the place of its condition."""
+        return leaves(self.tree(function, *values))
 
     def formula(self, predicate: Code, *values: Value) -> Any:
         """Return a predicate applied to values as a Z3 Boolean."""
