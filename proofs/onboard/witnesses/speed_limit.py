@@ -163,6 +163,14 @@ def what_a_list_has_counts_without_its_tag() -> None:
         assert not train.misses(curve=turnout, turnout=curve), "the list has the other"
         assert train.misses(curve=curve, turnout=turnout)
         assert train.misses(), "and the plain track after it may be missed too"
+        here_nm = 1_200_000 * NM_A_MM
+        left = train.system.left_curve_nm == here_nm, train.system.left_turnout_nm == here_nm
+        assert left == (curve, turnout), "where the front left it"
+        train.runs(1_190_000, speed)
+        assert train.misses()
+        back_nm = 1_190_000 * NM_A_MM
+        left = train.system.left_curve_nm == back_nm, train.system.left_turnout_nm == back_nm
+        assert left == (curve, turnout), "what is behind a front that has rolled back was left there"
         assert train.runs(1_300_000, speed + 1)
         assert not train.runs(1_300_000, speed)
         train.tag()
