@@ -32,7 +32,18 @@ from models.commands import EVERY_CORE
 from proofs.planted.changes import Change, changes
 
 ROOT = Path(__file__).resolve().parent.parent
-COPIED = ("kernel", "models", "proofs", "fuzz", "evidence", "layouts", "docs", "heisoku.py", "heisoku_start.py")
+COPIED = (
+    "kernel",
+    "models",
+    "proofs",
+    "fuzz",
+    "evidence",
+    "layouts",
+    "docs",
+    "heisoku.py",
+    "heisoku_public.py",
+    "heisoku_start.py",
+)
 MADE_UP = """
 import sys
 from dataclasses import asdict

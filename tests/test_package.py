@@ -68,6 +68,7 @@ def test_every_file_beside_code_is_in_the_wheel(wheel: Path) -> None:
     assert {name.split("/")[0] for name in there if ".dist-info" not in name} == {
         *ROOMS,
         "heisoku.py",
+        "heisoku_public.py",
         "heisoku_start.py",
     }
 
