@@ -28,6 +28,9 @@ from typing import Any
 
 from lxml import etree
 
+from fuzz.failures.trace import text_of
+from tests.fuzz.failures.samples import LAYOUTS, failing
+
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = (sys.executable, str(ROOT / "heisoku_start.py"))
 STATION = "layouts/passing_station.toml"
@@ -54,9 +57,12 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("days", "tram", "--days", "1", "--jobs", "1", "--json", "{out}/days.json", "--keep", "{out}/tram.days"),
     ("reproduce", "000", "--runs", "1", "-o", "{out}/000", "--json", "{out}/000.json"),
     ("simulate", STATION, "--json", "{out}/simulate.json"),
-    ("fuzz", STATION, "--target", "link", "--batches", "1", "--out", "{out}/fuzz", "--json", "{out}/fuzz.json"),
+    ("fuzz", "--target", "link", "--batches", "1", "--out", "{out}/fuzz", "--json", "{out}/fuzz.json"),
     ("handset", "-o", "{out}/handset.html", "--minutes", "1"),
     ("manifest", "{out}/records"),
+    ("verify", "{out}/records"),
+    ("report", "--records", "{out}/empty", "-o", "{out}/report.html"),
+    ("replay", "{out}/records/trace.json", "--html", "{out}/trace.html", "--json", "{out}/replay.json"),
     ("prove", "--only", "["),
 )
 
@@ -128,9 +134,13 @@ def begun(words: tuple[str, ...], out: Path, how: Disturbance) -> subprocess.Pop
 
 
 def folder() -> Path:
-    """A folder to write into, with records to bind."""
+    """A folder to write into, with records to bind and a trace to replay."""
     out = Path(tempfile.mkdtemp(prefix="interrupted"))
     (out / "records").mkdir()
+    (out / "empty").mkdir()
+    trace = failing()
+    (out / "records" / "trace.json").write_text(text_of(trace), "utf-8")
+    shutil.copy(LAYOUTS["passing_station"], out / "records" / trace.layout.file)
     for name in ("prove.json", "check.json"):
         (out / "records" / name).write_text("{}", "utf-8")
     return out

@@ -58,7 +58,6 @@ def certify(
 
     Examples:
     * `heisoku certify --only '^braking'`
-    * `heisoku certify --only '^split' --keep out/certificates`
     """
     from models.processes import spread
     from proofs.certificates.checking import certified, controls
@@ -81,7 +80,7 @@ def certify(
         for one in spread(partial(certified, outside=outside, keep=keep), asked, jobs):
             found.append(one)
             step(len(found), len(asked), f"{one.answer}: {one.row} × {one.column}"[:100])
-    told = record(found, there_are, refused, outside and outside.program, time.perf_counter() - began)
+    told = record(found, there_are, refused, outside.program if outside else None, time.perf_counter() - began)
     if json:
         hashed = outside.hashes() if outside else None
         write_json(json, {**told, "external_hashes": hashed, "only": only, "sample": sample, **about()})
