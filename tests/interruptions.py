@@ -35,7 +35,9 @@ ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = (sys.executable, str(ROOT / "heisoku_start.py"))
 STATION = "layouts/passing_station.toml"
 ENDS_AFTER_S = 120.0
-"""A command that is disturbed ends, and all its processes do, in this time; it is ended then, which is a finding."""
+"""A command that is interrupted or ended does end, and all its processes do, in this time; else it is a finding."""
+GOES_ON = 4
+"""A command that goes on has so many times as long as it takes undisturbed: others may use the machine by then."""
 
 COMMANDS: tuple[tuple[str, ...], ...] = (
     ("check", STATION, "layouts/terminus.toml", "--json", "{out}/check.json"),
@@ -168,7 +170,8 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
     try:
         if process.stdout is not None and process.stdout.closed:
             process.stdout = None
-        told, complaints = process.communicate(timeout=ENDS_AFTER_S)
+        goes_on = how.to_process not in (interrupted, ended)
+        told, complaints = process.communicate(timeout=ENDS_AFTER_S + goes_on * GOES_ON * usual.seconds)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
