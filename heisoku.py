@@ -1,5 +1,7 @@
 """The command line: prove the kernel, check layouts against the proof's assumptions, draw them.
 
+``from heisoku import load, check, prove, simulate`` is for other programs (:mod:`heisoku_public`).
+
 Exit codes, everywhere: 0 holds, 1 does not hold, 2 bad input or usage, 3 undecided.
 Findings go to standard output; progress and complaints to standard error.
 """
@@ -10,6 +12,11 @@ if __name__ == "__main__":
     from heisoku_start import main as start
 
     start()
+
+from heisoku_start import stranger
+
+if (whose := stranger()) is not None:
+    raise ImportError(whose)
 
 import os
 import sys
@@ -25,7 +32,8 @@ from rich.console import Console
 from evidence.manifest.command import manifest, verify
 from evidence.report.command import report
 from fuzz.campaign.command import fuzz
-from fuzz.simulation.command import simulate
+from fuzz.simulation.command import simulate as simulate_command
+from heisoku_public import BadInput, check, load, prove, simulate
 from models.commands import (
     EVERY_CORE,
     Jobs,
@@ -47,12 +55,14 @@ from models.layouts.export.command import export
 from models.layouts.measures import CLEARANCE_MM
 from models.streams import outlet, write_whole
 from proofs.certificates.command import certify
-from proofs.command import prove
+from proofs.command import prove as prove_command
 from proofs.mutants.command import mutate
 from proofs.records import about, write_json
 
 if TYPE_CHECKING:
     from models.layouts import CheckResult, Imported
+
+__all__ = ["BadInput", "app", "check", "load", "main", "prove", "run", "simulate"]
 
 INTERRUPTED = 130
 
@@ -92,11 +102,11 @@ def options(version: Version = False) -> None:
     record_alone(None)
 
 
-app.command()(prove)
+app.command()(prove_command)
 
 
-@app.command()
-def check(
+@app.command("check")
+def check_command(
     layouts: Layouts,
     json: Json = None,
     clearance: Annotated[
@@ -362,7 +372,7 @@ def handset(
     print_line(console(), f"{output}: {minutes} minutes of day {day} with seed {seed}")
 
 
-for elsewhere in (certify, export, fuzz, mutate, manifest, report, simulate, verify):
+for elsewhere in (certify, export, fuzz, mutate, manifest, report, simulate_command, verify):
     app.command()(elsewhere)
 
 

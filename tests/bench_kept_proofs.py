@@ -1,6 +1,6 @@
 """How long a proof takes with answers kept: with nothing changed, and after changes of one line of the kernel each.
 
-``python -m tests.bench_kept_proofs [--changes 30] [--seed 1] [--solver z3] [--made-up]``; ``make kept``.
+``python -m tests.bench_kept_proofs [--changes 30] [--seed 1] [--solver z3] [--jobs 2] [--made-up]``; ``make kept``.
 
 Everything is proved first, which takes minutes.  ``--made-up`` writes answers that nobody gave instead, to texts that
 nobody laid out: what a change touches is laid out and asked as ever, and finds no answer even where its text is as it
@@ -28,10 +28,22 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from models.commands import EVERY_CORE
 from proofs.planted.changes import Change, changes
 
 ROOT = Path(__file__).resolve().parent.parent
-COPIED = ("kernel", "models", "proofs", "fuzz", "evidence", "layouts", "docs", "heisoku.py", "heisoku_start.py")
+COPIED = (
+    "kernel",
+    "models",
+    "proofs",
+    "fuzz",
+    "evidence",
+    "layouts",
+    "docs",
+    "heisoku.py",
+    "heisoku_public.py",
+    "heisoku_start.py",
+)
 MADE_UP = """
 import sys
 from dataclasses import asdict
@@ -90,10 +102,10 @@ def made_up(tree: Path, kept: Path, solver: str) -> None:
     subprocess.run([sys.executable, "-c", MADE_UP, str(kept), solvers], cwd=tree, env=around(), check=True)
 
 
-def proved(tree: Path, kept: Path, solver: str) -> Proved:
+def proved(tree: Path, kept: Path, solver: str, jobs: int) -> Proved:
     """Prove in a copy, with what is kept there."""
     record = tree / "prove.json"
-    given = ["prove", "--solver", solver, "--kept", str(kept), "--json", str(record)]
+    given = ["prove", "--solver", solver, "--jobs", str(jobs), "--kept", str(kept), "--json", str(record)]
     words = [sys.executable, "heisoku_start.py", *given]
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
     ended = subprocess.run(words, cwd=tree, env=around(), capture_output=True, text=True, check=False)
@@ -112,7 +124,7 @@ def proved(tree: Path, kept: Path, solver: str) -> Proved:
     )
 
 
-def with_change(tree: Path, change: Change, kept: Path, solver: str) -> Proved:
+def with_change(tree: Path, change: Change, kept: Path, solver: str, jobs: int) -> Proved:
     """Make a change, prove, and take it back."""
     path, apart = tree / change.file, kept.with_name("changed.sqlite")
     source, written = path.read_text("utf-8"), path.stat()
@@ -120,7 +132,7 @@ def with_change(tree: Path, change: Change, kept: Path, solver: str) -> Proved:
     path.write_text(source.replace(change.old, change.new), "utf-8")
     time.sleep(SETTLED_S)
     try:
-        return proved(tree, apart, solver)
+        return proved(tree, apart, solver, jobs)
     finally:
         path.write_text(source, "utf-8")
         os.utime(path, ns=(written.st_atime_ns, written.st_mtime_ns))
@@ -139,21 +151,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--changes", type=int, default=30)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--solver", default="z3", choices=("z3", "cvc5", "both"))
+    parser.add_argument("--jobs", type=int, default=EVERY_CORE)
     parser.add_argument(
         "--made-up", action="store_true", help="write answers that nobody gave, instead of proving first"
     )
     given = parser.parse_args(arguments)
+    how = (given.solver, given.jobs)
     with tempfile.TemporaryDirectory(prefix="kept") as place:
         tree, kept = copied(Path(place) / "tree"), Path(place) / "proofs.sqlite"
         time.sleep(SETTLED_S)
         if given.made_up:
             made_up(tree, kept, given.solver)
-        print(f"first:            {proved(tree, kept, given.solver).line()}", flush=True)
-        print(f"nothing changed:  {proved(tree, kept, given.solver).line()}", flush=True)
+        print(f"first:            {proved(tree, kept, *how).line()}", flush=True)
+        print(f"nothing changed:  {proved(tree, kept, *how).line()}", flush=True)
         took = []
         pool = of_one_line()
         for change in random.Random(given.seed).sample(pool, given.changes):
-            took.append(with_change(tree, change, kept, given.solver))
+            took.append(with_change(tree, change, kept, *how))
             print(f"{took[-1].line()}: {change.name}, {change.file}", flush=True)
     seconds, processor_s = [each.seconds for each in took], [each.processor_s for each in took]
     print(f"{len(took)} changes of one line, of {len(pool)}, seed {given.seed}")

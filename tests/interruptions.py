@@ -28,11 +28,16 @@ from typing import Any
 
 from lxml import etree
 
+from fuzz.failures.trace import text_of
+from tests.fuzz.failures.samples import LAYOUTS, failing
+
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = (sys.executable, str(ROOT / "heisoku_start.py"))
 STATION = "layouts/passing_station.toml"
 ENDS_AFTER_S = 120.0
-"""A command that is disturbed ends, and all its processes do, in this time; it is ended then, which is a finding."""
+"""A command that is interrupted or ended does end, and all its processes do, in this time; else it is a finding."""
+GOES_ON = 4
+"""A command that goes on has so many times as long as it takes undisturbed: others may use the machine by then."""
 
 COMMANDS: tuple[tuple[str, ...], ...] = (
     ("check", STATION, "layouts/terminus.toml", "--json", "{out}/check.json"),
@@ -54,9 +59,12 @@ COMMANDS: tuple[tuple[str, ...], ...] = (
     ("days", "tram", "--days", "1", "--jobs", "1", "--json", "{out}/days.json", "--keep", "{out}/tram.days"),
     ("reproduce", "000", "--runs", "1", "-o", "{out}/000", "--json", "{out}/000.json"),
     ("simulate", STATION, "--json", "{out}/simulate.json"),
-    ("fuzz", STATION, "--target", "link", "--batches", "1", "--out", "{out}/fuzz", "--json", "{out}/fuzz.json"),
+    ("fuzz", "--target", "link", "--batches", "1", "--out", "{out}/fuzz", "--json", "{out}/fuzz.json"),
     ("handset", "-o", "{out}/handset.html", "--minutes", "1"),
     ("manifest", "{out}/records"),
+    ("verify", "{out}/records"),
+    ("report", "--records", "{out}/empty", "-o", "{out}/report.html"),
+    ("replay", "{out}/records/trace.json", "--html", "{out}/trace.html", "--json", "{out}/replay.json"),
     ("prove", "--only", "["),
 )
 
@@ -128,9 +136,13 @@ def begun(words: tuple[str, ...], out: Path, how: Disturbance) -> subprocess.Pop
 
 
 def folder() -> Path:
-    """A folder to write into, with records to bind."""
+    """A folder to write into, with records to bind and a trace to replay."""
     out = Path(tempfile.mkdtemp(prefix="interrupted"))
     (out / "records").mkdir()
+    (out / "empty").mkdir()
+    trace = failing()
+    (out / "records" / "trace.json").write_text(text_of(trace), "utf-8")
+    shutil.copy(LAYOUTS["passing_station"], out / "records" / trace.layout.file)
     for name in ("prove.json", "check.json"):
         (out / "records" / name).write_text("{}", "utf-8")
     return out
@@ -158,7 +170,8 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
     try:
         if process.stdout is not None and process.stdout.closed:
             process.stdout = None
-        told, complaints = process.communicate(timeout=ENDS_AFTER_S)
+        goes_on = how.to_process not in (interrupted, ended)
+        told, complaints = process.communicate(timeout=ENDS_AFTER_S + goes_on * GOES_ON * usual.seconds)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()

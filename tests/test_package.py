@@ -8,15 +8,20 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+import heisoku
 import heisoku_start
 from evidence.manifest.hashes import ROOMS
+from fuzz.failures.trace import text_of
 from proofs import scripts
 from proofs.theories import ROWS
+from tests.fuzz.failures.samples import LAYOUTS, failing
 
 ROOT = Path(__file__).resolve().parent.parent
 MADE = shutil.ignore_patterns(".*", "out", "build", "*.egg-info", "__pycache__", "tests")
@@ -68,6 +73,7 @@ def test_every_file_beside_code_is_in_the_wheel(wheel: Path) -> None:
     assert {name.split("/")[0] for name in there if ".dist-info" not in name} == {
         *ROOMS,
         "heisoku.py",
+        "heisoku_public.py",
         "heisoku_start.py",
     }
 
@@ -152,27 +158,96 @@ def proved(record: Path) -> list[tuple[object, ...]]:
     ]
 
 
-@pytest.mark.slow
-def test_the_installed_program_proves_the_same_texts(installed: Path, tmp_path: Path) -> None:
-    words = ("prove", "--only", "^braking", "--jobs", "1", "--json")
-    told = run(installed, *words, str(tmp_path / "there.json"))
-    assert told.returncode == 0, told.stderr
-    here = [sys.executable, "heisoku_start.py", *words, str(tmp_path / "here.json")]
-    assert subprocess.run(here, cwd=ROOT, capture_output=True, check=False).returncode == 0
-    assert len(proved(tmp_path / "there.json")) > 20
-    assert proved(tmp_path / "there.json") == proved(tmp_path / "here.json")
+LAYOUT = "{top}/layouts/passing_station.toml"
+EVERY_COMMAND: tuple[tuple[str, ...], ...] = (
+    ("prove", "--only", "^braking", "--jobs", "1", "--json", "{out}/prove.json", "--junit", "{out}/prove.xml"),
+    ("prove", "--only", "^display", "--solver", "both", "--jobs", "2", "--json", "{out}/both.json"),
+    ("prove", "--only", "^display", "--jobs", "1", "--kept", "{out}/kept.sqlite", "--json", "{out}/again.json"),
+    ("prove", "--only", "no such row"),
+    ("check", LAYOUT, "--json", "{out}/check.json"),
+    ("check", LAYOUT, "--clearance", "400 m", "--json", "{out}/foul.json"),
+    ("draw", LAYOUT, "-o", "{out}/station.svg"),
+    ("export", LAYOUT, "-o", "{out}/export"),
+    ("simulate", LAYOUT, "--hours", "0.05", "--html", "{out}/line.html", "--json", "{out}/line.json"),
+    ("ride", "--rides", "4", "--jobs", "1", "--json", "{out}/ride.json"),
+    ("ride", "--rides", "2", "--beyond", "diameter_ppm", "--jobs", "1", "--json", "{out}/beyond.json"),
+    ("days", "alarm", "--days", "1", "--jobs", "1", "--json", "{out}/days.json"),
+    ("reproduce", "000", "--runs", "1", "-o", "{out}/000", "--json", "{out}/000.json"),
+    ("handset", "-o", "{out}/handset.html", "--minutes", "1"),
+    (
+        *("fuzz", "--target", "link", "--batches", "1", "--seed", "1", "--workers", "1"),
+        *("--out", "{out}/fuzz", "--json", "{out}/fuzz.json"),
+    ),
+    ("replay", "{out}/given/trace.json", "--json", "{out}/replay.json"),
+    (
+        *("certify", "--only", "^split.init split_is_latched$", "--jobs", "1"),
+        *("--keep", "{out}/certificates", "--json", "{out}/certificates.json"),
+    ),
+    ("mutate", "--only", r"^kernel\.onboard\.split\.is_intact", "--jobs", "1", "--json", "{out}/mutate.json"),
+    ("report", "--records", "{out}", "-o", "{out}/report.html"),
+    ("manifest", "{out}"),
+    ("verify", "{out}/export"),
+)
+"""Every command of the program, the last of the records of those before it."""
+OWN = {
+    *("commit", "command", "versions", "solvers", "platform", "made_at", "seconds", "lifting_seconds", "wall_seconds"),
+    *("process", "at", "starts", "rlimit_spent", "kept"),
+}
+"""What a record says of the run, and not of what was asked; where it ran is taken out of all names of files."""
+
+
+def same_of(told: Any, places: Mapping[str, Path]) -> Any:
+    """A record without what it says of its run; ``places``: where that was, by what stands for it."""
+    if isinstance(told, dict):
+        return {key: same_of(each, places) for key, each in told.items() if key not in OWN}
+    if isinstance(told, list):
+        return [same_of(each, places) for each in told]
+    for name, place in places.items():
+        told = told.replace(str(place), name) if isinstance(told, str) else told
+    return told
+
+
+def every_command(
+    program: Sequence[str], places: Mapping[str, Path], cwd: str | Path, path: str
+) -> list[tuple[str, int, str]]:
+    """Run every command: what was called, the exit code, and what stood on standard error where it was refused."""
+    out = places["{out}"]
+    (out / "given").mkdir(parents=True)
+    trace = failing()
+    (out / "given" / "trace.json").write_text(text_of(trace), "utf-8")
+    shutil.copy(LAYOUTS["passing_station"], out / "given" / trace.layout.file)
+    came = list[tuple[str, int, str]]()
+    for words in EVERY_COMMAND:
+        given = [word.replace("{out}", str(out)).replace("{top}", str(places["{top}"])) for word in words]
+        env = {**os.environ, "PYTHONPATH": path}
+        ended = subprocess.run([*program, *given], capture_output=True, text=True, cwd=cwd, env=env, check=False)
+        refused = ended.stderr if ended.returncode in (2, 3) else ""
+        came.append((" ".join(words), ended.returncode, same_of(refused, places)))
+    return came
+
+
+def test_every_command_is_among_those_that_are_compared() -> None:
+    commands = heisoku.app.registered_commands
+    assert {words[0] for words in EVERY_COMMAND} == {
+        each.name or each.callback.__name__ for each in commands if each.callback
+    }
 
 
 @pytest.mark.slow
-def test_the_installed_program_simulates_and_exports(installed: Path, tmp_path: Path) -> None:
-    layout = str(installed / "models" / "shipped" / "layouts" / "passing_station.toml")
-    page = tmp_path / "line.html"
-    for words in (
-        ("simulate", layout, "--hours", "0.01", "--html", str(page)),
-        ("export", layout, "-o", str(tmp_path / "export")),
-        ("report", "--help"),
-    ):
-        told = run(installed, *words)
-        assert told.returncode == 0, told.stderr
-    assert page.stat().st_size > 10_000
-    assert len(list((tmp_path / "export").iterdir())) == 9
+def test_every_command_says_from_the_root_what_it_says_in_the_checkout(installed: Path, tmp_path: Path) -> None:
+    """The same exit codes, the same files, the same records: verdicts, and hashes of every obligation."""
+    here = {"{out}": tmp_path / "here", "{top}": ROOT}
+    there = {"{out}": tmp_path / "there", "{top}": installed / "models" / "shipped"}
+    came = every_command([sys.executable, "heisoku_start.py"], here, ROOT, "")
+    assert every_command([sys.executable, str(installed / "bin/heisoku")], there, "/", str(installed)) == came
+    assert {each[1] for each in came} == {0, 1, 2}
+    files, others = ({path.relative_to(out) for path in out.rglob("*") if path.is_file()} for out in (
+        here["{out}"], there["{out}"]))  # fmt: skip
+    assert files == others
+    records = [each for each in files if each.suffix == ".json" and each.parent == Path() and each.stem != "manifest"]
+    assert len(records) > 12
+    for each in records:
+        one, other = (same_of(json.loads((side["{out}"] / each).read_text("utf-8")), side) for side in (here, there))
+        assert one == other, each
+    asked = [len(proved(here["{out}"] / f"{name}.json")) for name in ("prove", "both", "again")]
+    assert min(asked) > 20

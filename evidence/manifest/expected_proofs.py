@@ -13,6 +13,7 @@ from models.exit_codes import WORDS
 from proofs import canaries, lints_apart
 from proofs.certificates.command import DRAWN_FROM
 from proofs.certificates.command import exit_code as certified_code
+from proofs.certificates.outside import WRONG
 from proofs.mutants import command as mutating
 from proofs.mutants import joints as between
 from proofs.mutants import trying
@@ -106,7 +107,7 @@ def certified(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]
     controls = [each["asked"] for each in told["controls"]]
     wanted = [canary.name for canary in canaries.CANARIES]
     if told["external"]:
-        wanted.append("a proof of what is no theorem")
+        wanted += WRONG
     yield from differences("control", name, controls, wanted)
     yield from _verdict(name, told, certified_code(told))
 

@@ -171,7 +171,8 @@ def _certified(record: Kept, which: str) -> tuple[Came, str]:
     says = (
         f"{checked:,} of {len(found):,} obligations, {parts:,} proofs of {steps:,} steps, {trusted:,} of them on trust"
     )
-    says += f", by {data['external']} too" if data["external"] else ", by no external checker"
+    passed_outside = sum(each["external"] == "correct" for each in found)
+    says += f", {passed_outside:,} by {data['external']} too" if data["external"] else ", by no external checker"
     passed = [each["asked"] for each in data["controls"] if not each["refused"]]
     if any(each["answer"] == "sat" for each in found):
         return "does not hold", says

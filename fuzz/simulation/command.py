@@ -92,26 +92,12 @@ def simulate(
 
 def _told(plan: Plan, html: Path | None, json: Path | None) -> int:
     """Run one simulation and tell of it."""
-    from fuzz.simulation.judging import Judge
-    from models.simulation.history import History
-    from models.simulation.kilometres import Kilometres
-    from models.simulation.outcome import outcome
+    from fuzz.simulation.judging import judged
     from models.simulation.page.writing import page_of
-    from models.simulation.simulation import Simulation
 
     began = time.perf_counter()
-    sim, judge = Simulation(plan), Judge()
-    history = History(Kilometres(sim.rails))
-
     with progress("simulated s") as step:
-
-        def look(now: Simulation) -> None:
-            history.look(now)
-            judge.look(now)
-            step(now.now_s, round(plan.hours * 3_600), "")
-
-        sim.run(look)
-    found = outcome(sim, history, judge.asked)
+        found = judged(plan, lambda now: step(now.now_s, round(plan.hours * 3_600), ""))
     seconds = time.perf_counter() - began
     if html:
         write_whole(html, page_of(found).encode())

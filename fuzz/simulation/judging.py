@@ -10,6 +10,10 @@ from operator import attrgetter, is_
 from typing import Any, get_type_hints
 
 from fuzz.failures.replaying import holds
+from models.simulation.beginning import Plan
+from models.simulation.history import History
+from models.simulation.kilometres import Kilometres
+from models.simulation.outcome import Outcome, outcome
 from models.simulation.simulation import Simulation
 from models.world.state import System
 from proofs.catalogue import INVARIANTS, SAFETY
@@ -46,6 +50,24 @@ class Judge:
             self._read[name] = read
             if not holds(name, now.play.site, system):
                 now.oracles.violated(name, "the invariant is false of the simulated state")
+
+
+def judged(plan: Plan, look: Callable[[Simulation], object] = lambda now: None) -> Outcome:
+    """Run a simulation to its end with a judge beside it; ``look`` is told of each second.
+
+    Raises:
+        BadInput: so many trains have no room.
+    """
+    sim, judge = Simulation(plan), Judge()
+    history = History(Kilometres(sim.rails))
+
+    def each_second(now: Simulation) -> None:
+        history.look(now)
+        judge.look(now)
+        look(now)
+
+    sim.run(each_second)
+    return outcome(sim, history, judge.asked)
 
 
 @cache

@@ -2,29 +2,22 @@
 
 from __future__ import annotations
 
-import os
+import gzip
+import hashlib
 import re
-import shutil
-import subprocess
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
+from models.streams import write_whole
 from proofs import canaries, run, smtlib
+from proofs.certificates.outside import Checker
+from proofs.certificates.outside import checked as checked_outside
+from proofs.certificates.outside import controls as controls_outside
 from proofs.solvers import BUDGET, at_a_loss, commanded
 from proofs.workbench import Part
 
-CHECKER = "ethos"
-RULES = "HEISOKU_CPC"
-"""The environment variable that says where ``Cpc.eo`` is: the rules of cvc5's proofs, for the external checker."""
-CHECKS_FOR_S = 120
-RULE = re.compile(r":rule (\S+)")
-CONTRADICTION = (
-    "(\n(assume @p1 (not heisoku.any))\n(assume @p2 heisoku.any)\n(step @p3 false :rule contra :premises (@p2 @p1))\n)"
-)
-"""No proof: it takes for granted what was not asserted."""
+RULE = re.compile(rb":rule (\S+)")
 
 
 @dataclass(frozen=True)
@@ -34,6 +27,7 @@ class Certified:
     ``parts``: so many proofs.  ``answer``: ``checked`` if cvc5's checker went through each of them, else what it said
     instead.  ``steps``: of all proofs; ``trusted``: those among them that give no reason.
     ``external``: what the external checker said, none if it was not asked.
+    ``proofs``: a hash of each proof as cvc5 wrote it; ``size``: how many bytes all of them are.
     """
 
     row: str
@@ -44,30 +38,39 @@ class Certified:
     trusted: int
     smt2_sha256: str
     external: str = ""
+    proofs: tuple[str, ...] = ()
+    size: int = 0
 
 
-@cache
-def external() -> tuple[str, str] | None:
-    """The external checker and the rules it reads, None unless both are installed."""
-    found, rules = shutil.which(CHECKER), os.environ.get(RULES, "")
-    return (found, rules) if found and Path(rules).is_file() else None
+def certified(obligation: tuple[str, str], outside: Checker | None = None, keep: Path | None = None) -> Certified:
+    """Prove an obligation, by its row and column, once more: every step written down and checked.
 
-
-def certified(obligation: tuple[str, str]) -> Certified:
-    """Prove an obligation, by its row and column, once more: every step written down and checked."""
+    ``outside``: the external checker, which goes through each proof too.  ``keep``: a folder for the proofs.
+    """
     row, column = obligation
     asked = run.parts(row, column)
-    digest, answers, rules, told = run.digest_of(asked), set(), list[str](), list[str]()
-    for part in asked:
+    digest, answers, written, told = run.digest_of(asked), set(), list[bytes](), list[str]()
+    for number, part in enumerate(asked, 1):
         answer, proof = proved(part)
         answers.add(answer)
-        rules += RULE.findall(proof)
-        if answer == "checked" and external():
-            told.append(checked_outside(smtlib.script(part), proof))
-    answer = next(iter(sorted(answers - {"checked"})), "checked")
-    outside = next((each for each in told if each != "correct"), "correct") if told else ""
-    trusted = sum("trust" in rule for rule in rules)
-    return Certified(row, column, len(asked), answer, len(rules), trusted, digest, outside)
+        written.append(proof.encode())
+        if answer == "checked" and outside:
+            told.append(checked_outside(smtlib.script(part), proof, outside))
+        if answer == "checked" and keep:
+            write_whole(keep / row / f"{column}.{number}.cpc.gz", gzip.compress(written[-1], mtime=0))
+    rules = [rule for proof in written for rule in RULE.findall(proof)]
+    return Certified(
+        row=row,
+        column=column,
+        parts=len(asked),
+        answer=next(iter(sorted(answers - {"checked"})), "checked"),
+        steps=len(rules),
+        trusted=sum(b"trust" in rule for rule in rules),
+        smt2_sha256=digest,
+        external=next((each for each in told if each != "correct"), "correct") if told else "",
+        proofs=tuple(hashlib.sha256(proof).hexdigest() for proof in written),
+        size=sum(map(len, written)),
+    )
 
 
 def proved(part: Part) -> tuple[str, str]:
@@ -96,29 +99,7 @@ def _once(text: str, more: Mapping[str, str] | None = None) -> tuple[str, str]:
     return "checked", proof
 
 
-def checked_outside(text: str, proof: str) -> str:
-    """Have the external checker go through a proof of a question: ``correct``, or what it says instead."""
-    found = external()
-    assert found is not None
-    checker, rules = found
-    with tempfile.TemporaryDirectory() as place:
-        question, answer = Path(place) / "question.smt2", Path(place) / "proof.cpc"
-        question.write_text(text, "utf-8")
-        answer.write_text(f'(include "{rules}")\n(reference "{question}")\n{proof.strip()[1:-1]}', "utf-8")
-        try:
-            told = subprocess.run(
-                [checker, str(answer)], capture_output=True, text=True, timeout=CHECKS_FOR_S, check=False
-            )
-        except (OSError, subprocess.TimeoutExpired) as error:
-            return f"{type(error).__name__}"
-    says = (told.stdout.strip() or told.stderr.strip() or f"exit {told.returncode}").splitlines()[-1]
-    return "correct" if says == "correct" and told.returncode == 0 else says[:200]
-
-
-def controls() -> list[tuple[str, bool]]:
-    """What no checker may go through, and whether it was refused: what is no theorem, and a proof that is none."""
+def controls(outside: Checker | None = None) -> list[tuple[str, bool]]:
+    """What no checker may go through, and whether it was refused: what is no theorem, and proofs that are none."""
     refused = [(canary.name, proved(part)[0] != "checked") for canary, part in canaries.laid_out()]
-    if external():
-        question = "(set-logic ALL)\n(declare-const heisoku.any Bool)\n(assert (not heisoku.any))\n(check-sat)\n"
-        refused.append(("a proof of what is no theorem", checked_outside(question, CONTRADICTION) != "correct"))
-    return refused
+    return refused + (controls_outside(outside) if outside else [])

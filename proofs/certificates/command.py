@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import random
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -16,8 +19,22 @@ from proofs.records import about, write_json
 
 if TYPE_CHECKING:
     from proofs.certificates.checking import Certified
+    from proofs.certificates.outside import Checker
 
 DRAWN_FROM = 1
+
+Proofs = Annotated[
+    Path | None,
+    typer.Option("--keep", metavar="DIR", help="Keep the proofs there, as cvc5 writes them.", show_default=False),
+]
+Ethos = Annotated[
+    Path | None,
+    typer.Option("--ethos", metavar="F", help="The program of the external checker.", show_default="on the path"),
+]
+Rules = Annotated[
+    Path | None,
+    typer.Option("--rules", metavar="F", help="Cpc.eo, which it reads first.", show_default="HEISOKU_CPC"),
+]
 
 
 def certify(
@@ -29,22 +46,28 @@ def certify(
         int | None, typer.Option(metavar="N", min=1, help="Only N of them, always the same.", show_default=False)
     ] = None,
     jobs: Jobs = EVERY_CORE,
+    keep: Proofs = None,
+    ethos: Ethos = None,
+    rules: Rules = None,
     json: Json = None,
 ) -> None:
     """Have a proof of each obligation written down, and each step of it checked.
 
-    cvc5 writes it and its own checker goes through it; so does ethos where it is installed and HEISOKU_CPC names
-    its rules.  What is no theorem is put to them first.
+    cvc5 writes it and its own checker goes through it; so does ethos, a checker of others, where --ethos and --rules
+    name it, or it is on the path and HEISOKU_CPC names its rules.  What is no theorem is put to them first.
 
     Examples:
     * `heisoku certify --only '^braking'`
     """
     from models.processes import spread
-    from proofs.certificates.checking import certified, controls, external
+    from proofs.certificates.checking import certified, controls
     from proofs.theories import ROWS, columns
 
     matches = pattern(only)
     writable(json)
+    if keep is not None and keep.exists() and not keep.is_dir():
+        refuse(f"--keep {keep}: is not a folder; name another")
+    outside = checker(ethos, rules)
     asked = [(row, column) for row in ROWS for column in columns(row) if matches.search(f"{row} {column}")]
     if not asked:
         refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
@@ -52,19 +75,35 @@ def certify(
     if sample is not None:
         chosen = set(random.Random(DRAWN_FROM).sample(asked, min(sample, len(asked))))
         asked = [each for each in asked if each in chosen]
-    began, refused, found = time.perf_counter(), controls(), list["Certified"]()
+    began, refused, found = time.perf_counter(), controls(outside), list["Certified"]()
     with progress("certified") as step:
-        for one in spread(certified, asked, jobs):
+        for one in spread(partial(certified, outside=outside, keep=keep), asked, jobs):
             found.append(one)
             step(len(found), len(asked), f"{one.answer}: {one.row} × {one.column}"[:100])
-    checker = external()
-    told = record(found, there_are, refused, checker and checker[0], time.perf_counter() - began)
+    told = record(found, there_are, refused, outside.program if outside else None, time.perf_counter() - began)
     if json:
-        write_json(json, {**told, "only": only, "sample": sample, **about()})
+        hashed = outside.hashes() if outside else None
+        write_json(json, {**told, "external_hashes": hashed, "only": only, "sample": sample, **about()})
     out = console()
     for line in lines(told):
         print_line(out, line)
     raise typer.Exit(exit_code(told))
+
+
+def checker(ethos: Path | None, rules: Path | None) -> Checker | None:
+    """The external checker that is named, else the one that is installed, if any."""
+    from proofs.certificates.outside import RULES, Checker, installed
+
+    if ethos is None and rules is None:
+        return installed()
+    named = rules or Path(os.environ.get(RULES, ""))
+    if ethos is None:
+        refuse("--rules: of which checker; name it by --ethos")
+    if not ethos.is_file() or not os.access(ethos, os.X_OK):
+        refuse(f"--ethos {ethos}: is no program that can be run; name the one that was built")
+    if not named.is_file():
+        refuse(f"--rules {named}: is no file; name Cpc.eo, which is among the sources of cvc5")
+    return Checker(str(ethos.resolve()), str(named.resolve()))
 
 
 def record(
@@ -105,8 +144,10 @@ def lines(told: Mapping[str, Any]) -> list[str]:
         if each["answer"] != "checked" or each["trusted"] or each["external"] not in ("", "correct")
     ]
     said += [f"control: {each['asked']}: went through as proved" for each in told["controls"] if not each["refused"]]
-    parts, steps = (sum(each[what] for each in found) for what in ("parts", "steps"))
+    parts, steps, size = (sum(each[what] for each in found) for what in ("parts", "steps", "size"))
     checked = sum(each["answer"] == "checked" for each in found)
-    outside = f"by {told['external']} too" if told["external"] else "no external checker is installed"
-    came = f"{checked:,} of {len(found):,} obligations with {parts:,} proofs of {steps:,} steps checked, {outside}"
+    passed = sum(each["external"] == "correct" for each in found)
+    outside = f"{passed:,} by {told['external']} too" if told["external"] else "no external checker is installed"
+    proofs = f"{parts:,} proofs of {steps:,} steps and {size / 1e6:,.1f} MB"
+    came = f"{checked:,} of {len(found):,} obligations with {proofs} checked, {outside}"
     return [*said, f"{came}; {len(told['controls'])} controls: {told['verdict']}"]

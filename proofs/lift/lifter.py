@@ -100,12 +100,12 @@ def _parts(formula: Any) -> list[tuple[list[Any], list[Any], Any]]:
 
 def _closed(binders: list[Any], guards: list[Any], goal: Any) -> Any:
     body = to_z3(implies_(and_(*guards), goal))
-    used = _constants(body)
+    used = _constants(body) if binders else frozenset[int]()
     kept = [binder for binder in binders if binder.get_id() in used]
     return z3.ForAll(kept, body) if kept else body
 
 
-def _constants(formula: Any) -> set[int]:
+def _constants(formula: Any) -> frozenset[int]:
     """Return the ids of the constants in a formula."""
     seen: set[int] = set()
     found: set[int] = set()
@@ -121,7 +121,7 @@ def _constants(formula: Any) -> set[int]:
             found.add(term.get_id())
         else:
             open_.extend(term.children())
-    return found
+    return frozenset(found)
 
 
 __all__ = ["Case", "Lifter", "conjuncts"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -192,6 +193,85 @@ def test_an_answer_under_the_key_of_another_is_named(file: Path) -> None:
     report = proved(file)
     assert report.kept == asking(report) - 2
     assert len(report.said) == 1
+
+
+def exchanged(path: Path, what: str) -> str:
+    """Exchange the digests of two entries."""
+    first, second = sorted(key for key in rows(path) if key.startswith(what))[:2]
+    with sqlite3.connect(path) as db:
+        digests = dict(db.execute("SELECT key, digest FROM kept WHERE key IN (?, ?)", (first, second)))
+        for key, other in ((first, second), (second, first)):
+            db.execute("UPDATE kept SET digest = ? WHERE key = ?", (digests[other], key))
+    return f"{what}, {what}"
+
+
+def copied(path: Path, what: str) -> str:
+    """Put an entry's content, with its digest, under the key of another."""
+    first, second = sorted(key for key in rows(path) if key.startswith(what))[:2]
+    with sqlite3.connect(path) as db:
+        whose = "(SELECT {} FROM kept WHERE key = ?)"
+        db.execute(
+            f"UPDATE kept SET content = {whose.format('content')}, digest = {whose.format('digest')} WHERE key = ?",
+            (second, second, first),
+        )
+    return what
+
+
+def led_elsewhere(path: Path, what: str) -> str:
+    """Lead a cell to the text of another, in the entry that says by what texts are known."""
+    key, content = next((key, content) for key, content in rows(path).items() if key.startswith("keys"))
+    told = json.loads(content)
+    first, second = sorted(told)[:2]
+    with sqlite3.connect(path) as db:
+        db.execute("UPDATE kept SET content = ? WHERE key = ?", (json.dumps(told | {first: told[second]}), key))
+    return "keys"
+
+
+def retyped(path: Path, what: str) -> str:
+    """The same characters as bytes, and no digest."""
+    key = min(key for key in rows(path) if key.startswith(what))
+    with sqlite3.connect(path) as db:
+        db.execute("UPDATE kept SET content = CAST(content AS BLOB), digest = '' WHERE key = ?", (key,))
+    return what
+
+
+def cut_off(path: Path, what: str) -> str:
+    """Half of an entry."""
+    key = min(key for key in rows(path) if key.startswith(what))
+    with sqlite3.connect(path) as db:
+        db.execute("UPDATE kept SET content = substr(content, 1, length(content) / 2) WHERE key = ?", (key,))
+    return what
+
+
+@pytest.mark.parametrize("what", ["answer", "text"])
+@pytest.mark.parametrize("tamper", [exchanged, copied, led_elsewhere, retyped, cut_off], ids=lambda each: each.__name__)
+def test_whatever_is_done_to_an_entry_is_named_and_changes_nothing_that_is_said(
+    tamper: Callable[[Path, str], str], what: str, file: Path
+) -> None:
+    before = proved(None)
+    named = tamper(file, what).split(", ")
+    report = proved(file)
+    assert [line.removeprefix(f"{file}: ").split()[0] for line in report.said] == named
+    told = ("transition", "invariant", "verdict", "smt2_sha256", "note", "axioms")
+    for one, other in zip(before.obligations, report.obligations, strict=True):
+        assert [one.get(name) for name in told] == [other.get(name) for name in told]
+    assert proved(file).said == [], "what was found stands in its place"
+
+
+def test_a_page_of_the_file_that_is_overwritten_is_refused_in_one_line(
+    file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with sqlite3.connect(file) as db:
+        (size,) = db.execute("PRAGMA page_size").fetchone()
+        db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    content = bytearray(file.read_bytes())
+    content[size:] = b"\xa5" * (len(content) - size)
+    file.write_bytes(content)
+    kept.opened.cache_clear()
+    assert heisoku.run(["prove", "--jobs", "1", "--only", ONLY, "--kept", str(file)]) == 2
+    told = capsys.readouterr()
+    assert (told.out, told.err.count("\n")) == ("", 1)
+    assert str(file) in told.err
 
 
 @pytest.mark.parametrize("content", [b"no database", b"SQLite format 3\0" + b"\xff" * 2_000])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gzip
+import hashlib
 import json
 import random
 from collections.abc import Iterator
@@ -11,10 +13,11 @@ import pytest
 
 from heisoku import run
 from proofs import canaries
-from proofs.certificates import checking
-from proofs.certificates.checking import Certified, certified, controls, external, proved
+from proofs.certificates import outside
+from proofs.certificates.checking import Certified, certified, controls, proved
 from proofs.certificates.command import exit_code, lines, record
 from proofs.run import parts
+from proofs.smtlib import script
 from proofs.theories import THEORIES, columns, row_of
 
 DRAWN = random.Random(7)
@@ -31,7 +34,7 @@ def test_an_obligation_of_each_theory_is_gone_through(theory: str) -> None:
 
 def test_what_is_no_theorem_gets_none() -> None:
     assert [name for name, refused in controls() if not refused] == []
-    assert len(controls()) == len(canaries.CANARIES) + (external() is not None)
+    assert len(controls()) == len(canaries.CANARIES)
     for canary, part in canaries.laid_out():
         answer, proof = proved(part)
         assert answer != "checked", canary.name
@@ -74,15 +77,15 @@ def test_only_what_is_checked_with_every_control_refused_holds(
 @pytest.fixture
 def stub(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A program in the external checker's place; what it says is written by the test."""
-    checker, rules = tmp_path / checking.CHECKER, tmp_path / "Cpc.eo"
+    checker, rules = tmp_path / outside.CHECKER, tmp_path / "Cpc.eo"
     rules.write_text("")
     checker.write_text("")
     checker.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
-    monkeypatch.setenv(checking.RULES, str(rules))
-    external.cache_clear()
+    monkeypatch.setenv(outside.RULES, str(rules))
+    outside.installed.cache_clear()
     yield checker
-    external.cache_clear()
+    outside.installed.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -107,7 +110,128 @@ def test_an_external_checker_that_passes_what_is_no_proof_is_named(
     assert named == (says == "echo correct")
 
 
-@pytest.mark.parametrize("words", [["--only", "("], ["--only", "no such row"], ["--json", "/"]])
-def test_what_cannot_be_asked_is_one_line_and_code_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--only", "("], "--only"),
+        (["--only", "no such row"], "--only"),
+        (["--json", "/"], "/"),
+        (["--keep", "/dev/null"], "is not a folder"),
+        (["--ethos", "/no/such/program"], "is no program"),
+        (["--ethos", "/bin/sh", "--rules", "/no/such/file"], "Cpc.eo"),
+        (["--rules", "/dev/null"], "--ethos"),
+    ],
+)
+def test_what_cannot_be_asked_is_one_line_and_code_2(
+    words: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(["certify", *words]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert says in told
+
+
+def test_proofs_are_kept_as_files_and_their_hashes_stand_in_the_record(tmp_path: Path) -> None:
+    words = ["certify", "--only", "^split.init ", "--jobs", "1", "--keep", str(tmp_path / "kept"), "--json"]
+    assert run([*words, str(tmp_path / "F")]) == 0
+    told = json.loads((tmp_path / "F").read_text("utf-8"))["obligations"]
+    files = sorted((tmp_path / "kept").rglob("*.cpc.gz"))
+    assert len(files) == sum(each["parts"] for each in told) > 3
+    for each in told:
+        names = [f"{each['column']}.{number}.cpc.gz" for number in range(1, each["parts"] + 1)]
+        proofs = [gzip.decompress((tmp_path / "kept" / each["row"] / name).read_bytes()) for name in names]
+        assert [hashlib.sha256(proof).hexdigest() for proof in proofs] == each["proofs"]
+        assert sum(map(len, proofs)) == each["size"]
+    before = {path: path.read_bytes() for path in files}
+    assert run([*words, str(tmp_path / "F")]) == 0
+    assert {path: path.read_bytes() for path in files} == before, "the same proof on every run"
+
+
+# ---- what a checker of others is given
+
+ASKED = """(set-logic ALL)
+(declare-sort Train 0)
+(declare-datatypes ((End 0)) (((head) (tail))))
+(declare-fun |a b| () Bool)
+(declare-fun c (Train) Bool)
+(assert (! (and |a b| (exists ((t Train)) (! (c t) :pattern ((c t))))) :named one.1))
+(assert (! |a b| :named |two (or so).1|))
+(assert (not |a b|))
+(check-sat)
+"""
+
+
+def test_a_question_goes_without_names_and_with_all_else() -> None:
+    assert outside.question(ASKED) == ASKED.replace("(! (and", "(and").replace(" :named one.1)", "").replace(
+        "(! |a b| :named |two (or so).1|)", "|a b|"
+    )
+
+
+SECOND = "(declare-sort Train 0)\n(declare-datatypes ((End 0)) (((head) (tail))))\n(declare-const |a b| Bool)\n"
+STEPS = "(define @t1 () (not |a b|))\n(assume @p1 @t1)\n(assume @p2 |a b|)\n"
+END = "(step @p3 false :rule contra :premises (@p2 @p1))\n"
+
+
+def test_a_proof_goes_without_what_the_question_declares() -> None:
+    assert outside.steps(ASKED, f"(\n{SECOND}{STEPS}{END})") == STEPS + END
+
+
+@pytest.mark.parametrize(
+    "proof",
+    [
+        STEPS + "(step @p3 |a b| :rule refl :args (|a b|))\n",
+        STEPS + "(assume-push @p4 |a b|)\n" + END,
+        STEPS + "(declare-const another Bool)\n" + END,
+        STEPS + "(declare-rule mine () :conclusion false)\n" + END,
+        STEPS + '(include "mine.eo")\n' + END,
+        STEPS + "(define @list () |a b|)\n" + END,
+        STEPS + "(define @t2 () true) (reset)\n" + END,
+        STEPS + "(exit)\n" + END,
+        STEPS + END + "(exit)\n",
+        STEPS + "stray " + END,
+        STEPS + ")" + END,
+        STEPS + END + "(step @p4",
+        "",
+    ],
+)
+def test_a_proof_that_says_more_than_steps_is_refused(proof: str) -> None:
+    with pytest.raises(outside.Refused):
+        outside.steps(ASKED, f"(\n{SECOND}{proof})")
+
+
+@pytest.fixture
+def ethos() -> outside.Checker:
+    """The real one."""
+    outside.installed.cache_clear()
+    found = outside.installed()
+    if found is None:
+        pytest.skip(f"no {outside.CHECKER} on the path, or {outside.RULES} does not name its rules")
+    return found
+
+
+def test_ethos_passes_what_cvc5_proves_and_no_control(ethos: outside.Checker) -> None:
+    found = certified(("split.init", "split_is_latched"), ethos)
+    assert (found.answer, found.external) == ("checked", "correct")
+    assert [name for name, refused in outside.controls(ethos) if not refused] == []
+
+
+def test_ethos_refuses_a_proof_of_which_a_step_is_left_out_or_another(ethos: outside.Checker) -> None:
+    (part,) = parts("split.init", "split_is_latched")
+    text, (_, proof) = script(part), proved(part)
+    lines = proof.splitlines()
+    where = [number for number, line in enumerate(lines) if line.startswith("(step ") and " false " not in line]
+    assert len(where) > 20
+    for number in where[:: len(where) // 10]:
+        without = "\n".join(lines[:number] + lines[number + 1 :])
+        assert outside.checked(text, without, ethos) != "correct", lines[number]
+    assert "(not pre.found)" in text
+    assert outside.checked(text.replace("(not pre.found)", "pre.found"), proof, ethos) != "correct"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("theory", THEORIES)
+def test_ethos_passes_a_proof_of_each_theory(theory: str, ethos: outside.Checker) -> None:
+    row = row_of(THEORIES[theory], next(iter(THEORIES[theory].steps)))
+    asked = [column for column in columns(row) if parts(row, column)]
+    for column in asked[:2]:
+        assert certified((row, column), ethos).external == "correct", f"{row} {column}"

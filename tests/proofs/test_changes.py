@@ -138,6 +138,7 @@ def test_the_prover_refutes_an_edited_tree(name: str, tmp_path: Path) -> None:
     for room in ("kernel", "models", "proofs", "evidence", "fuzz"):
         shutil.copytree(ROOT / room, tmp_path / room, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "heisoku.py", tmp_path)
+    shutil.copy(ROOT / "heisoku_public.py", tmp_path)
     shutil.copy(ROOT / "heisoku_start.py", tmp_path)
     file = tmp_path / change.file
     file.write_text(file.read_text(encoding="utf-8").replace(change.old, change.new), encoding="utf-8")
