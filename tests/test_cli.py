@@ -71,7 +71,14 @@ def test_prove_ends_with_the_code_of_its_verdict(
 def test_prove_passes_its_options_on(prover: dict[str, Any]) -> None:
     assert heisoku.run(["prove", "--solver", "both", "--jobs", "2", "--seeds", "3", "--only", "reserve*"]) == 0
     del prover["asked"]["progress"]
-    assert prover["asked"] == {"solver": "both", "jobs": 2, "seeds": 3, "only": "reserve*", "keep": None}
+    assert prover["asked"] == {
+        "solver": "both",
+        "jobs": 2,
+        "seeds": 3,
+        "only": "reserve*",
+        "keep": None,
+        "answers": None,
+    }
 
 
 def test_prove_writes_both_records(prover: dict[str, Any], tmp_path: Path) -> None:

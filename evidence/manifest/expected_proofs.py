@@ -118,20 +118,24 @@ def mutated(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
     there = [each["mutant"] for each in rows]
     yield from differences("mutant", name, there, trying.chosen(told["only"] or "", told["sample"]))
     yield from _of(name, told["of"], len(mutants()))
-    for each in rows:
-        entry = table().get(each["mutant"])
-        kind = (
-            ""
-            if each["mutant"] not in mutants() or trying.killed(each["mutant"], each["outcome"])
-            else (entry.kind if entry else "")
-        )
-        became = mutating.HOLE if each["objection"] else mutating.CLASSED if kind else mutating.KILLED
-        if each["mutant"] in mutants() and (each["class"], each["became"]) != (kind, became):
+    for each in (row for row in rows if row["mutant"] in mutants()):
+        kind, became = _became(each)
+        if (each["class"], each["became"]) != (kind, became):
             says = f"{each['became']} {each['class']}".strip()
             yield Finding("other class", name, f"{each['mutant']}: {says}, and by the sources {became} {kind}".strip())
     if told["kills"] != mutating.kills(rows):
         yield Finding("other sums", name, "its kills are not those of the mutants that stand in it")
     yield from _verdict(name, told, mutating.exit_code(told))
+
+
+def _became(row: Told) -> tuple[str, str]:
+    """The class of a mutant and what becomes of it, by its outcome, by the table, and by what is said against it."""
+    name, is_killed = row["mutant"], trying.killed(row["mutant"], row["outcome"])
+    entry = table().get(name)
+    kind = entry.kind if entry and not is_killed else ""
+    if row["objection"] or trying.by_the_table(name, is_killed):
+        return kind, mutating.HOLE
+    return kind, mutating.CLASSED if kind else mutating.KILLED
 
 
 def cored(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:

@@ -51,10 +51,18 @@ def judged(mutant: tuple[str, bool]) -> tuple[str, str, str]:
     """The class of a mutant, and what is wrong with it if anything is; given its name, and whether it was killed."""
     name, is_killed = mutant
     entry = table().get(name)
+    wrong = by_the_table(name, is_killed)
+    if is_killed or entry is None:
+        return name, "", wrong
+    return name, entry.kind, objection(entry)
+
+
+def by_the_table(name: str, is_killed: bool) -> str:
+    """Say what is wrong with a mutant by the table of classes alone, or nothing."""
+    entry = table().get(name)
     if is_killed:
-        idle = entry is not None and entry.kind != SERVICE
-        return name, "", "killed: it needs no class" if idle else ""
-    return (name, entry.kind, objection(entry)) if entry else (name, "", "stands in no class")
+        return "killed: it needs no class" if entry is not None and entry.kind != SERVICE else ""
+    return "" if entry else "stands in no class"
 
 
 def chosen(only: str, sample: int | None) -> list[str]:

@@ -141,6 +141,7 @@ QUICK = (
     ),
     Forgery("no canaries", edited(PROOF, set_to("canaries", value=[])), "missing canary", PROOF),
     Forgery("one mutant, of 1", edited(MUTATED, of_one), "other sums", MUTATED),
+    Forgery("a survivor called killed", edited(MUTATED, a_hole_called_killed), "other class", MUTATED),
     Forgery(
         "a record of tests of another commit",
         replaced("test.xml", '"commit": "', '"commit": "0'),
@@ -278,10 +279,9 @@ MORE = (
     ),
     Forgery("no controls", edited(CERTIFIED, set_to("controls", value=[])), "missing control", CERTIFIED),
     Forgery("a mutant left out", edited(MUTATED, lambda told: told["mutants"].pop()), "missing mutant", MUTATED),
-    Forgery("a survivor called killed", edited(MUTATED, a_hole_called_killed), "other class", MUTATED),
     Forgery(
         "a sample of mutants called all",
-        edited(MUTATED, dropped("mutants", lambda each: "kernel.split" in each["mutant"])),
+        edited(MUTATED, dropped("mutants", lambda each: "kernel.onboard.split" in each["mutant"])),
         "missing mutant",
         MUTATED,
     ),
