@@ -84,6 +84,12 @@ def a_listed_turnout_is_entered_no_faster_than_it_allows() -> None:
     ride.stop()
 
 
+def run_until_it_brakes(ride: Ride, gains_mm_s: int) -> None:
+    """Run on, faster by so much in each cycle, until the computer puts the brake on."""
+    while not ride.system.computer.brake.applied:
+        ride.cycle(ride.system.speed_um_s // 1_000 + gains_mm_s)
+
+
 def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
     """Awaiting the next tag its train keeps to it until that is read, and its rear has passed (T5, T12)."""
     first_mm = START_MM + 100_000
@@ -93,21 +99,20 @@ def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
     curve = {"in_curve": True, "at_turnout": False}
     ride.step("await_tag", place_mm=curve_mm, uid=curve_mm, kind=CURVE, **curve)
     ride.step("miss_a_tag", **curve)
-    assert not ride.system.passing.in_curve, "the front is not there yet"
+    before = ride.system.passing
+    assert not before.in_curve, "the front is not there yet"
     ride.until(curve_mm + 4_000)
     assert ride.system.computer.known.limit.in_curve
     ride.step("miss_a_tag", **curve)
     assert ride.system.passing.in_curve
-    while not ride.system.computer.brake.applied:
-        ride.cycle(ride.system.speed_um_s // 1_000)
+    run_until_it_brakes(ride, 0)
     assert ride.system.computer.known.window.passed
     ride.stop()
     ride.step("await_tag", place_mm=next_mm, uid=next_mm, **PLAIN_TRACK)
     assert ride.system.computer.known.ahead == NONE_LISTED
     ride.step("take_end", end_mm=next_mm)
     ride.cycle(0, acknowledged=True)
-    while not ride.system.computer.brake.applied:
-        ride.cycle(ride.system.speed_um_s // 1_000 + 100)
+    run_until_it_brakes(ride, 100)
     curve_mm_s = LIMITS.train.speeds.curve_mm_s
     assert curve_mm_s - 1_000 < ride.system.from_um_s // 1_000 <= curve_mm_s
     assert ride.system.front_nm < next_mm * NM_A_MM
