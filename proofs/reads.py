@@ -9,17 +9,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from proofs.lift.terms import address
-from proofs.lift.values import Fields, Record, Value, is_term
+from proofs.lift.values import ABSENT, Fields, Record, Value, is_term
 
 Path = tuple[str, ...]
 """The names of a field, from the state down."""
 
 
 def noting(value: Value, read: dict[Path, Value], path: Path = ()) -> Value:
-    """Give the same value; whatever is read of it, once it is no record any more, is noted under its path."""
+    """Give the same value; whatever is read of it is noted under its path, and that a record is one, too."""
+    read[path] = value
     if isinstance(value, Record):
         return Record(value.cls, Fields(value.fields, lambda name: noting(value.fields[name], read, (*path, name))))
-    read[path] = value
     return value
 
 
@@ -50,12 +50,16 @@ class Seen:
 
 def _at(state: Value, path: Path) -> Value:
     for name in path:
+        if not isinstance(state, Record):
+            return ABSENT  # there is no record here, and its own path says so
         state = state.fields[name]
     return state
 
 
 def _mark(value: Value) -> Any:
-    """Give what is the same for the same value only: Z3 keeps equal terms once."""
+    """Give what is the same for the same value only: Z3 keeps equal terms once.  Of a record the fields have paths."""
     if isinstance(value, bool):
         return value
+    if isinstance(value, Record):
+        return value.cls
     return (True, address(value)) if is_term(value) else (False, id(value))

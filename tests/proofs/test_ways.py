@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -10,11 +12,13 @@ import z3
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from proofs import solvers
 from proofs.lift import conjuncts
 from proofs.lift.terms import not_
 from proofs.lift.values import Record
 from proofs.reads import Seen, noting
 from proofs.theories import THEORIES
+from proofs.theory import Theory
 from proofs.ways import Way, together
 from proofs.workbench import Workbench
 
@@ -98,3 +102,53 @@ def test_a_state_that_differs_in_what_was_read_is_not_found() -> None:
     assert noting(bench.before, part).fields["front_nm"] is bench.before.fields["front_nm"]
     front.note(part, "front")
     assert front.find(way.after) == "front"
+
+
+# ---- a state in which a record may be missing
+
+
+@dataclass(frozen=True)
+class Room:
+    """What does not change."""
+
+    doors: int
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """When it began."""
+
+    since: int
+
+
+@dataclass(frozen=True)
+class Watch:
+    """What a watchman knows."""
+
+    alarm: Alarm | None
+    round: int
+
+
+def look(site: Room, system: Watch, smoke: bool) -> Watch:
+    """Raise the alarm if there is smoke, and end it if there is none."""
+    return replace(system, alarm=Alarm(3) if smoke else None)
+
+
+def there_is_an_alarm(site: Room, system: Watch) -> bool:
+    """Not so without smoke."""
+    return system.alarm is not None
+
+
+def an_alarm_began_at_three(site: Room, system: Watch) -> bool:
+    """If there is one."""
+    return system.alarm is None or system.alarm.since == 3
+
+
+@pytest.mark.parametrize(
+    ("claim", "answers"), [(there_is_an_alarm, ["unsat", "sat"]), (an_alarm_began_at_three, ["unsat"])]
+)
+def test_whether_there_is_a_record_is_read_too(claim: Callable[..., bool], answers: list[str]) -> None:
+    name = claim.__name__
+    theory = Theory("watch", Room, Watch, {"look": look}, {"start": an_alarm_began_at_three}, {name: claim}, {})
+    parts = Workbench(theory, named=False).parts("look", name, [])
+    assert sorted({solvers.ask("z3", part, 0).answer for part in parts}, reverse=True) == answers
