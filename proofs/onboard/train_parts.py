@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
-from kernel.onboard.restriction_ahead import may_be_entered
 from kernel.onboard.train_length import PointKind
 from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard.train_nature import (
@@ -212,10 +211,10 @@ def what_the_head_is_on_is_known(site: Train, system: Whole) -> bool:
 
 def no_list_has_more_where_the_front_may_be(site: Train, system: Whole) -> bool:
     """What a list has where its computer says that the front may be, it has come to (T12)."""
-    known, front = system.computer.known, computer.place(system.computer)
+    motion, ahead = system.computer.known.motion, system.computer.known.ahead
     return system.runs or (
-        (system.passing.curve_listed or not may_be_entered(known.ahead.curve_mm, front))
-        and (system.passing.turnout_listed or not may_be_entered(known.ahead.turnout_mm, front))
+        (system.passing.curve_listed or (motion.loss == Loss.NONE and motion.front_most_mm < ahead.curve_mm))
+        and (system.passing.turnout_listed or (motion.loss == Loss.NONE and motion.front_most_mm < ahead.turnout_mm))
     )
 
 
