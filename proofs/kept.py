@@ -34,7 +34,17 @@ CREATE TABLE IF NOT EXISTS kept (key TEXT PRIMARY KEY, content TEXT NOT NULL, di
 """
 WAITS_S = 20.0
 """For another run that writes into the same file."""
-ASKING = ("solvers.py", "smtlib.py", "run.py", "workbench.py", "canaries.py", "canaries.toml", "kept.py")
+ASKING = (
+    "solvers.py",
+    "smtlib.py",
+    "run.py",
+    "workbench.py",
+    "ways.py",
+    "reads.py",
+    "canaries.py",
+    "canaries.toml",
+    "kept.py",
+)
 """By which a text becomes an answer that is believed: what was wrong with one of them is not kept with its answers."""
 
 Cell = tuple[str, str]

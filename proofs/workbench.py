@@ -58,8 +58,10 @@ class Workbench:
         self.seconds += time.perf_counter() - began
 
     def replacing(self, sources: Mapping[Callable[..., Any], Any]) -> Workbench:
-        """The same, with other functions in its steps; what holds before them is not lifted again."""
+        """The same, with other functions in its steps; what holds before them is lifted already, of its own."""
+        given = {"assumed": self.assumed, "initial": self.initial, "invariants": self.invariants}
         other = copy.copy(self)
+        other.__dict__.update(given)
         other.lifter, other.sources = Lifter(self.scope, sources), sources
         other._ways, other._claims, other._seen, other._conditions = {}, {}, defaultdict(Seen), {}
         return other

@@ -120,23 +120,14 @@ def pass_tag(
     speed_most_mm_s: int,
 ) -> Passage:
     """The front passes a tag, and the track becomes another; a tag that is missed opens the second loop (T5, T12)."""
-    here_nm = system.front_nm
     if not a_kind_hides_no_restriction(in_curve, at_turnout, kind) or not the_range_contains_the_train(
-        site, here_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
+        site, system.front_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
     ):
         return system
     limit = speed_limit.note_tag(system.limit, kind, known, front_most_mm)
-    return replace(
-        system,
-        in_curve=in_curve,
-        at_turnout=at_turnout,
-        left_curve_nm=here_nm if system.in_curve else smaller(system.left_curve_nm, here_nm),
-        left_turnout_nm=here_nm if system.at_turnout else smaller(system.left_turnout_nm, here_nm),
-        curve_listed=False,
-        turnout_listed=False,
-        limit=limit,
-        brakes=speed_limit.is_overspeed(site.table, limit, known, rear_least_mm, speed_most_mm_s),
-    )
+    read = replace(system, curve_listed=False, turnout_listed=False, limit=limit)
+    brakes = speed_limit.is_overspeed(site.table, limit, known, rear_least_mm, speed_most_mm_s)
+    return _on_other_track(read, in_curve, at_turnout, brakes)
 
 
 def miss_a_tag(
@@ -150,18 +141,24 @@ def miss_a_tag(
     speed_most_mm_s: int,
 ) -> Passage:
     """The front passes a tag that is not read, and the track becomes another; the unit knows nothing of it (T5)."""
-    here_nm = system.front_nm
     if not a_list_has_what_a_missed_tag_begins(system, in_curve, at_turnout) or not the_range_contains_the_train(
-        site, here_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
+        site, system.front_nm, system.speed_um_s, known, rear_least_mm, front_most_mm, speed_most_mm_s
     ):
         return system
+    brakes = speed_limit.is_overspeed(site.table, system.limit, known, rear_least_mm, speed_most_mm_s)
+    return _on_other_track(system, in_curve, at_turnout, brakes)
+
+
+def _on_other_track(system: Passage, in_curve: bool, at_turnout: bool, brakes: bool) -> Passage:
+    """The track is another from the front on: what was before it ends there, and nothing beyond it was left."""
+    here_nm = system.front_nm
     return replace(
         system,
         in_curve=in_curve,
         at_turnout=at_turnout,
         left_curve_nm=here_nm if system.in_curve else smaller(system.left_curve_nm, here_nm),
         left_turnout_nm=here_nm if system.at_turnout else smaller(system.left_turnout_nm, here_nm),
-        brakes=speed_limit.is_overspeed(site.table, system.limit, known, rear_least_mm, speed_most_mm_s),
+        brakes=brakes,
     )
 
 

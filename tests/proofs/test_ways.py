@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from proofs import solvers
 from proofs.lift import conjuncts
+from proofs.lift.sources import definition_of
 from proofs.lift.terms import not_
 from proofs.lift.values import Record
 from proofs.reads import Seen, noting
@@ -152,3 +153,20 @@ def test_whether_there_is_a_record_is_read_too(claim: Callable[..., bool], answe
     theory = Theory("watch", Room, Watch, {"look": look}, {"start": an_alarm_began_at_three}, {name: claim}, {})
     parts = Workbench(theory, named=False).parts("look", name, [])
     assert sorted({solvers.ask("z3", part, 0).answer for part in parts}, reverse=True) == answers
+
+
+def nothing_is_looked_at(site: Room, system: Watch) -> bool:
+    """What stands in the place of another claim."""
+    return True
+
+
+def test_other_functions_stand_in_steps_and_not_in_what_holds_before_them() -> None:
+    theory = Theory(
+        "watch", Room, Watch, {"look": look}, {"start": an_alarm_began_at_three}, {"three": an_alarm_began_at_three}, {}
+    )
+    other = {an_alarm_began_at_three: definition_of(nothing_is_looked_at)}
+    whole = Workbench(theory, named=False)
+    replaced = Workbench(theory, named=False).replacing(other)
+    assert str(replaced.invariants) == str(whole.invariants)
+    assert str(replaced.initial) == str(whole.initial)
+    assert str(Workbench(theory, named=False, sources=other).invariants) != str(whole.invariants)
