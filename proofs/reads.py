@@ -5,6 +5,7 @@ A transition may change a state in hundreds of ways, and a claim looks at a few 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -33,6 +34,15 @@ class Seen:
 
     lifted: dict[tuple[Path, ...], dict[tuple[Any, ...], Any]] = field(default_factory=dict)
     kept: list[Value] = field(default_factory=list)
+
+    def of(self, state: Value, lift: Callable[[Value], Any]) -> Any:
+        """Give what comes of lifting a state; it is lifted only where something that is read of it is new."""
+        found = self.find(state)
+        if found is None:
+            read = dict[Path, Value]()
+            found = lift(noting(state, read))
+            self.note(read, found)
+        return found
 
     def find(self, state: Value) -> Any:
         """Give what was lifted of a state with the same values wherever it was read, or None."""

@@ -14,7 +14,7 @@ from proofs.catalogue import INTERLOCKING
 from proofs.lift import Lifter, Scope, UnboundedScope, conjuncts
 from proofs.lift.terms import and_, to_z3
 from proofs.promise import Predicate
-from proofs.reads import Path, Seen, noting
+from proofs.reads import Seen
 from proofs.smtlib import symbols_of
 from proofs.theory import START, Theory
 from proofs.transitions import event_types
@@ -137,15 +137,13 @@ class Workbench:
         key = (id(state), invariant)
         if key not in self._claims:
             began = time.perf_counter()
-            self._claims[key] = state, self._seen[invariant].find(state) or self._said_of(state, invariant)
+            said = self._seen[invariant].of(state, lambda noted: self._said_of(noted, invariant))
+            self._claims[key] = state, said
             self.seconds += time.perf_counter() - began
         return self._claims[key][1]
 
     def _said_of(self, state: Any, invariant: str) -> list[Any]:
-        read = dict[Path, Any]()
-        said = conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, noting(state, read)))
-        self._seen[invariant].note(read, said)
-        return said
+        return conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, state))
 
     def always(self) -> Mapping[str, Sequence[Any]]:
         """What always holds of the symbols used so far: identifiers are ordered, a missing key has nothing below it."""

@@ -19,7 +19,6 @@ import z3
 
 from proofs import scripts, solvers
 from proofs.lift import Lifter
-from proofs.lift.terms import same
 from proofs.mutants.steps import ERRORS, Lifted, identifiers, lifted, sites
 from proofs.run import laid_out
 from proofs.theories import THEORIES, row_of, theory_of
@@ -159,8 +158,7 @@ class Questions:
         self.step, self.kinds = self.theory.steps[step], event_types(self.theory.steps[step])
         lifter = Lifter(self.on.scope, collect=True)
         self.event = {name: self.on.scope.constant(kind, f"event.{name}") for name, kind in self.kinds.items()}
-        cases = lifter.cases(self.step, self.on.site, self.on.before, *self.event.values())
-        self.ways = [way for way in cases if way[1] is not self.on.before and not same(way[1], self.on.before)]
+        self.ways = self.on.ways(lifter, self.step, self.event)
         self.defined = z3.And(*(each.claim for each in lifter.obligations))
         self.before = said(self.theory.name, place)
 
@@ -168,11 +166,8 @@ class Questions:
         """Look for a step that breaks the claim, or is not defined, though all of these hold before it."""
         wrong = [z3.Not(self.defined)]
         if defined:
-            claim, lift = self.theory.invariants[use.column], Lifter(self.on.scope)
-            wrong = [
-                z3.And(self.defined, condition, z3.Not(lift.formula(claim, self.on.site, after)))
-                for condition, after in self.ways
-            ]
+            denied = self.on.denied(self.ways, self.theory.invariants[use.column])
+            wrong = [z3.And(self.defined, condition, denial) for condition, denial in denied]
         for formula in wrong:
             solver = z3.Solver()
             solver.set("rlimit", SPENDING)

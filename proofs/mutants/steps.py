@@ -32,12 +32,14 @@ from proofs.lift.kinds import (
     fields_of,
     kind_of_type,
 )
-from proofs.lift.terms import Term, same
+from proofs.lift.terms import Term, and_, same, to_z3
 from proofs.mutants.plays import calls_of
 from proofs.mutated import Sources, running
+from proofs.reads import Seen
 from proofs.theories import THEORIES, theory_of
 from proofs.theory import Theory
 from proofs.transitions import event_types
+from proofs.ways import Way, together
 
 OF_EACH = 2
 """So many of each identifier."""
@@ -169,13 +171,8 @@ class Lifted:
         step = self.theory.steps[theory_of(row)[1]]
         lifter = Lifter(self.scope, sources, collect=True)
         event = {name: self.scope.constant(kind, f"event.{name}") for name, kind in event_types(step).items()}
-        cases = lifter.cases(step, self.site, self.before, *event.values())
-        asked = [
-            (condition, z3.Not(self.lifter.formula(claim, self.site, after)))
-            for condition, after in cases
-            if after is not self.before and not same(after, self.before)
-            for claim in self.theory.invariants.values()
-        ]
+        ways = self.ways(lifter, step, event)
+        asked = [wrong for claim in self.theory.invariants.values() for wrong in self.denied(ways, claim)]
         asked += [(z3.Not(obligation.claim), z3.BoolVal(True)) for obligation in lifter.obligations]
         verdict = "none"
         for formulas in asked:
@@ -188,6 +185,20 @@ class Lifted:
             if answer == z3.unknown:
                 verdict = "unknown"
         return None, verdict
+
+    def ways(self, lifter: Lifter, step: Callable[..., Any], event: Mapping[str, Any]) -> list[Way]:
+        """Give the ways in which a step changes the state."""
+        paths = lifter.paths(step, self.site, self.before, *event.values())
+        return [Way(to_z3(and_(*tests)), [], after, tests) for tests, after in paths if not same(after, self.before)]
+
+    def denied(self, ways: Sequence[Way], claim: Callable[..., bool]) -> Iterator[tuple[Any, Any]]:
+        """Give the conditions of ways, and that a claim is false after them; once for ways that make the same of it."""
+        seen, alike = Seen(), dict[int, tuple[Any, list[Way]]]()
+        for way in ways:
+            said = seen.of(way.after, lambda noted: self.lifter.formula(claim, self.site, noted))
+            alike.setdefault(said.get_id(), (said, []))[1].append(way)
+        for said, those in alike.values():
+            yield from ((condition, z3.Not(said)) for condition in together(those))
 
     def search_claims(self, sources: Sources, milliseconds: int) -> tuple[Found | None, str]:
         """Look for a state, said with a drop, in which something is not as claimed.
