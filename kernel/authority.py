@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.names import Block, Run, TagList
-from kernel.standstill import Standstill, stands_between
+from kernel.standstill import Standstill, is_held_between
 from kernel.tag_list import NO_WAY, TagLists
 from kernel.unit import Order, Unit
 
@@ -15,12 +15,14 @@ def may_proceed(unit: Unit, run: Run) -> bool:
 
     A recall takes the authority away at once, long before the run is given back; but a train that has
     begun the run keeps it.  A train runs by its runs in the order in which they were granted (:func:`is_overtaken`).
+    Once it has told that it stands in its destination it draws up no more: the overlap may be another train's by then.
     """
     order = unit.orders.get(run)
     return (
         order is not None
         and order.permitted
         and not order.given_back
+        and not order.stopped
         and (order.begun or not order.recalled)
         and not is_overtaken(unit, run)
         and not unit.loop_open
@@ -75,14 +77,15 @@ def has_arrived(lists: TagLists, order: Order) -> bool:
 
 
 def note_stopped(lists: TagLists, unit: Unit, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> Unit:
-    """Draw the end of authority back to the destination once the train has come there and stands in it (T9).
+    """End the run's permission to move once the train has come to its destination, and is held in it (T9).
 
     ``begin_mm``, ``end_mm``: where the destination of ``run`` begins and ends, by its tag list.
+    What the train tells frees the overlap.  One that still moves, or that no brake holds, might need it.
     The cab that led into the destination is the one whose front counts: of a train that has changed ends that may
     stand in the destination, and its other end in the overlap.
     """
     order = unit.orders.get(run)
-    if order is None or not stands_between(at, begin_mm, end_mm) or not may_proceed(unit, run):
+    if order is None or not is_held_between(at, begin_mm, end_mm) or not may_proceed(unit, run):
         return unit
     if order.led_by != unit.leading or not has_arrived(lists, order):
         return unit

@@ -57,9 +57,9 @@ def is_held(at: Standstill) -> bool:
     return stands(at) and is_braked(at)
 
 
-def stands_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
-    """Tell whether the train certainly stands with its front between two places (P7)."""
-    return stands(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm
+def is_held_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
+    """Tell whether the train's brake certainly holds it with its front between two places (P7, T12)."""
+    return is_held(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm
 
 
 def is_whole(line: ThroughLine) -> bool:

@@ -26,7 +26,7 @@ class Order:
     ``recalled``: the centre has asked for it; no authority any more, unless the head has begun it (T9).
     ``given_back``: acknowledged as cancelled; never to be entered again (T9).
     ``begun``: the head has read both tags at the end of the start block.
-    ``stopped``: the train has told that it stands in the destination (T9).
+    ``stopped``: the train is held in the destination, and tells so; it moves under this run no more (T9).
     ``expected``: the tag that the head must read next; none after the last (T5).
     ``entered``: the blocks beyond the start that the head has entered, by its own tags (T2).
     ``led_by``: the cab that led when the head read its first tag under this run (T2).

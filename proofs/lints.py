@@ -117,7 +117,7 @@ ASKED: Mapping[str, frozenset[str]] = {
         {
             "a_head_runs_no_farther_than_its_brake_lets_it",
             "a_healthy_line_reaches_the_tail",
-            "says_it_stands_between",
+            "says_it_is_held_between",
             "a_located_train_stands_where_it_says",
             "a_missed_tag_is_overdue_before_the_tail_comes",
             "a_pair_passed_in_order_proves_the_exit",

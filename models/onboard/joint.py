@@ -356,7 +356,7 @@ def written_down(system: Joint, train: Train, made: frozenset[Brake], does: bool
 def may_move(system: Joint, train: Train) -> bool:
     """Tell whether a listed run lets a train move: permitted, neither wanted nor given back, and no loop open (T5).
 
-    One that its head has begun stays the train's, though it is wanted back (T9).
+    One that its head has begun stays the train's, though it is wanted back, until it has told that it stands (T9).
     """
     unit = system.system.units[train]
     return not unit.loop_open and any(
@@ -364,6 +364,7 @@ def may_move(system: Joint, train: Train) -> bool:
         and run in unit.orders
         and unit.orders[run].permitted
         and not unit.orders[run].given_back
+        and not unit.orders[run].stopped
         and (unit.orders[run].begun or not unit.orders[run].recalled)
         for run in system.block_ends_mm
     )

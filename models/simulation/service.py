@@ -60,7 +60,7 @@ class Service:
     """One train and what it is about.
 
     ``base``: the run it stands or moves under.  ``run``: the one asked for, or being run.
-    ``onward``: the one set ahead.
+    ``onward``: the one set ahead.  ``arrived``: the one at whose end it stands, until its brake holds it and it says so.
     ``done``: trips at their end; ``begun``: it makes for the next goal.
     ``waits``: the ways on that were refused when it asked last.
     """
@@ -80,6 +80,7 @@ class Service:
         self.random = Random(f"{line.random.random()} {self.train}")
         self.phase = Phase.LOST
         self.base: Run | None = None
+        self.arrived: Run | None = None
         self.run: Run | None = None
         self.onward: Run | None = None
         self.done = 0
@@ -145,7 +146,7 @@ class Service:
     def lose_way(self, why: str) -> None:
         """Its authority is gone: it brakes, and tells at rest, in a new life, where it stands."""
         self.diary.note(BRAKE, self.train, why)
-        self.base = self.run = self.onward = None
+        self.base = self.run = self.onward = self.arrived = None
         self.life_before = self.play.system.units[self.train].life
         self.vehicle.board.hold()
         self.vehicle.look_again()
@@ -174,6 +175,8 @@ class Service:
     def _stands(self) -> None:
         if self._is_challenged():
             self.lose_way("is asked by the restarted centre where it stands")
+            return
+        if self.arrived is not None and not self._tells_that_it_stands(self.arrived):
             return
         if self.begun and self.trips[self.done].goal in self.under:
             self.done, self.begun = self.done + 1, False
@@ -415,8 +418,7 @@ class Service:
             return
         short = not vehicle.is_there and (board.brake.applied or vehicle.is_barred)
         if self.waits_for_staff or (wide and short):
-            told = "cannot go on with so wide a range, and is located anew"
-            self.waits_for_staff = not self.staff.locates(told)
+            self.waits_for_staff = not self.staff.locates("cannot go on with so wide a range, and is located anew")
         elif self.onward is None and (vehicle.is_there or vehicle.is_barred):
             self._arrives(run)
 
@@ -459,19 +461,22 @@ class Service:
             self._gives_up(self.onward, grant.stage)
 
     def _arrives(self, run: Run) -> None:
-        """It stands in its destination: told, and what was left is reported."""
+        """It stands in its destination: its driver puts the brake on."""
         self._rests()
-        self._tells_that_it_stands(run)
-        self.base, self.run = run, None
+        self.base, self.run, self.arrived = run, None, run
         self.become(Phase.STANDS, self.random.randint(*STAYS_S))
 
-    def _tells_that_it_stands(self, run: Run) -> None:
-        """The odometry and the list of the run say whether it stands in the destination (T9)."""
+    def _tells_that_it_stands(self, run: Run) -> bool:
+        """Once the brake holds it, odometry and the list of the run say whether it is in the destination (T9)."""
+        if not self.vehicle.board.hold():
+            return False
+        self.arrived = None
         board, destination = self.vehicle.board, self.play.site.layout.destination[run.route]
         bounds_mm = board.lists[run].bounds_mm(destination) if run in board.lists else None
         if bounds_mm is not None:
             begin_mm, end_mm = bounds_mm
             self.play.take("note_stopped", run=run, at=board.standstill, begin_mm=begin_mm, end_mm=end_mm)
+        return True
 
     # ---- a train that has parted
 

@@ -20,7 +20,7 @@ from models.world.truth import (
     only_the_last_speaks,
     reads_both_first,
     says_it_is_held,
-    says_it_stands_between,
+    says_it_is_held_between,
     stands_within,
 )
 
@@ -133,11 +133,11 @@ def a_head_runs_no_farther_than_its_brake_lets_it(
 def a_train_within_its_destination_is_not_beyond(
     site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int
 ) -> bool:
-    """The range contains the front: a train that stands with it between these two places is there, and not beyond.
+    """The range contains the front: a train that is held with it between these two places is there, and not beyond.
 
     So of a train that has not changed ends since it ran there; of another it is said of its other end.
     """
-    return not (says_it_stands_between(at, begin_mm, end_mm) and its_front_leads(site, system, run)) or (
+    return not (says_it_is_held_between(at, begin_mm, end_mm) and its_front_leads(site, system, run)) or (
         run not in system.track.slipping
         and run.route in site.layout.destination
         and any(

@@ -47,7 +47,8 @@ def start_rolling(site: Site, system: System, run: Run) -> System:
 def overrun(site: Site, system: System, run: Run) -> System:
     """A train brakes too late and slips along its way, as far as into its overlap, which is laid out for no more (T9).
 
-    It comes to its destination under way: a train that has stood there does not.
+    It comes to its destination under way: a train that its brake has held there does not, as its run lets it move
+    no more.
     """
     if run not in system.track.rolling or run in system.track.stood:
         return system

@@ -26,7 +26,7 @@ from models.world.truth import (
     is_last,
     its_front_leads,
     reads_both_first,
-    says_it_stands_between,
+    says_it_is_held_between,
     the_head_arrived,
     the_head_went_on,
 )
@@ -189,7 +189,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
 def note_stopped(site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> System:
     """The odometry has a range of front and speed, and the list says where the run's destination is (T9).
 
-    History: whether the train has stood in it, having come there under this run.
+    History: whether the train was held in it, having come there under this run.
     """
     if run.train not in system.units:
         return system
@@ -197,7 +197,7 @@ def note_stopped(site: Site, system: System, run: Run, at: Standstill, begin_mm:
         return system
     unit = authority.note_stopped(site.lists, system.units[run.train], run, at, begin_mm, end_mm)
     stands = (
-        says_it_stands_between(at, begin_mm, end_mm)
+        says_it_is_held_between(at, begin_mm, end_mm)
         and its_front_leads(site, system, run)
         and the_head_arrived(site, system, run)
     )

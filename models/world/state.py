@@ -114,7 +114,7 @@ class Track:
     ``behind``: history: for each run the blocks that its tail has been seen to leave, by what is written in their tags.
     ``rolling``: runs in which the train can no longer stop before the blocks they cover.
     ``slipping``: runs in which the train can no longer stop inside the destination.
-    ``stood``: history: runs under which the train has stood in its destination.
+    ``stood``: history: runs under which the train was held in its destination.
     ``leavable``: the blocks of a run that the train may get out of before its brake stops it.
     ``first_erred``, ``second_erred``: history: the lives and epochs in which the first, or the second, of the two
     persons of the supervised procedure has named a place that the train was not in, or not at rest in.

@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from kernel.names import Block, Cab, Car, Read, Record, Run, Serial, Tag, UnitLife
-from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, ON_THE_WAY, WHOLE
+from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, NOT_HELD, ON_THE_WAY, WHOLE
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import GONE, came, went
@@ -379,14 +379,14 @@ def a_train_has_not_stood_where_its_run_has_yet_to_lead(steps: Steps) -> Scenari
 
 
 def a_train_that_may_still_creep_has_not_stopped(steps: Steps) -> Scenario:
-    """A speed that may be above a standstill, either way, does not say that a train stands (T9)."""
+    """A speed that may be above a standstill, either way, or a brake that is not on, holds no train (T9)."""
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
     unknown, creeps, rolls_back = (
         replace(AT_REST, **said) for said in ({"known": False}, {"speed_most_mm_s": 1}, {"speed_least_mm_s": -1})
     )
-    for at in (unknown, creeps, rolls_back):
+    for at in (unknown, creeps, rolls_back, NOT_HELD):
         scenario.refuses("note_stopped", run=run, **{**INSIDE, "at": at})
     for elsewhere in (ON_THE_WAY, BEYOND):
         scenario.refuses("note_stopped", run=run, **elsewhere)

@@ -165,9 +165,8 @@ def the_overlap_is_freed_at_a_standstill(steps: Steps) -> Scenario:
     stop(scenario, run)
     holds(scenario, OUTLET)
     scenario.refuses("overrun", run=run)
-    roll(scenario, run)
+    scenario.refuses("start_rolling", run=run)
     scenario.refuses("car_moves", run=run, car=A1, block=ONE, target=OUTLET)
-    rest(scenario, run)
     over = set_route(scenario, T2, EAST_TO_TWO, runs[T2])
     holds(scenario, OUTLET, over)
     return scenario

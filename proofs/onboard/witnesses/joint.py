@@ -90,11 +90,14 @@ def a_range_that_reaches_beyond_the_end_takes_none_away() -> None:
     assert (brake.end_mm, brake.withheld) == (750_000, False)
 
 
-def a_train_that_told_it_stopped_may_draw_up_to_the_end() -> None:
-    """Only the overlap is gone: by its range the front may still be in the throat, and ends where it did (T9)."""
-    station = permitted()
+def a_train_that_told_it_stopped_draws_up_no_more() -> None:
+    """It ends where it did, and is braked: the overlap may be another train's by now (T9)."""
+    station = under_way()
+    station.passes(441_000, THROAT, 550_000)
+    station.passes(700_000, ONE, 750_000)
     station.told({RUN: replace(PERMITTED, stopped=True)})
-    station.holds(750_000)
+    station.holds(750_000, withheld=True)
+    assert station.system.brake[T1].applied
 
 
 def two_runs_make_one_end() -> None:
@@ -135,6 +138,7 @@ def by_these_runs_a_train_may_move() -> None:
         (replace(PERMITTED, begun=True), True),
         (replace(RECALLED, begun=True), True),
         (replace(PERMITTED, given_back=True), False),
+        (replace(PERMITTED, begun=True, stopped=True), False),
     ):
         station.told({RUN: order})
         assert may_move(station.system, T1) == moves
@@ -377,7 +381,7 @@ WITNESSES = (
     every_part_of_the_permission_is_needed,
     under_orders_the_authority_ends_with_the_destination,
     a_range_that_reaches_beyond_the_end_takes_none_away,
-    a_train_that_told_it_stopped_may_draw_up_to_the_end,
+    a_train_that_told_it_stopped_draws_up_no_more,
     two_runs_make_one_end,
     another_trains_end_is_its_own,
     by_these_runs_a_train_may_move,

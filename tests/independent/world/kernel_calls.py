@@ -314,10 +314,11 @@ class Calls:
         return Read(tag, self.records.record[tag])
 
     def note_stopped(self, board: Board, run: Run, sight: Sight) -> None:
-        """By odometer and tags: it stands still, its front inside the destination."""
+        """By odometer and tags: its driver holds it still, its front inside the destination."""
         ends_mm = board.ends_mm.get(run)
         if ends_mm is None:
             return
+        board.brake = put_on(board.brake, sight)
         end_mm = ends_mm[self.layout.destination[run.route]]
         begin_mm = max((each for _, each in ends_mm.items() if each < end_mm), default=board.begins_mm[run])
         board.unit = authority.note_stopped(self.lists, board.unit, run, standstill(sight), begin_mm, end_mm)
