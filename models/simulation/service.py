@@ -60,7 +60,7 @@ class Service:
     """One train and what it is about.
 
     ``base``: the run it stands or moves under.  ``run``: the one asked for, or being run.
-    ``onward``: the one set ahead.  ``arrived``: the one at whose end it stands, until its brake holds it and it says so.
+    ``onward``: the one set ahead.  ``arrived``: the one at whose end it stands, until it has said so.
     ``done``: trips at their end; ``begun``: it makes for the next goal.
     ``waits``: the ways on that were refused when it asked last.
     """
