@@ -52,17 +52,23 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
                     "track.entered",
                     "track.facing",
                     "track.last_read",
+                    "track.unread",
                     "formation.front",
                     "ground.laid_in",
                 }
             ),
-            frozenset({"begun", "entered", "last_read", "passed", "astray"}),
+            frozenset({"begun", "entered", "last_read", "passed", "unread", "astray"}),
             "writes the history on: where a head has been, what it read, and whether that was to come; which cab"
             " the driver has chosen says which antenna is at the head",
             frozenset({"track.facing"}),
         ),
+        "in_the_life": Leave(
+            frozenset({"track"}),
+            frozenset({"unread"}),
+            "writes the history on: of what its head has missed no other life awaits anything",
+        ),
         "window_passes": Leave(
-            frozenset({"track", "track.astray", "track.unread"}),
+            frozenset({"track", "track.astray"}),
             frozenset({"unread", "astray"}),
             "writes the history on: that a tag was missed, and that it is overdue now",
         ),
@@ -102,6 +108,16 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
     },
     "models/world/radio.py": {},
     "models/world/evidence.py": {
+        "awaited_by_others": Leave(
+            frozenset({"track.unread"}),
+            frozenset(),
+            "gives the history `unread` for a step to write on; no machine is handed it",
+        ),
+        "awaited_in": Leave(
+            frozenset({"track.unread"}),
+            frozenset(),
+            "gives the history `unread` for a step to write on; no machine is handed it",
+        ),
         "unpassed": Leave(
             frozenset({"track.passed"}),
             frozenset(),

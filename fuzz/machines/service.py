@@ -184,7 +184,7 @@ def _faces_its_way(site: Site, system: System, event: Event) -> bool:
 
 
 def _is_overdue(site: Site, system: System, event: Event) -> bool:
-    return event["train"] in system.track.unread
+    return any(train == event["train"] for train, _ in system.track.unread)
 
 
 def _tail_is_past(site: Site, system: System, event: Event) -> bool:

@@ -35,6 +35,7 @@ from fuzz.traffic.motion import (
     follows,
     front_block,
     front_passes,
+    has_missed,
     must_follow,
     rear_block,
     rest,
@@ -61,7 +62,6 @@ from fuzz.traffic.places import (
     STANDSTILL,
     TELLING,
     TRACK_ROLLING,
-    TRACK_UNREAD,
     UNITS_LOOP_OPEN,
     WAITING,
     WAKE,
@@ -274,7 +274,7 @@ def depart(memory_at: Any, desk_at: Any, train: Any, run: Any) -> Any:
 @compiled
 def goes_on(memory: Any, desk: Any, train: Any, run: Any) -> Any:
     """Whether a train that runs still has its authority and rolls; without it, it may get over one more boundary."""
-    if has(memory, desk, TRACK_UNREAD, train) and one_in(desk, 2):
+    if has_missed(memory, desk, train) and one_in(desk, 2):
         find_overdue(memory, desk, train)
     closed = has_order(memory, desk, train, run) and get1(memory, desk, UNITS_LOOP_OPEN, train) == 0
     if closed and (has(memory, desk, TRACK_ROLLING, run) or take1(memory, desk, START_ROLLING, run)):

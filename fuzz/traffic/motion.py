@@ -77,7 +77,7 @@ from fuzz.traffic.tables import (
     TAIL_READS,
     WINDOW_PASSES,
 )
-from fuzz.traffic.words import below, get, get1, has, in_table, of, of2, one_in
+from fuzz.traffic.words import below, get, get1, has, has1, in_table, of, of2, one_in
 
 MISSED_AT_HEAD, MISSED_AT_TAIL = number("missed tag at the head"), number("missed tag at the tail")
 REPEATED, SWAPPED, FOREIGN = number("repeated tag"), number("swapped tags"), number("foreign tag")
@@ -229,9 +229,29 @@ def put_tail_read(memory: Any, desk: Any, train: Any, run: Any, tag: Any, record
 
 
 @compiled
+def has_missed(memory: Any, desk: Any, train: Any) -> Any:
+    """Whether the head has passed a tag unread that is not overdue yet."""
+    missed = False
+    for tag in range(desk[TAGS]):
+        missed = missed or has1(memory, desk, TRACK_UNREAD, train, tag)
+    return missed
+
+
+@compiled
+def follows_a_miss(memory: Any, desk: Any, train: Any, tag: Any) -> Any:
+    """Whether the head has passed unread, not overdue yet, a tag whose partner is this one."""
+    follows = False
+    for missed in range(desk[TAGS]):
+        is_before = of(desk, PARTNER, missed) == tag
+        follows = follows or (is_before and has1(memory, desk, TRACK_UNREAD, train, missed))
+    return follows
+
+
+@compiled
 def take_tail_read(memory: Any, desk: Any, train: Any) -> None:
-    """The tail reads what is in the buffer, while nothing that the head has missed is to be found overdue yet."""
-    if has(memory, desk, TRACK_UNREAD, train):
+    """The tail reads what is in the buffer, unless that lies where the head missed a tag that is not overdue yet."""
+    tag = memory[desk[EVENT] + READ_AT]
+    if has1(memory, desk, TRACK_UNREAD, train, tag) or follows_a_miss(memory, desk, train, tag):
         desk[BY] = TOO_LATE
         take_beyond(memory, desk, TAIL_READS)
     else:
@@ -271,7 +291,7 @@ def tail_reads(memory_at: Any, desk_at: Any, train: Any, run: Any, tag: Any) -> 
 @compiled
 def find_overdue(memory: Any, desk: Any, train: Any) -> None:
     """What the head has missed is overdue now."""
-    if has(memory, desk, TRACK_UNREAD, train):
+    if has_missed(memory, desk, train):
         take1(memory, desk, WINDOW_PASSES, train)
 
 

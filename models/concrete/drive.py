@@ -119,7 +119,7 @@ class Drive:
         site, system = self.play.site, self.play.system
         read, cab = Read(what.tag, site.records.record[what.tag]), site.formation.cab[what.car]
         self.must(a_healthy_line_reaches_the_tail(site, system, run, what.car, cab, line), what)
-        self.must(a_missed_tag_is_overdue_before_the_tail_comes(system, run.train, line), what)
+        self.must(a_missed_tag_is_overdue_before_the_tail_comes(site, system, run.train, read.tag, line), what)
         self.must(a_pair_passed_in_order_proves_the_exit(site, system, run, what.car, read), what)
         self.play.take("tail_reads", run=run, car=what.car, cab=cab, line=line, read=read)
 

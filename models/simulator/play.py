@@ -23,7 +23,7 @@ Watcher = Callable[[str, Mapping[str, Any], System], None]
 """Told the name and event of every step that changed something, and the state after it."""
 
 MODULES = (at_the_centre, on_board, at_a_point, radio, nature)
-HELPERS = frozenset({"with_unit", "with_terminal", "accounted_for", "_stated"})
+HELPERS = frozenset({"with_unit", "in_the_life", "with_terminal", "accounted_for", "_stated"})
 WORLD: Mapping[str, Step] = {
     name: value
     for module in MODULES

@@ -17,6 +17,7 @@ from models.world.truth import (
     is_overdue_first,
     its_front_leads,
     keeps_before,
+    lies_at_a_miss,
     only_the_last_speaks,
     reads_both_first,
     says_it_is_held,
@@ -99,9 +100,14 @@ def a_pair_passed_in_order_proves_the_exit(site: Site, system: System, run: Run,
     )
 
 
-def a_missed_tag_is_overdue_before_the_tail_comes(system: System, train: Train, line: ThroughLine) -> bool:
-    """A tag that the head has missed is overdue by running distance before what the tail reads there counts."""
-    return is_overdue_first(train in system.track.unread, line)
+def a_missed_tag_is_overdue_before_the_tail_comes(
+    site: Site, system: System, train: Train, tag: Tag, line: ThroughLine
+) -> bool:
+    """A tag that the head has missed is overdue by running distance before what the tail reads there counts.
+
+    There is the missed tag itself, and the one that lies behind it at the same boundary.
+    """
+    return is_overdue_first(lies_at_a_miss(site, system, train, tag), line)
 
 
 def a_healthy_line_reaches_the_tail(

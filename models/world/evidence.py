@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kernel.names import Read, Tag, Train
+from kernel.unit import Unit
 from models.world.state import Site, System
 
 
@@ -18,3 +19,15 @@ def unpassed(site: Site, system: System, train: Train, tag: Tag) -> frozenset[tu
         for other, passed in system.track.passed
         if other != train or (passed != tag and site.layout.partner.get(passed) != tag)
     )
+
+
+def awaited_by_others(system: System, train: Train) -> frozenset[tuple[Train, Tag]]:
+    """What heads have passed unread, less what this train's has: its unit awaits none of that any more."""
+    return frozenset((other, tag) for other, tag in system.track.unread if other != train)
+
+
+def awaited_in(system: System, train: Train, unit: Unit) -> frozenset[tuple[Train, Tag]]:
+    """What heads have passed unread and units await yet, with a unit in its next state: no other life awaits it."""
+    if train in system.units and unit.life == system.units[train].life:
+        return system.track.unread
+    return awaited_by_others(system, train)

@@ -13,7 +13,7 @@ from models.world.assumptions import (
     rails_lead,
     two_persons_do_not_both_err,
 )
-from models.world.evidence import unpassed
+from models.world.evidence import awaited_by_others, awaited_in, unpassed
 from models.world.state import Site, System
 from models.world.truth import stands_within
 
@@ -101,6 +101,7 @@ def change_ends(site: Site, system: System, train: Train, cab: Cab) -> System:
             facing=system.track.facing | {train: cab},
             last_read={other: tag for other, tag in system.track.last_read.items() if other != train},
             passed=frozenset((other, tag) for other, tag in system.track.passed if other != train),
+            unread=awaited_by_others(system, train),
         ),
     )
 
@@ -112,7 +113,7 @@ def head_misses(site: Site, system: System, train: Train, tag: Tag) -> System:
         track=replace(
             system.track,
             passed=unpassed(site, system, train, tag),
-            unread=system.track.unread | {train},
+            unread=system.track.unread | {(train, tag)},
         ),
     )
 
@@ -189,7 +190,11 @@ def take_over(
     unit = standing.isolate(system.units[train], epoch, life)
     if unit.life == system.units[train].life:
         return system
-    isolated = replace(system, units=system.units | {train: unit})
+    isolated = replace(
+        system,
+        units=system.units | {train: unit},
+        track=replace(system.track, unread=awaited_in(system, train, unit)),
+    )
     return _stated(isolated, site, train, (train, life, epoch), blocks)
 
 

@@ -19,7 +19,7 @@ from models.world.assumptions import (
     a_tag_is_read_where_it_lies,
     a_train_within_its_destination_is_not_beyond,
 )
-from models.world.evidence import as_written, unpassed
+from models.world.evidence import as_written, awaited_by_others, awaited_in, unpassed
 from models.world.state import Site, System
 from models.world.truth import (
     is_genuine,
@@ -35,6 +35,11 @@ from models.world.truth import (
 def with_unit(system: System, train: Train, unit: Unit) -> System:
     """Put a unit's next state in its place."""
     return replace(system, units=system.units | {train: unit})
+
+
+def in_the_life(system: System, train: Train, unit: Unit) -> System:
+    """Put a unit's next state in its place, in this life or another.  History: what its head missed before that."""
+    return replace(with_unit(system, train, unit), track=replace(system.track, unread=awaited_in(system, train, unit)))
 
 
 def take_offer(site: Site, system: System, run: Run, tag_list: TagList) -> System:
@@ -93,6 +98,7 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
     to_come = in_window and any(
         order.permitted and not order.given_back and order.expected == tag for _, order in unit.orders.items()
     )
+    goes_on = to_come or unit.leading != cab or unit.head_tag == tag or unit.loop_open
     return replace(
         with_unit(system, train, second_loop.note_head_read(site.plan, site.lists, unit, cab, tag, in_window)),
         track=replace(
@@ -111,9 +117,8 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
             ),
             last_read=system.track.last_read | {train: tag},
             passed=unpassed(site, system, train, tag),
-            astray=system.track.astray
-            if to_come or unit.leading != cab or unit.head_tag == tag or unit.loop_open
-            else system.track.astray | {(train, unit.life)},
+            unread=system.track.unread if goes_on else awaited_by_others(system, train),
+            astray=system.track.astray if goes_on else system.track.astray | {(train, unit.life)},
         ),
     )
 
@@ -126,7 +131,7 @@ def window_passes(site: Site, system: System, train: Train) -> System:
         with_unit(system, train, second_loop.note_window_passed(system.units[train])),
         track=replace(
             system.track,
-            unread=system.track.unread - {train},
+            unread=awaited_by_others(system, train),
             astray=system.track.astray | {(train, system.units[train].life)},
         ),
     )
@@ -143,7 +148,7 @@ def tail_reads(site: Site, system: System, run: Run, car: Car, cab: Cab, line: T
         return system
     if not a_healthy_line_reaches_the_tail(site, system, run, car, cab, line):
         return system
-    if not a_missed_tag_is_overdue_before_the_tail_comes(system, run.train, line):
+    if not a_missed_tag_is_overdue_before_the_tail_comes(site, system, run.train, read.tag, line):
         return system
     if not a_pair_passed_in_order_proves_the_exit(site, system, run, car, read):
         return system
@@ -220,11 +225,11 @@ def answer(
         return system
     if not a_located_train_stands_where_it_says(site, system, train, blocks, at, line):
         return system
-    return with_unit(system, train, standing.answer(system.units[train], epoch, life, blocks, at, line))
+    return in_the_life(system, train, standing.answer(system.units[train], epoch, life, blocks, at, line))
 
 
 def restart_unit(site: Site, system: System, train: Train, life: UnitLife) -> System:
     """A unit restarts, at any moment, and has forgotten all but the count of its lives (T8)."""
     if train not in system.units or life <= system.units[train].life:
         return system
-    return with_unit(system, train, restarted_unit(system.units[train], life))
+    return in_the_life(system, train, restarted_unit(system.units[train], life))

@@ -122,7 +122,8 @@ class Track:
     ``last_read``: the tag that each train's head has read last since the ends were changed.
     ``passed``: the tags that a train's last antenna has passed since the ends were changed and
     since its head passed that boundary.
-    ``unread``: trains whose head has passed a tag without reading it, which is not yet overdue.
+    ``unread``: tags that a train's head has passed without reading them, and that its unit awaits yet: not overdue,
+    and no other was read, nor have the ends been changed, nor has another life begun.
     ``astray``: history: the lives in which a train read a tag that was not to come, or missed one (T5).
     ``lies``: how each point lies.
     ``parted``: trains that have lost some of their cars.
@@ -144,7 +145,7 @@ class Track:
     facing: Map[Train, Cab]
     last_read: Map[Train, Tag]
     passed: frozenset[tuple[Train, Tag]]
-    unread: frozenset[Train]
+    unread: frozenset[tuple[Train, Tag]]
     astray: frozenset[tuple[Train, UnitLife]]
     lies: Map[Point, Position]
     parted: frozenset[Train]

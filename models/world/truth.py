@@ -167,6 +167,14 @@ def came_round(site: Site, system: System, car: Car, block: Block, left: Tag, en
     )
 
 
+def lies_at_a_miss(site: Site, system: System, train: Train, tag: Tag) -> bool:
+    """The head of a train has passed this tag unread, or the one that is passed before it; its unit awaits that yet."""
+    return any(
+        other == train and (missed == tag or tag in site.ground.laid_leaves.get(missed, {}))
+        for other, missed in system.track.unread
+    )
+
+
 def is_overdue_first(is_unread: bool, line: ThroughLine) -> bool:
     """Where a tag that the head has passed unread is not overdue yet, the line does not fit (T2, T5)."""
     return not is_unread or not line.fits

@@ -272,7 +272,10 @@ def the_tails_last_read_was_passed_last(site: Site, system: System) -> bool:
     return all(
         unit.tail_read is None
         or unit.loop_open
-        or train in system.track.unread
+        or any(
+            other == train and tag in (unit.tail_read.tag, site.layout.partner.get(unit.tail_read.tag))
+            for other, tag in system.track.unread
+        )
         or site.records.record.get(unit.tail_read.tag) != unit.tail_read.record
         or (train, unit.tail_read.tag) in system.track.passed
         for train, unit in system.units.items()

@@ -53,11 +53,13 @@ from proofs.witnesses.stations import (
     MIDDLE_TO_SOUTH,
     NORTH,
     NORTH_TO_MIDDLE,
+    ONE,
     OUT_OF_THE_LOOP,
     PLAIN_LINE,
     SPIRAL,
     T1,
     T2,
+    THROAT,
     WEST,
     WEST_TO_ONE,
     WEST_TO_TWO,
@@ -114,7 +116,7 @@ def a_tag_missed_by_the_head_is_overdue_before_the_tail_comes(steps: Steps) -> S
     out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
     roll(scenario, out)
     first, second = pair(scenario.site.layout, NORTH, MIDDLE)
-    scenario.does("head_misses", {"track": {"unread": came(T1)}}, train=T1, tag=first)
+    scenario.does("head_misses", {"track": {"unread": came((T1, first))}}, train=T1, tag=first)
     for car in (A1, A2):
         enters(scenario, out, car, NORTH, MIDDLE)
     for car in (A1, A2):
@@ -131,13 +133,32 @@ def a_tag_missed_by_the_head_is_overdue_before_the_tail_comes(steps: Steps) -> S
     return scenario
 
 
+def a_tail_reads_on_while_a_missed_tag_is_not_overdue(steps: Steps) -> Scenario:
+    """The head has missed a tag: what the tail reads at the boundary before is evidence as ever (T2, T5, T6)."""
+    scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    roll(scenario, run)
+    head_passes(scenario, run, WEST, THROAT)
+    for car in (A1, A2):
+        enters(scenario, run, car, WEST, THROAT)
+        leaves(scenario, car, WEST)
+    missed, behind = pair(scenario.site.layout, THROAT, ONE)
+    scenario.does("head_misses", {"track": {"unread": came((T1, missed))}}, train=T1, tag=missed)
+    enters(scenario, run, A1, THROAT, ONE)
+    for tag in (missed, behind):
+        scenario.refuses("tail_reads", **tail_read(scenario, run, tag))
+    tail_passes(scenario, run, WEST, THROAT)
+    report(scenario, run, WEST, THROAT)
+    return scenario
+
+
 def a_tail_whose_line_does_not_fit_reads_over_a_missed_tag(steps: Steps) -> Scenario:
     """Before a tag that the head missed is overdue the tail reads it, which counts for nothing (T2, T5)."""
     scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
     out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
     roll(scenario, out)
     first, _ = pair(scenario.site.layout, NORTH, MIDDLE)
-    scenario.does("head_misses", {"track": {"unread": came(T1)}}, train=T1, tag=first)
+    scenario.does("head_misses", {"track": {"unread": came((T1, first))}}, train=T1, tag=first)
     for car in (A1, A2):
         enters(scenario, out, car, NORTH, MIDDLE)
     unit = scenario.system.units[T1]
