@@ -28,6 +28,6 @@ def awaited_by_others(system: System, train: Train) -> frozenset[tuple[Train, Ta
 
 def awaited_in(system: System, train: Train, unit: Unit) -> frozenset[tuple[Train, Tag]]:
     """What heads have passed unread and units await yet, with a unit in its next state: no other life awaits it."""
-    if train in system.units and unit.life == system.units[train].life:
+    if unit.life == system.units[train].life:
         return system.track.unread
     return awaited_by_others(system, train)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Block, Car, Stage
+from kernel.names import Block, Car, Stage, Tag, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import WHOLE
 from models.world.formations import formation
@@ -149,6 +149,34 @@ def a_tail_reads_on_while_a_missed_tag_is_not_overdue(steps: Steps) -> Scenario:
         scenario.refuses("tail_reads", **tail_read(scenario, run, tag))
     tail_passes(scenario, run, WEST, THROAT)
     report(scenario, run, WEST, THROAT)
+    return scenario
+
+
+def what_a_head_has_missed_is_awaited_no_longer(steps: Steps) -> Scenario:
+    """A tag passed unread is awaited until another is read, the ends are changed or a life begins; by its own train."""
+    scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    roll(scenario, run)
+    first, _ = pair(scenario.site.layout, WEST, THROAT)
+    scenario.does("head_misses", {"track": {"unread": came((T1, first))}}, train=T1, tag=first)
+    missed, life = scenario.system, UnitLife(run.life + 1)
+    scenario.system = replace(missed, track=replace(missed.track, unread=frozenset({(T2, first)})))
+    scenario.must(
+        scenario.steps["tail_reads"](scenario.site, scenario.system, **tail_read(scenario, run, first))
+        != scenario.system,
+        "the other train's miss is nothing to this one",
+    )
+    scenario.system = replace(missed, track=replace(missed.track, rolling=frozenset()))
+    leads, epoch = head_cab(scenario, run), missed.centre.epoch
+    behind = next(cab for car, cab in scenario.site.formation.cab.items() if car in (A1, A2) and cab != leads)
+    for step, event in (
+        ("head_reads", {"cab": leads, "tag": Tag("from elsewhere"), "in_window": True}),
+        ("change_ends", {"cab": behind}),
+        ("restart_unit", {"life": life}),
+        ("take_over", {"epoch": epoch, "life": life, "blocks": frozenset({WEST})}),
+    ):
+        after = scenario.steps[step](scenario.site, scenario.system, train=T1, **event)
+        scenario.must(not any(True for _ in after.track.unread), f"nothing is awaited after {step}")
     return scenario
 
 
