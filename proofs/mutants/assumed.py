@@ -1,8 +1,9 @@
 """Each assumption below the theorem dropped: some claim of its theory must fall, or it is none of the theorem's.
 
 What refuses a step is put as always true, in the worlds of a composed theory's parts as well; what is said of a site
-is left out.  A counterexample must show the fall, one that CPython confirms; what is said of no site and refuses no
-step cannot be dropped, and stays open.
+is left out; what is built into the interlocking's world is left out of each step that it is built into
+(:mod:`proofs.mutants.built_in`), and some claim must fall for each.  A counterexample must show the fall, one that
+CPython confirms.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import ast
 import copy
 import random
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -26,6 +27,7 @@ from proofs.finite import World
 from proofs.lift.sources import definition_of
 from proofs.lints_on_board import asking
 from proofs.lints_on_board import assumptions as asked_on_board
+from proofs.mutants.built_in import Drop, drops, fallen_at_the_start
 from proofs.mutants.steps import ERRORS, Lifted, Lifting, identifiers, lifted, search, shaken, sites
 from proofs.mutants.trial import MILLISECONDS, NOT_LIFTED, world
 from proofs.mutated import Sources
@@ -41,7 +43,11 @@ SHAKEN_SITES = 4
 
 @dataclass
 class Outcome:
-    """What became of an assumption: ``falls``, ``none`` or ``open``; over which row, and what is false after it."""
+    """What became of an assumption: ``falls``, ``none`` or ``open``; over which row, and what is false after it.
+
+    Of what is built into several steps: over which of them, and what is false after each; or the first of which nothing
+    was seen to fall.
+    """
 
     became: str = "open"
     by: str = ""
@@ -69,21 +75,35 @@ def in_the_chain(theory: str) -> frozenset[str]:
 def tried(name: str) -> Outcome:
     """Drop one assumption."""
     began = time.perf_counter()
-    found, (theory_name, _, assumption) = Outcome(), name.partition(".")
+    theory_name, _, assumption = name.partition(".")
     theory = THEORIES[theory_name]
-    tries = of_interlocking(assumption) if theory is INTERLOCKING else beside(theory, assumption)
-    verdicts = []
-    for row, verdict, false in tries:
-        broken = false.split(", ") if false else []
-        fallen = [each for each in broken if each in in_the_chain(theory_name) or each not in theory.invariants]
-        verdicts.append("beside the chain" if broken and not fallen else verdict)
-        if fallen:
-            found.became, found.by, found.finding = "falls", row, ", ".join(fallen)
-            break
+    if theory is INTERLOCKING and assumption in drops():
+        found = _all_of([fallen(theory, of_built_in(drop)) for drop in drops()[assumption]])
     else:
-        found.became = "none" if verdicts and set(verdicts) == {"none"} else "open"
+        found = fallen(theory, of_interlocking(assumption) if theory is INTERLOCKING else beside(theory, assumption))
     found.seconds = round(time.perf_counter() - began, 2)
     return found
+
+
+def fallen(theory: Theory, tries: Iterable[Try]) -> Outcome:
+    """Say what falls of a theory at the first of these tries at which something of the chain does."""
+    verdicts, rows = list[str](), list[str]()
+    for row, verdict, false in tries:
+        broken = false.split(", ") if false else []
+        of_the_chain = [each for each in broken if each in in_the_chain(theory.name) or each not in theory.invariants]
+        if of_the_chain:
+            return Outcome("falls", row, ", ".join(of_the_chain))
+        verdicts.append("beside the chain" if broken else verdict)
+        rows.append(row)
+    return Outcome("none" if verdicts and set(verdicts) == {"none"} else "open", ", ".join(dict.fromkeys(rows)))
+
+
+def _all_of(found: list[Outcome]) -> Outcome:
+    """What is built into several steps is needed if it is needed in each."""
+    for became in ("open", "none"):
+        if lacking := [each for each in found if each.became == became]:
+            return lacking[0]
+    return Outcome("falls", ", ".join(each.by for each in found), "; ".join(each.finding for each in found))
 
 
 UNCHANGED: Sources = {}
@@ -177,12 +197,23 @@ def of_interlocking(name: str) -> Iterator[Try]:
         return
     for size in ("small", "larger"):
         for row in (row for row in rows if row in INTERLOCKING.steps):
-            try:
-                answer = search_in_a_world(_without(size, without), row, sources, MILLISECONDS[size])
-            except (Unfaithful, *ERRORS, *NOT_LIFTED) as error:
-                yield row, f"error: {error}", ""
-                continue
-            yield row, answer.verdict, answer.found.finding if answer.found is not None else ""
+            yield _in_a_world(_without(size, without), row, sources, MILLISECONDS[size])
+
+
+def of_built_in(drop: Drop) -> Iterator[Try]:
+    """Leave out of one step what is built into it, in a small world and a larger one."""
+    for size in ("small", "larger"):
+        yield _in_a_world(world(size), drop.step, drop.sources, MILLISECONDS[size])
+
+
+def _in_a_world(on: World, row: str, sources: Sources, milliseconds: int) -> Try:
+    try:
+        if row == START:
+            return row, *fallen_at_the_start(on, sources, milliseconds)
+        answer = search_in_a_world(on, row, sources, milliseconds)
+    except (Unfaithful, *ERRORS, *NOT_LIFTED) as error:
+        return row, f"error: {error}", ""
+    return row, answer.verdict, answer.found.finding if answer.found is not None else ""
 
 
 def _without(size: str, names: frozenset[str]) -> World:

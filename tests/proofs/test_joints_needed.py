@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 import typer
 
+from proofs import assumptions
 from proofs.chain import chain
-from proofs.mutants import assumed, command, guarantees, joints
+from proofs.counterexample import Unfaithful
+from proofs.mutants import assumed, built_in, command, guarantees, joints
 from proofs.mutants.guarantees import Use
+from proofs.mutants.trial import MILLISECONDS, world
 from proofs.theories import THEORIES
 
 FEW = "^(joint.(head_passes|unit_changes|cars_move)|braking|tag_window|tag_reader|link)[. ]"
@@ -94,8 +98,41 @@ def test_what_falls_beside_the_chain_is_no_fall_of_the_theorem(monkeypatch: pyte
     assert assumed.tried("tag_reader.two_equal_frames_are_not_both_wrong").became == "open"
 
 
-def test_what_is_built_into_the_world_cannot_be_dropped_and_is_open() -> None:
-    assert assumed.tried("interlocking.counters_survive").became == "open"
+def test_what_is_built_into_the_world_is_left_out_of_each_step_that_it_is_said_to_stand_in() -> None:
+    said = {each.name: list(each.stands_in) for each in assumptions.read() if each.kind == "built_in"}
+    assert {name: list(dict.fromkeys(drop.step for drop in each)) for name, each in built_in.drops().items()} == said
+    assert all(drop.sources for each in built_in.drops().values() for drop in each)
+
+
+@pytest.mark.parametrize("name", ["a_locked_point_stays", "the_register_is_complete", "trains_start_apart"])
+def test_what_is_built_into_the_world_makes_a_claim_fall_wherever_it_is_left_out(name: str) -> None:
+    found, drops = assumed.tried(f"interlocking.{name}"), built_in.drops()[name]
+    assert found.became == "falls"
+    assert found.by == ", ".join(each.step for each in drops)
+    fallen = [each.split(", ") for each in found.finding.split("; ")]
+    assert len(fallen) == len(drops)
+    assert {each for some in fallen for each in some} <= assumed.in_the_chain("interlocking")
+
+
+def test_what_is_left_out_of_a_step_where_nothing_falls_is_not_needed_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    small = world("small")
+    monkeypatch.setattr(assumed, "world", lambda _: small)
+    idle = replace(built_in.drops()["a_locked_point_stays"][0], new="if True:", step="drift")
+    needed = built_in.drops()["trains_start_apart"][0]
+    monkeypatch.setattr(assumed, "drops", lambda: {"a_locked_point_stays": [needed, idle]})
+    found = assumed.tried("interlocking.a_locked_point_stays")
+    assert (found.became, found.by) == ("none", "drift")
+
+
+def test_a_start_said_as_it_is_makes_nothing_fall() -> None:
+    assert built_in.fallen_at_the_start(world("small"), {}, MILLISECONDS["small"]) == ("none", "")
+
+
+def test_a_start_that_cpython_sees_otherwise_makes_nothing_fall(monkeypatch: pytest.MonkeyPatch) -> None:
+    drop = built_in.drops()["trains_start_apart"][0]
+    monkeypatch.setattr(built_in, "unmet", lambda *_: [])
+    with pytest.raises(Unfaithful):
+        built_in.fallen_at_the_start(world("small"), drop.sources, MILLISECONDS["small"])
 
 
 def test_every_assumption_that_the_chain_rests_on_is_tried() -> None:
