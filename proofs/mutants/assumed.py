@@ -20,7 +20,7 @@ from typing import Any
 import z3
 
 from models.world import assumptions as nature
-from proofs import assumptions, usage
+from proofs import assumptions, scripts, solvers, usage
 from proofs.catalogue import AXIOMS, INTERLOCKING, PREMISES
 from proofs.chain import Chain, chain
 from proofs.counterexample import Unfaithful
@@ -35,8 +35,10 @@ from proofs.mutants.steps import ERRORS, Lifted, Lifting, identifiers, lifted, s
 from proofs.mutants.trial import MILLISECONDS, NOT_LIFTED, world
 from proofs.mutated import Sources
 from proofs.reach import called_by
-from proofs.theories import THEORIES, row_of
-from proofs.theory import START, Theory
+from proofs.run import laid_out
+from proofs.theories import THEORIES, columns, row_of
+from proofs.theory import EVERY_LOOKUP_IS_DEFINED, START, Theory
+from proofs.workbench import Workbench
 
 SHAKES = 3_000
 """So many sites near the witnesses' are made to find one of which nothing but the premise is false."""
@@ -65,8 +67,18 @@ def whole() -> Chain:
 
 
 def names() -> list[str]:
-    """Give every assumption that a proof of the chain rests on, as ``theory.name``, in its order."""
-    return [link.assumption for links in whole().links.values() for link in links if link.rested_on]
+    """Give every assumption that a proof of the chain rests on, as ``theory.name``, in its order.
+
+    After them those of which it is said that none does.
+    """
+    resting = [link.assumption for links in whole().links.values() for link in links if link.rested_on]
+    return [*resting, *beside_the_theorem()]
+
+
+@cache
+def beside_the_theorem() -> list[str]:
+    """Give the assumptions of which it is said that no claim of the theorem rests on them."""
+    return [f"{INTERLOCKING.name}.{name}" for name in sorted(assumptions.beside())]
 
 
 @cache
@@ -80,7 +92,9 @@ def tried(name: str) -> Outcome:
     began = time.perf_counter()
     theory_name, _, assumption = name.partition(".")
     theory = THEORIES[theory_name]
-    if theory is INTERLOCKING and assumption in drops():
+    if name in beside_the_theorem():
+        found = Outcome("none" if proved_without(assumption) else "open", ", ".join(assumptions.asking(assumption)))
+    elif theory is INTERLOCKING and assumption in drops():
         found = _all_of([fallen(theory, of_built_in(drop)) for drop in drops()[assumption]])
     else:
         found = fallen(theory, of_interlocking(assumption) if theory is INTERLOCKING else beside(theory, assumption))
@@ -201,6 +215,24 @@ def of_interlocking(name: str) -> Iterator[Try]:
     for size in ("small", "larger"):
         for row in (row for row in rows if row in INTERLOCKING.steps):
             yield _in_a_world(_without(size, without), row, sources, MILLISECONDS[size])
+
+
+def proved_without(name: str) -> bool:
+    """Tell whether every claim of the chain is proved, by each solver, over every step that asks an assumption."""
+    sources = true_instead(getattr(nature, name))
+    on = Workbench(INTERLOCKING, named=INTERLOCKING.quantified, sources=sources)
+    cells = [
+        (row, column)
+        for row in assumptions.asking(name)
+        for column in columns(row)
+        if column in in_the_chain(INTERLOCKING.name) or column == EVERY_LOOKUP_IS_DEFINED
+    ]
+    return all(
+        solvers.ask(solver, part, 0).answer == "unsat"
+        for row, column in cells
+        for part in laid_out(row, column, scripts.hypotheses(row, column), on)
+        for solver in ("z3", "cvc5")
+    )
 
 
 def of_built_in(drop: Drop) -> Iterator[Try]:
