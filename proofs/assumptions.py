@@ -58,7 +58,10 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Assumption:
-    """One assumption; ``stands_in``: for those that are no predicate, the transitions that rest on it."""
+    """One assumption; ``stands_in``: for those that are no predicate, the transitions that it is built into.
+
+    ``beside``: why it is assumed although no claim of the theorem rests on it.
+    """
 
     kind: str
     name: str
@@ -66,17 +69,31 @@ class Assumption:
     monitor: str
     duty: str
     stands_in: tuple[str, ...] = ()
+    beside: str = ""
 
 
 def read() -> list[Assumption]:
     """Read the data, in its order."""
     files: list[Mapping[str, Mapping[str, Any]]] = [tomllib.loads(path.read_text("utf-8")) for path in DATA]
     return [
-        Assumption(kind, name, entry["says"], entry["monitor"], entry["duty"], tuple(entry.get("stands_in", ())))
+        Assumption(
+            kind,
+            name,
+            entry["says"],
+            entry["monitor"],
+            entry["duty"],
+            tuple(entry.get("stands_in", ())),
+            entry.get("beside", ""),
+        )
         for data in files
         for kind, entries in data.items()
         for name, entry in entries.items()
     ]
+
+
+def beside() -> frozenset[str]:
+    """Give the assumptions of the interlocking on which no claim of the theorem rests."""
+    return frozenset(each.name for each in read() if each.beside)
 
 
 def predicates() -> Mapping[str, Mapping[str, Callable[..., Any]]]:
@@ -125,6 +142,7 @@ def used(assumption: Assumption) -> str:
         steps = asking(name) if assumption.kind == "world" else asking_on_board(theory, name)
         claims = [claim for claim, function in usage.claims(theory).items() if name in called(function)]
         parts = [f"asked by {_listed(steps)}"] * bool(steps) + [f"said in {_listed(claims)}"] * bool(claims)
+        parts += [f"no claim of the theorem rests on it; it {assumption.beside}"] * bool(assumption.beside)
         return "; ".join(parts)
     found = proofs_naming(name, theory)
     if not found:
@@ -140,12 +158,17 @@ def _listed(names: Sequence[str]) -> str:
 
 def _counted(found: Sequence[Assumption]) -> str:
     """Say on how many assumptions the interlocking rests."""
-    of = {kind: sum(one.kind == kind for one in found) for kind in ("world", "premise", "axiom", "built_in")}
+    of = {
+        kind: sum(one.kind == kind and not one.beside for one in found)
+        for kind in ("world", "premise", "axiom", "built_in")
+    }
     idle = sum(one.kind == "axiom" and not proofs_naming(one.name) for one in found)
+    stand_beside = sum(bool(one.beside) for one in found)
     return (
         f"The interlocking rests on {sum(of.values()) - idle}: {of['world']} of nature, brake, sensors and people,"
         f" {of['premise']} of a site, {of['axiom'] - idle} of a layout and {of['built_in']} in how its world is built."
-        f" {idle} more of a layout are used in no proof; each says why it is checked all the same."
+        f" {idle} more of a layout are used in no proof, and without {stand_beside} more of nature every claim of the"
+        " theorem is proved; each says why it is checked, or assumed, all the same."
     )
 
 

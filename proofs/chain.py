@@ -1,7 +1,8 @@
 """The chain from the theorem down to nature, as the proofs' own dependencies have it: ``heisoku prove --whole``.
 
 The claims that the theorem asks of a theory rest on some of its invariants, by the proof scripts, and these on axioms
-and premises, by the scripts again, and on what its steps ask of nature, by the recorded unsat cores of their proofs.
+and premises, by the scripts again, and on what its steps ask of nature, by the recorded unsat cores of their proofs;
+what is said to stand beside the theorem is shown to by ``heisoku mutate --joints``.
 What another theory guarantees is followed there, by the joints of :mod:`proofs.joints`; the rest is assumed of nature,
 people and sites, and each has its owner.  Without a record of cores, all that the steps ask is told as rested on.
 """
@@ -155,6 +156,8 @@ def _links(theory: Theory, claims: frozenset[str], cores: Cores) -> list[Link]:
     below = usage.needed(usage.book(theory), claims)
     used = _used(theory, claims, cores)
     resting = {*site_assumed(theory, below), *(of_steps(theory) if used is None else used)}
+    if theory is INTERLOCKING:
+        resting -= assumptions.beside()
     return [_link(f"{theory.name}.{name}", name in resting) for name in assumed(theory)]
 
 

@@ -24,8 +24,9 @@ from models.processes import as_they_end
 from proofs.joints import BY_NAME
 from proofs.mutants import assumed, guarantees
 
-NEEDED, UNNEEDED, OPEN = "needed", "unneeded", "open"
-"""What a guarantee or an assumption may be.  ``open``: neither a counterexample nor a proof was found."""
+NEEDED, UNNEEDED, OPEN, BESIDE = "needed", "unneeded", "open", "beside"
+"""What a guarantee or an assumption may be.  ``open``: neither a counterexample nor a proof was found; ``beside``: an
+assumption of which it is said that the theorem does not rest on it, and proved."""
 BECAME = {"refuted": NEEDED, "proved": UNNEEDED, "falls": NEEDED, "none": UNNEEDED}
 
 Progress = Callable[[int, int, str, Mapping[str, Any]], object]
@@ -54,7 +55,10 @@ def trial(name: str) -> tuple[str, dict[str, Any]]:
     """Try one."""
     if name not in uses():
         told = assumed.tried(name)
-        return name, {"assumption": name, **asdict(told), "became": BECAME.get(told.became, OPEN)}
+        became = BECAME.get(told.became, OPEN)
+        if became == UNNEEDED and name in assumed.beside_the_theorem():
+            became = BESIDE
+        return name, {"assumption": name, **asdict(told), "became": became}
     use, found = uses()[name], guarantees.tried(uses()[name])
     became = OPEN if found.open_with else BECAME.get(found.without, OPEN)
     return name, {**asdict(use), **asdict(found), "became": became}
@@ -77,7 +81,7 @@ def record(todo: Sequence[str], jobs: int, progress: Progress = lambda *_: None)
 
 
 def exit_code(found: Mapping[str, Any]) -> int:
-    """0 if each is needed, 1 if one is not, 3 if one is open or nothing was tried."""
+    """0 if each is needed, or beside the theorem as is said, 1 if one is not, 3 if one is open or nothing was tried."""
     became = {each["became"] for each in (*found["guarantees"], *found["assumptions"])}
     if UNNEEDED in became:
         return DOES_NOT_HOLD
@@ -99,6 +103,8 @@ def print_record(out: Console, found: Mapping[str, Any]) -> None:
             print_line(out, f"unneeded: {each['assumption']}: nothing falls without it; it need not be assumed")
         if each["became"] == OPEN:
             print_line(out, f"open: {each['assumption']}: nothing was seen to fall without it")
+        if each["became"] == BESIDE:
+            print_line(out, f"beside: {each['assumption']}: the theorem does not rest on it, as is said of it")
     for what in ("guarantees", "assumptions"):
         print_line(out, f"{len(found[what]):,} of {found['of'][what]:,} {what}: {_counted(found[what])}")
     instead = sum(each["asked"] for each in found["guarantees"])
@@ -111,4 +117,6 @@ def print_record(out: Console, found: Mapping[str, Any]) -> None:
 
 def _counted(rows: Sequence[Mapping[str, Any]]) -> str:
     became = Counter(each["became"] for each in rows)
-    return ", ".join(f"{became[word]:,} {word}" for word in (NEEDED, UNNEEDED, OPEN))
+    return ", ".join(
+        f"{became[word]:,} {word}" for word in (NEEDED, UNNEEDED, OPEN, BESIDE) if became[word] or word != BESIDE
+    )

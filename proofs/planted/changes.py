@@ -23,7 +23,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from models.processes import spread
 from proofs import canaries, scripts, solvers
@@ -100,7 +100,31 @@ class Planted:
         )
 
 
-def planted(change: Change) -> Planted:
+class Text(Protocol):
+    """A text in the place of another that stands once in a file."""
+
+    @property
+    def name(self) -> str:
+        """What it is told as."""
+
+    @property
+    def file(self) -> str:
+        """The file, from the root."""
+
+    @property
+    def module(self) -> str:
+        """The module that the file is."""
+
+    @property
+    def old(self) -> str:
+        """What goes."""
+
+    @property
+    def new(self) -> str:
+        """What comes."""
+
+
+def planted(change: Text) -> Planted:
     """Read a module with a change in it; ``ValueError`` if the text does not stand there once, or more is changed."""
     text = (ROOT / change.file).read_text(encoding="utf-8")
     if text.count(change.old) != 1:

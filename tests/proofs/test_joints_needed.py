@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import ast
 import json
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 import typer
 
+from proofs import assumptions
+from proofs.catalogue import STEPS
 from proofs.chain import chain
-from proofs.mutants import assumed, command, guarantees, joints
+from proofs.counterexample import Unfaithful
+from proofs.lift.sources import definition_of
+from proofs.mutants import assumed, built_in, command, guarantees, joints
 from proofs.mutants.guarantees import Use
+from proofs.mutants.trial import MILLISECONDS, world
 from proofs.theories import THEORIES
 
 FEW = "^(joint.(head_passes|unit_changes|cars_move)|braking|tag_window|tag_reader|link)[. ]"
@@ -94,13 +102,83 @@ def test_what_falls_beside_the_chain_is_no_fall_of_the_theorem(monkeypatch: pyte
     assert assumed.tried("tag_reader.two_equal_frames_are_not_both_wrong").became == "open"
 
 
-def test_what_is_built_into_the_world_cannot_be_dropped_and_is_open() -> None:
-    assert assumed.tried("interlocking.counters_survive").became == "open"
+def test_what_is_built_into_the_world_is_left_out_of_each_step_that_it_is_said_to_stand_in() -> None:
+    said = {each.name: list(each.stands_in) for each in assumptions.read() if each.kind == "built_in"}
+    assert {name: list(dict.fromkeys(drop.step for drop in each)) for name, each in built_in.drops().items()} == said
+    assert all(drop.sources for each in built_in.drops().values() for drop in each)
+
+
+def test_every_step_that_goes_on_by_a_message_is_said_to_take_it_for_genuine() -> None:
+    """But the second person's word, which is asked for only after the first one's, and is no message then."""
+    going_on = set[str]()
+    for name, step in STEPS.items():
+        for node in ast.walk(definition_of(step)):
+            asked = node.test if isinstance(node, ast.If) else node.value if isinstance(node, ast.Assign) else None
+            if asked is not None and re.search(r"(in|^) ?system\.radio\.\w+(\.get|\b(?! \|))", ast.unparse(asked)):
+                going_on.add(name)
+    said = {drop.step for drop in built_in.drops()["messages_are_genuine"]}
+    assert {name for name in going_on if not name.startswith("send_")} - {"head_reads", "tail_reads"} == said | {
+        "confirm_statement"
+    }
+
+
+@pytest.mark.parametrize("name", ["a_locked_point_stays", "the_register_is_complete", "trains_start_apart"])
+def test_what_is_built_into_the_world_makes_a_claim_fall_wherever_it_is_left_out(name: str) -> None:
+    found, drops = assumed.tried(f"interlocking.{name}"), built_in.drops()[name]
+    assert found.became == "falls"
+    assert found.by == ", ".join(each.step for each in drops)
+    fallen = [each.split(", ") for each in found.finding.split("; ")]
+    assert len(fallen) == len(drops)
+    assert {each for some in fallen for each in some} <= assumed.in_the_chain("interlocking")
+
+
+def test_what_is_left_out_of_a_step_where_nothing_falls_is_not_needed_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    small = world("small")
+    monkeypatch.setattr(assumed, "world", lambda _: small)
+    idle = replace(built_in.drops()["a_locked_point_stays"][0], new="if True:", step="drift")
+    needed = built_in.drops()["trains_start_apart"][0]
+    monkeypatch.setattr(assumed, "drops", lambda: {"a_locked_point_stays": [needed, idle]})
+    found = assumed.tried("interlocking.a_locked_point_stays")
+    assert (found.became, found.by) == ("none", "drift")
+
+
+def test_a_start_said_as_it_is_makes_nothing_fall() -> None:
+    assert built_in.fallen_at_the_start(world("small"), {}, MILLISECONDS["small"]) == ("none", "")
+
+
+def test_a_start_that_cpython_sees_otherwise_makes_nothing_fall(monkeypatch: pytest.MonkeyPatch) -> None:
+    drop = built_in.drops()["trains_start_apart"][0]
+    monkeypatch.setattr(built_in, "unmet", lambda *_: [])
+    with pytest.raises(Unfaithful):
+        built_in.fallen_at_the_start(world("small"), drop.sources, MILLISECONDS["small"])
+
+
+def test_what_is_said_to_stand_beside_the_theorem_is_proved_to(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of one claim, which is quick; of every claim of the chain in `make joints`."""
+    name = "interlocking.a_tag_is_read_where_it_lies"
+    assert assumed.beside_the_theorem() == [name]
+    monkeypatch.setattr(assumed, "in_the_chain", lambda _: frozenset({"a_head_that_read_a_tag_was_there"}))
+    assert joints.trial(name)[1]["became"] == "beside"
+    monkeypatch.setattr(assumed, "proved_without", lambda _: False)
+    assert joints.trial(name)[1]["became"] == "open"
+
+
+def test_what_a_claim_rests_on_is_not_proved_without_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    claim = "a_run_that_has_begun_is_led_by_its_front"
+    monkeypatch.setattr(assumed, "in_the_chain", lambda _: frozenset({claim}))
+    assert not assumed.proved_without("a_run_is_led_by_its_front")
 
 
 def test_every_assumption_that_the_chain_rests_on_is_tried() -> None:
     assert set(chain().nature) <= set(assumed.names())
-    assert not set(chain().idle) & set(assumed.names())
+    assert set(chain().idle) & set(assumed.names()) == set(assumed.beside_the_theorem())
+
+
+def test_an_axiom_that_says_what_can_be_read_falls_where_all_else_can_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    small = world("small")
+    monkeypatch.setattr(assumed, "world", lambda _: small)
+    found = assumed.tried("interlocking.every_map_has_its_keys")
+    assert found.became == "falls"
 
 
 def told(*became: str) -> dict[str, Any]:
@@ -109,7 +187,7 @@ def told(*became: str) -> dict[str, Any]:
 
 @pytest.mark.parametrize(
     ("became", "code"),
-    [((), 3), (("needed",), 0), (("needed", "open"), 3), (("open", "unneeded"), 1)],
+    [((), 3), (("needed",), 0), (("needed", "beside"), 0), (("needed", "open"), 3), (("open", "unneeded"), 1)],
 )
 def test_what_is_not_needed_is_1_and_what_is_open_3(became: tuple[str, ...], code: int) -> None:
     assert joints.exit_code(told(*became)) == code
