@@ -142,6 +142,7 @@ def test_joints_are_told_with_what_is_not_needed_and_what_is_open(
 
 
 def test_the_chain_is_drawn_with_each_theory_once_and_each_link_as_it_is_tied() -> None:
+    """But for a link on which nothing rests: what is assumed there stands beside the theorem."""
     found = chain(())
     drawing = drawn_chain(found, {})
     assert sorted(node.title.partition(":")[0] for node in drawing.nodes) == sorted(found.links)
@@ -152,7 +153,7 @@ def test_the_chain_is_drawn_with_each_theory_once_and_each_link_as_it_is_tied() 
     for links in found.links.values():
         for link in links:
             if link.guaranteed:
-                assert link.assumption.partition(".")[2] in said
+                assert (link.assumption.partition(".")[2] in said) is link.rested_on
     drawn = {tie.kind: " ".join(line for _, line in tie.lines) for tie in drawing.ties}
     assert "tied by name alone" in drawn["name"]
     assert "is the function that is proved" in drawn["function"]
