@@ -4,10 +4,10 @@ An invariant says that nothing bad ever happens; a promise says that something g
 links that ends in a goal.  Each link holds until a later one does, or the goal; and one step, with the event that
 it is about, takes it there.  The number of links still to go is a rank: no step of the world makes it greater, each
 link's own step makes it smaller, and at none the goal is reached.  Where one step does not take a link all the way,
-as a cycle does not take a train to its end, it has a whole number of its own that does the same within the link: it
-is never below 0, no step makes it greater while the link holds, and the link's own step makes it smaller, or leads
-on.  Fairness is all that is asked beside: each link's step is taken at last, and again while its link holds, and not
-put off for ever.
+as a cycle does not take a train to its end, the link has a whole number of its own, never below 0: no step makes it
+greater while the link holds, and the link's own step makes it smaller, or leads on.  What may come in between and is
+no goal has a name too, and no link's own step ends in it.  Fairness is all that is asked beside: each link's step is
+taken at last, and again while its link holds, and not put off for ever.
 """
 
 from __future__ import annotations
@@ -41,10 +41,14 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Promise:
-    """From any of the ``links``, in their order, comes the ``goal``; the goal names what may come in between."""
+    """From any of the ``links``, in their order, comes the ``goal``; the goal names what may come in between.
+
+    ``unless``: what may come in between and is no goal: a link's own step never leads there.
+    """
 
     links: tuple[Link, ...]
     goal: Predicate
+    unless: Predicate | None = None
 
     @property
     def name(self) -> str:
@@ -59,7 +63,12 @@ class Promise:
     @property
     def predicates(self) -> tuple[Predicate, ...]:
         """Everything that is asked of a state in it."""
-        return (self.goal, *(link.holds for link in self.links))
+        return (*self.ends, *(link.holds for link in self.links))
+
+    @property
+    def ends(self) -> tuple[Predicate, ...]:
+        """The goal, and what else may end the way to it."""
+        return (self.goal,) if self.unless is None else (self.goal, self.unless)
 
     @property
     def ranks(self) -> tuple[Measure, ...]:
@@ -73,8 +82,8 @@ def by_goal(promises: Iterable[Promise]) -> dict[str, Promise]:
 
 
 def still_to_go(promise: Promise, site: Any, system: Any, about: Mapping[str, Any]) -> int | None:
-    """Say how many links are still to go, none at the goal; ``None`` where the promise says nothing of this state."""
-    if told(promise.goal, site, system, about):
+    """Say how many links are still to go, none at the goal or another end; ``None`` where it says nothing of it."""
+    if any(told(end, site, system, about) for end in promise.ends):
         return 0
     going = [
         len(promise.links) - place for place, link in enumerate(promise.links) if told(link.holds, site, system, about)

@@ -28,7 +28,7 @@ def parts(bench: Workbench, transition: str, name: str, hypotheses: list[str] | 
 def _asked(bench: Workbench, promise: Promise, transition: str) -> Iterator[tuple[list[Any], Any]]:
     about = {name: bench.scope.constant(kind, f"about.{name}") for name, kind in promise.about.items()}
     for place, link in enumerate(promise.links):
-        here = [*_is_at(bench, promise, link, bench.before, about)]
+        here = _is_at(bench, promise, link, bench.before, about)
         yield from _over(bench, transition, here, partial(_no_farther, bench, promise, place, about))
         if bench.theory.steps[transition] is link.by:
             yield from _helped(bench, promise, place, transition)
@@ -44,12 +44,12 @@ def _helped(bench: Workbench, promise: Promise, place: int, transition: str) -> 
         name: event[name] if name in event else bench.scope.constant(kind, f"about.{name}")
         for name, kind in promise.about.items()
     }
-    here = [*_is_at(bench, promise, link, bench.before, about)]
+    here = _is_at(bench, promise, link, bench.before, about)
     if link.provided is not None:
         here.append(_said(bench, link.provided, bench.before, {**event, **about}))
     yield from _over(bench, transition, here, partial(_nearer, bench, promise, place, about))
     for refusal in bench.refusals(transition):
-        yield [*here, refusal], _ahead(bench, promise, promise.links[place + 1 :], bench.before, about)
+        yield [*here, refusal], z3.Or(*_ahead(bench, promise, promise.links[place + 1 :], bench.before, about))
 
 
 def _over(
@@ -67,32 +67,35 @@ def _over(
 
 
 def _no_farther(bench: Workbench, promise: Promise, place: int, about: Mapping[str, Any], state: Any) -> Any:
-    """The goal, a later link, or this one with no more of its own rank than before."""
+    """The goal or another end, a later link, or this one with no more of its own rank than before."""
     link = promise.links[place]
+    ended = [] if promise.unless is None else [_said(bench, promise.unless, state, about)]
     if link.rank is None:
-        return _ahead(bench, promise, promise.links[place:], state, about)
+        return z3.Or(*_ahead(bench, promise, promise.links[place:], state, about), *ended)
     was, left = _measured(bench, link.rank, bench.before, about), _measured(bench, link.rank, state, about)
     stays = z3.And(_said(bench, link.holds, state, about), left <= was)
-    return z3.Or(_ahead(bench, promise, promise.links[place + 1 :], state, about), stays)
+    return z3.Or(*_ahead(bench, promise, promise.links[place + 1 :], state, about), *ended, stays)
 
 
 def _nearer(bench: Workbench, promise: Promise, place: int, about: Mapping[str, Any], state: Any) -> Any:
-    """The goal, a later link, or this one with less of its own rank."""
+    """The goal, a later link, or this one with less of its own rank; no other end."""
     link, ahead = promise.links[place], _ahead(bench, promise, promise.links[place + 1 :], state, about)
     if link.rank is None:
-        return ahead
+        return z3.Or(*ahead)
     was, left = _measured(bench, link.rank, bench.before, about), _measured(bench, link.rank, state, about)
-    return z3.Or(ahead, z3.And(_said(bench, link.holds, state, about), left < was))
+    return z3.Or(*ahead, z3.And(_said(bench, link.holds, state, about), left < was))
 
 
-def _is_at(bench: Workbench, promise: Promise, link: Link, state: Any, about: Mapping[str, Any]) -> tuple[Any, Any]:
-    return _said(bench, link.holds, state, about), z3.Not(_said(bench, promise.goal, state, about))
+def _is_at(bench: Workbench, promise: Promise, link: Link, state: Any, about: Mapping[str, Any]) -> list[Any]:
+    ended = [z3.Not(_said(bench, end, state, about)) for end in promise.ends]
+    return [_said(bench, link.holds, state, about), *ended]
 
 
-def _ahead(bench: Workbench, promise: Promise, links: Sequence[Link], state: Any, about: Mapping[str, Any]) -> Any:
-    """The goal, or one of these links."""
-    predicates = [promise.goal, *(link.holds for link in links)]
-    return z3.Or(*(_said(bench, predicate, state, about) for predicate in predicates))
+def _ahead(
+    bench: Workbench, promise: Promise, links: Sequence[Link], state: Any, about: Mapping[str, Any]
+) -> list[Any]:
+    """The goal, and each of these links."""
+    return [_said(bench, predicate, state, about) for predicate in (promise.goal, *(link.holds for link in links))]
 
 
 def _said(bench: Workbench, predicate: Callable[..., bool], state: Any, given: Mapping[str, Any]) -> Any:

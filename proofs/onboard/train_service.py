@@ -10,8 +10,6 @@ no false alarm, is claimed beside this: `no_fix_contradicts`, `a_sound_brake_is_
 from __future__ import annotations
 
 from kernel.onboard import computer
-from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S
-from kernel.onboard.braking import FARTHEST_MM, GREATEST_PLACE_MM
 from kernel.onboard.odometry import Loss
 from models.onboard.slowing import slows_mm_s2
 from models.onboard.train import run_a_cycle
@@ -23,25 +21,27 @@ from models.onboard.train_nature import (
     the_head_is_no_faster_than_at_the_ends_of_a_cycle,
     the_train_gains_no_more,
 )
-from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM, smaller
+from models.onboard.units import LONGEST_MS, NM_A_MM, NO_SPEED_MM_S, UM_A_MM, larger, smaller
 from proofs.promise import Link, Promise
+
+FARTHEST_MM = 10**9
+"""Places are within 1000 km of the kilometrage's origin, and what is farther ahead counts as so far."""
 
 
 def a_train_that_may_run_comes_to_its_end(site: Train, system: Whole, end_mm: int) -> bool:
     """A train that was given an end runs on until its brake stops it for that, and for nothing without a name (T12).
 
-    Before that its orders may give it another end or none, its driver may put the brake on, or it may roll back; its
-    brake may be on since the orders do not let it proceed, since it has split, rolled back too far, lost its position
-    or passed a tag unread, since motors or brake have broken a bound, or since it may be too fast for the track that
-    it is on or that is listed ahead.
+    It may be on before since the orders do not let it proceed, since it has split, rolled back too far, lost its
+    position or passed a tag unread, since motors or brake have broken a bound, or since it may be too fast for the
+    track that it is on or that is listed ahead.
     """
+    return system.computer.brake.applied and (is_near(site, system, end_mm) or has_a_cause(site, system))
+
+
+def its_end_is_another_or_it_rolls_back(site: Train, system: Whole, end_mm: int) -> bool:
+    """Its orders give it another end or none, its driver puts the brake on, or it rolls back."""
     brake = system.computer.brake
-    return (
-        brake.end_mm != end_mm
-        or brake.withheld
-        or system.front_nm < system.from_nm
-        or (brake.applied and (is_near(site, system, end_mm) or has_a_cause(site, system)))
-    )
+    return brake.end_mm != end_mm or brake.withheld or system.front_nm < system.from_nm
 
 
 def has_a_cause(site: Train, system: Whole) -> bool:
@@ -93,18 +93,20 @@ def slows_before(site: Train, system: Whole, place_mm: int, to_mm_s: int) -> boo
     """
     brake, motion = site.limits.train.brake, system.computer.known.motion
     front_mm, fast_mm_s = motion.front_most_mm, motion.speed_most_mm_s
-    if not 0 <= fast_mm_s <= GREATEST_SPEED_MM_S or not -GREATEST_PLACE_MM <= front_mm <= GREATEST_PLACE_MM:
+    if not 0 <= fast_mm_s <= NO_SPEED_MM_S or not -FARTHEST_MM <= front_mm <= FARTHEST_MM:
         return False
     cycles = brake.response_cycles + 1
     worst_um_s = UM_A_MM * fast_mm_s + cycles * LONGEST_MS * brake.gains_mm_s2
-    slow_um_s = 0 if to_mm_s < 0 else UM_A_MM * smaller(to_mm_s, GREATEST_SPEED_MM_S)
-    way_nm = cycles * LONGEST_MS * worst_um_s + LONGEST_MS * worst_um_s
-    left_nm = NM_A_MM * smaller(place_mm, front_mm + FARTHEST_MM) - NM_A_MM * front_mm - way_nm
-    return worst_um_s < slow_um_s or (
-        place_mm >= front_mm
-        and left_nm >= 0
-        and worst_um_s * worst_um_s - slow_um_s * slow_um_s <= 2 * slows_mm_s2(brake) * left_nm
-    )
+    slow_um_s = UM_A_MM * larger(0, smaller(to_mm_s, NO_SPEED_MM_S))
+    if worst_um_s < slow_um_s:
+        return True
+    if place_mm < front_mm:
+        return False
+    reach_nm = NM_A_MM * front_mm + cycles * LONGEST_MS * worst_um_s
+    left_nm = NM_A_MM * smaller(place_mm, front_mm + FARTHEST_MM) - reach_nm - LONGEST_MS * worst_um_s
+    if left_nm < 0:
+        return False
+    return worst_um_s * worst_um_s - slow_um_s * slow_um_s <= 2 * slows_mm_s2(brake) * left_nm
 
 
 def it_is_held_and_has_an_end(site: Train, system: Whole, end_mm: int) -> bool:
@@ -116,11 +118,12 @@ def it_is_held_and_has_an_end(site: Train, system: Whole, end_mm: int) -> bool:
 def it_stands_and_the_driver_acknowledges(
     site: Train, system: Whole, may_proceed: bool, acknowledged: bool, to_nm: int, speed_um_s: int
 ) -> bool:
-    """The train certainly stands, its orders let it proceed, and its driver acknowledges the brake."""
+    """The train certainly stands, and its orders let it proceed; its driver acknowledges, and it does not roll back."""
     motion, standstill_mm_s = system.computer.known.motion, site.limits.train.brake.standstill_mm_s
     return (
         may_proceed
         and acknowledged
+        and to_nm >= system.front_nm
         and -standstill_mm_s <= motion.speed_least_mm_s
         and motion.speed_most_mm_s <= standstill_mm_s
         and nature_lets_it_run(site, system, may_proceed, acknowledged, to_nm, speed_um_s)
@@ -169,6 +172,7 @@ PROMISES = (
             Link(it_runs_free, run_a_cycle, the_driver_runs_on, the_way_to_its_end_nm),
         ),
         a_train_that_may_run_comes_to_its_end,
+        its_end_is_another_or_it_rolls_back,
     ),
 )
 """From the standstill to the end."""

@@ -1,4 +1,4 @@
-"""From the permit to the destination, and to the tail: a head gets on by its tags, and its tail after it (T2, T4, T9)."""
+"""From the permit to the destination, and to the tail: a head gets on by its tags, its tail after it (T2, T4, T9)."""
 
 from __future__ import annotations
 
@@ -19,19 +19,23 @@ from models.world.state import Site, System
 from models.world.truth import says_it_stands_between
 from proofs.promise import Link, Promise
 from proofs.promises.first_loop import keeps_the_centres_list
-from proofs.promises.vocabulary import has_no_authority_left, lives, order_of
+from proofs.promises.vocabulary import has_no_authority_left, order_of
 
 
 def a_permitted_train_is_let_out_of_its_block(site: Site, system: System, run: Run, block: Block) -> bool:
-    """The brake of a permitted train lets it out of each block of its way but the last, and in no overlap (T4, T9).
+    """The brake of a permitted train lets it out of each block of its way but the last, and in no overlap (T4, T9)."""
+    return (run, block) in system.track.leavable
 
-    Or the run gives no authority any more: it is asked back before it is begun, or given back, a later one has begun,
-    the second loop is open, or the unit restarts. Or its tail has left that block, or the next one, already.
+
+def it_may_not_or_need_not_leave(site: Site, system: System, run: Run, block: Block) -> bool:
+    """The run gives no authority any more, or the tail has left that block or the next one.
+
+    It gives none once it is asked back before it is begun, or given back, once a later one has begun, the second loop
+    is open or the unit restarts.
     """
     order = order_of(system, run)
     return (
-        (run, block) in system.track.leavable
-        or has_no_authority_left(system, run)
+        has_no_authority_left(system, run)
         or order is None
         or block in order.left
         or (run.route in site.layout.way and site.layout.way[run.route].get(block) in order.left)
@@ -54,14 +58,17 @@ def its_way_goes_on(site: Site, system: System, run: Run, block: Block) -> bool:
 def a_head_gets_into_the_next_block(
     site: Site, system: System, run: Run, car: Car, block: Block, target: Block
 ) -> bool:
-    """The car that leads gets into the next block of its way (T4).
+    """The car that leads gets into the next block of its way (T4)."""
+    return target in system.track.at.get(car, frozenset())
 
-    Or it comes to rest before, and is let out of the block anew; or it is in that block no more, or has been in the
-    next one, or gone out of this one, under this run.
+
+def it_rests_or_has_left(site: Site, system: System, run: Run, car: Car, block: Block, target: Block) -> bool:
+    """The train comes to rest, and is let out anew; or under this run it was in the next block, or is in this no more.
+
+    A car may leave a block at any moment: nobody reckons with where it is then.
     """
     return (
-        target in system.track.at.get(car, frozenset())
-        or (run, block) not in system.track.leavable
+        (run, block) not in system.track.leavable
         or block not in system.track.at.get(car, frozenset())
         or (run, target) in system.track.entered
         or (run, block) in system.track.gone
@@ -88,17 +95,21 @@ def the_points_lie_for_it(site: Site, system: System, run: Run, block: Block, ta
 
 
 def a_head_is_known_beyond_the_boundary(site: Site, system: System, run: Run, left: Tag, entered: Tag) -> bool:
-    """The unit knows that its head is in the next block of its way, by both tags of the boundary (T2, T5).
+    """The unit knows that its head is in the next block of its way, by both tags of the boundary (T2, T5)."""
+    order = order_of(system, run)
+    return order is not None and entered in site.layout.tag_in and site.layout.tag_in[entered] in order.entered
 
-    Or the run gives no authority any more, as above; the driver changes ends; or the tag that this run expects was
-    read for another run, or another one since the first of this run.
+
+def it_runs_under_this_run_no_more(site: Site, system: System, run: Run, left: Tag, entered: Tag) -> bool:
+    """The run gives no authority any more, or the driver changes ends; or its tags are read for another run.
+
+    That is: its first tag is the last one of a run that the train is on; or another tag comes after its first one.
     """
     unit, order = system.units.get(run.train), order_of(system, run)
     return (
         has_no_authority_left(system, run)
         or unit is None
         or order is None
-        or (entered in site.layout.tag_in and site.layout.tag_in[entered] in order.entered)
         or run not in site.formation.front
         or unit.leading != site.formation.front[run]
         or unit.head_tag == order.expected
@@ -185,9 +196,7 @@ def is_permitted_to(site: Site, system: System, run: Run, order: Order | None) -
     )
 
 
-def the_head_reads_it(
-    site: Site, system: System, run: Run, train: Train, cab: Cab, tag: Tag, in_window: bool
-) -> bool:
+def the_head_reads_it(site: Site, system: System, run: Run, train: Train, cab: Cab, tag: Tag, in_window: bool) -> bool:
     """The run's front reads a tag in its window, and nature lets it."""
     return (
         train == run.train
@@ -200,18 +209,15 @@ def the_head_reads_it(
 
 
 def a_train_in_its_destination_tells_it(site: Site, system: System, run: Run) -> bool:
-    """The unit tells that the train stands in the destination of the run (T9).
+    """The unit tells that the train stands in the destination of the run (T9)."""
+    order = order_of(system, run)
+    return order is not None and order.stopped
 
-    Or the run gives no authority any more, as above, or the driver changes ends before.
-    """
+
+def it_is_led_by_that_run_no_more(site: Site, system: System, run: Run) -> bool:
+    """The run gives no authority any more, or the driver changes ends."""
     unit, order = system.units.get(run.train), order_of(system, run)
-    return (
-        has_no_authority_left(system, run)
-        or unit is None
-        or order is None
-        or order.stopped
-        or order.led_by != unit.leading
-    )
+    return has_no_authority_left(system, run) or unit is None or order is None or order.led_by != unit.leading
 
 
 def its_head_has_arrived(site: Site, system: System, run: Run) -> bool:
@@ -230,9 +236,7 @@ def its_head_has_arrived(site: Site, system: System, run: Run) -> bool:
     )
 
 
-def it_stands_there(
-    site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int
-) -> bool:
+def it_stands_there(site: Site, system: System, run: Run, at: Standstill, begin_mm: int, end_mm: int) -> bool:
     """The train stands within its destination, by the odometry."""
     return says_it_stands_between(at, begin_mm, end_mm) and a_train_within_its_destination_is_not_beyond(
         site, system, run, at, begin_mm, end_mm
@@ -240,15 +244,17 @@ def it_stands_there(
 
 
 def a_tail_is_known_at_the_boundary(site: Site, system: System, run: Run, left: Read) -> bool:
-    """The unit knows that its tail is at the end of a block (T2).
+    """The unit knows that its tail is at the end of a block (T2)."""
+    unit = system.units.get(run.train)
+    return unit is not None and unit.tail_read == left
 
-    Or its second loop is open, it restarts, the driver changes ends, or it is in that block no more.
-    """
+
+def its_tail_is_not_followed_there(site: Site, system: System, run: Run, left: Read) -> bool:
+    """The second loop is open, the unit restarts, the driver changes ends, or the train is in that block no more."""
     unit = system.units.get(run.train)
     return (
         unit is None
-        or not lives(system, run.train, run.life)
-        or unit.tail_read == left
+        or unit.life != run.life
         or unit.loop_open
         or run not in site.formation.front
         or unit.leading != site.formation.front[run]
@@ -271,18 +277,19 @@ def the_tail_reads_the_nearer_tag(
 def a_tail_is_known_beyond_the_boundary(site: Site, system: System, run: Run, left: Read, entered: Read) -> bool:
     """The unit knows that its tail has left a block which its head went out of under this run, by both tags (T2, T6).
 
-    Or its second loop is open, it restarts, the driver changes ends, its tail reads another tag than the farther one or
-    is not reached meanwhile, or its head passes that boundary again.
+    What it notes there the tail has read in this order, however late it is told.
+    """
+    order = order_of(system, run)
+    return order is not None and has_noted(site, order, left, entered)
+
+
+def its_tail_is_not_followed_over(site: Site, system: System, run: Run, left: Read, entered: Read) -> bool:
+    """The second loop is open, the unit restarts, the driver changes ends, or the tail's last read is another one.
+
+    That is: it reads another tag, or is not reached meanwhile, or its head passes that boundary again.
     """
     unit, order = system.units.get(run.train), order_of(system, run)
-    return (
-        unit is None
-        or order is None
-        or has_noted(site, order, left, entered)
-        or unit.loop_open
-        or unit.leading != order.led_by
-        or unit.tail_read != left
-    )
+    return unit is None or order is None or unit.loop_open or unit.leading != order.led_by or unit.tail_read != left
 
 
 def has_noted(site: Site, order: Order, left: Read, entered: Read) -> bool:
@@ -330,10 +337,8 @@ def the_tail_reads_the_farther_tag(
     return read == entered and the_tail_reads_it(site, system, run, car, cab, line, read)
 
 
-def the_tail_reads_it(
-    site: Site, system: System, run: Run, car: Car, cab: Cab, line: ThroughLine, read: Read
-) -> bool:
-    """An antenna of the train that does not lead reads, over a line that answers, intact and fitting; nature lets it."""
+def the_tail_reads_it(site: Site, system: System, run: Run, car: Car, cab: Cab, line: ThroughLine, read: Read) -> bool:
+    """An antenna that does not lead reads, over a line that answers, is intact and fits; and nature lets it."""
     return (
         line.answers
         and line.is_intact
@@ -348,10 +353,15 @@ def the_tail_reads_it(
 
 
 PROMISES = (
-    Promise((Link(its_way_goes_on, nature.start_rolling),), a_permitted_train_is_let_out_of_its_block),
+    Promise(
+        (Link(its_way_goes_on, nature.start_rolling),),
+        a_permitted_train_is_let_out_of_its_block,
+        it_may_not_or_need_not_leave,
+    ),
     Promise(
         (Link(its_brake_lets_it_out, nature.car_moves, the_points_lie_for_it),),
         a_head_gets_into_the_next_block,
+        it_rests_or_has_left,
     ),
     Promise(
         (
@@ -359,15 +369,22 @@ PROMISES = (
             Link(its_head_is_over_the_boundary, on_board.head_reads, the_head_reads_the_farther_tag),
         ),
         a_head_is_known_beyond_the_boundary,
+        it_runs_under_this_run_no_more,
     ),
-    Promise((Link(its_head_has_arrived, on_board.note_stopped, it_stands_there),), a_train_in_its_destination_tells_it),
+    Promise(
+        (Link(its_head_has_arrived, on_board.note_stopped, it_stands_there),),
+        a_train_in_its_destination_tells_it,
+        it_is_led_by_that_run_no_more,
+    ),
     Promise(
         (Link(its_tail_comes_to_the_boundary, on_board.tail_reads, the_tail_reads_the_nearer_tag),),
         a_tail_is_known_at_the_boundary,
+        its_tail_is_not_followed_there,
     ),
     Promise(
         (Link(its_tail_is_over_the_boundary, on_board.tail_reads, the_tail_reads_the_farther_tag),),
         a_tail_is_known_beyond_the_boundary,
+        its_tail_is_not_followed_over,
     ),
 )
 """In the order in which a train comes to them."""
