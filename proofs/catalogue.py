@@ -9,7 +9,7 @@ from models.world import premises
 from models.world.state import Site, System
 from proofs.invariants import bookkeeping, initial, messages, movement, points, safety
 from proofs.promise import Predicate, Promise, by_goal
-from proofs.promises import cancellation, first_loop, recovery, release
+from proofs.promises import cancellation, first_loop, recovery, release, service
 from proofs.theory import Theory, predicates
 from proofs.transitions import TRANSITIONS, Transition
 
@@ -24,7 +24,7 @@ SAFETY: Mapping[str, Predicate] = predicates(safety)
 INVARIANTS: Mapping[str, Predicate] = predicates(safety, bookkeeping, messages, movement, points)
 """All that is proved by induction, of site and system."""
 PROMISES: Mapping[str, Promise] = by_goal(
-    promise for subject in (release, first_loop, cancellation, recovery) for promise in subject.PROMISES
+    promise for subject in (first_loop, service, release, cancellation, recovery) for promise in subject.PROMISES
 )
 """What comes about at last, by goal."""
 STEPS: Mapping[str, Transition] = {transition.__name__: transition for transition in TRANSITIONS}

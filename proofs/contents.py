@@ -291,9 +291,9 @@ def key_of(row: str, column: str) -> str | None:
 
 def _of_promise(promise: Promise) -> Iterator[Callable[..., Any]]:
     """What a promise says; of the steps that its links go by only the own one, of its row, is lifted."""
-    yield promise.goal
+    yield from promise.ends
     for link in promise.links:
-        yield from (each for each in (link.holds, link.provided) if each is not None)
+        yield from (each for each in (link.holds, link.provided, link.rank) if each is not None)
 
 
 @cache

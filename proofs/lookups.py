@@ -29,6 +29,9 @@ def lookups(bench: Workbench, name: str) -> list[Any]:
         for predicate in theory.promises[name].predicates:
             about = [bench.scope.constant(kind, f"about.{field}") for field, kind in event_types(predicate).items()]
             lifter.formula(predicate, bench.site, bench.before, *about)
+        for rank in theory.promises[name].ranks:
+            about = [bench.scope.constant(kind, f"about.{field}") for field, kind in event_types(rank).items()]
+            lifter.call(rank, bench.site, bench.before, *about)
     else:
         lifter.formula(theory.read[name], bench.site, bench.before)
     claims = {claim.get_id(): claim for claim in (closed(obligation.claim) for obligation in lifter.obligations)}

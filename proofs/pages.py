@@ -22,7 +22,7 @@ from kernel.tram import display as tram_display
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from proofs import assumptions, fault_pages, joints, promise, promises
-from proofs.catalogue import PROMISES, STEPS
+from proofs.catalogue import STEPS
 from proofs.lints import requirements_in
 from proofs.lints_on_board import OTHERS, world
 from proofs.lints_on_board import asking as asking_on_board
@@ -211,25 +211,28 @@ def promises_page() -> str:
         "",
         (
             "`heisoku prove` proves it in the columns named after the goals: over every transition of the world, for"
-            " every layout, from every state in which the invariants hold. There is no clock in it: fairness says"
-            " *at last*, and how long that takes is measured (`heisoku simulate`)."
+            " every layout, or every train, from every state in which the invariants hold. There is no clock in it:"
+            " fairness says *at last*, and how long that takes is measured (`heisoku simulate`)."
         ),
     ]
-    for name, each in PROMISES.items():
-        lines += [
-            "",
-            f"## {name}",
-            "",
-            sentences(each.goal),
-            "",
-            "| while | this leads on | provided |",
-            "|---|---|---|",
-        ]
-        for link in each.links:
-            event = ", ".join(event_types(link.by))
-            if_so = sentences(link.provided) if link.provided else ""
-            lines.append(f"| {sentences(link.holds)} | `{link.by.__name__}({event})` | {if_so} |")
+    for theory in THEORIES.values():
+        for name, each in theory.promises.items():
+            lines += ["", f"## {row_of(theory, name)}", "", sentences(each.goal), *_promised(each)]
     return "\n".join([*lines, "", plain(inspect.getdoc(promises) or "").split("\n\n", 1)[1], ""])
+
+
+def _promised(each: promise.Promise) -> list[str]:
+    """Give the lines on one promise, after its goal."""
+    lines = [] if each.unless is None else ["", f"What may come in between: {sentences(each.unless)}"]
+    lines += ["", "| while | this leads on | provided |", "|---|---|---|"]
+    for link in each.links:
+        event = ", ".join(event_types(link.by))
+        if_so = sentences(link.provided) if link.provided else ""
+        holds = sentences(link.holds)
+        if link.rank is not None:
+            holds += f" *The number that gets smaller:* {sentences(link.rank)}"
+        lines.append(f"| {holds} | `{link.by.__name__}({event})` | {if_so} |")
+    return lines
 
 
 def sentences(function: Callable[..., object]) -> str:

@@ -53,6 +53,8 @@ class Workbench:
         self._ways: dict[str, tuple[list[Way], list[Any]]] = {}
         self._claims: dict[tuple[int, str], tuple[Any, list[Any]]] = {}
         self._seen: defaultdict[str, Seen] = defaultdict(Seen)
+        self._told: defaultdict[tuple[Any, ...], Seen] = defaultdict(Seen)
+        self._given: dict[tuple[Any, ...], list[Any]] = {}
         self._conditions: dict[tuple[int, ...], tuple[list[Way], list[Any]]] = {}
         self._conjuncts: dict[int, tuple[Any, Sequence[Any]]] = {}
         self.seconds += time.perf_counter() - began
@@ -64,6 +66,7 @@ class Workbench:
         other.__dict__.update(given)
         other.lifter, other.sources = Lifter(self.scope, sources), sources
         other._ways, other._claims, other._seen, other._conditions = {}, {}, defaultdict(Seen), {}
+        other._told, other._given = defaultdict(Seen), {}
         return other
 
     @cached_property
@@ -142,6 +145,13 @@ class Workbench:
             self.seconds += time.perf_counter() - began
         return self._claims[key][1]
 
+    def told_of(self, function: Callable[..., Any], state: Any, given: Mapping[str, Any]) -> Any:
+        """Lift a function of site, state and those of the values that it takes."""
+        values = [given[name] for name in event_types(function)]
+        key = (function, *(id(value) for value in values))
+        self._given[key] = values
+        return self._told[key].of(state, lambda noted: self.lifter.call(function, self.site, noted, *values))
+
     def _said_of(self, state: Any, invariant: str) -> list[Any]:
         return conjuncts(self.lifter.formula(self.theory.invariants[invariant], self.site, state))
 
@@ -187,10 +197,11 @@ class Workbench:
         questions = list[tuple[list[Any], Any]]()
         for ways, goal in self.questions(transition, invariant, chosen):
             definitions = [formula for way in ways for formula in way.definitions]
-            questions += [([condition, *definitions], goal) for condition in self._together(ways)] or [([], goal)]
+            questions += [([condition, *definitions], goal) for condition in self.conditions(ways)] or [([], goal)]
         return self.asked(chosen, questions)
 
-    def _together(self, ways: list[Way]) -> list[Any]:
+    def conditions(self, ways: list[Way]) -> list[Any]:
+        """Give conditions, one of which holds when one of these ways is taken."""
         key = tuple(id(way) for way in ways)
         if key not in self._conditions:
             began = time.perf_counter()

@@ -112,6 +112,7 @@ def run_a_cycle(
             at.front_most_mm,
             at.speed_most_mm_s,
         ),
+        proceeds=may_proceed,
         computer=decided,
     )
 

@@ -67,6 +67,7 @@ class Whole:
     ``astern``: history: in the newest cycle the tail of a whole train, which ran at no more than twice the speed of its
     line, came over the tag that was awaited then, and which was not overdue.
     ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
+    ``proceeds``: history: the orders let it proceed when its computer decided last.
     ``computer``: what its computer remembers.
     """
 
@@ -88,6 +89,7 @@ class Whole:
     astern: bool
     asked: Brake
     held: bool
+    proceeds: bool
     computer: Computer
 
 

@@ -51,7 +51,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
 from models.world.truth import is_overdue_first, only_the_last_speaks
-from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_parts
+from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_parts, train_service
 from proofs.onboard.train_parts import (
     a_narrow_range_finds_what_the_head_missed,
     a_tail_over_a_missed_tag_is_known_too_widely,
@@ -93,6 +93,7 @@ from proofs.onboard.train_parts import (
     what_no_end_has_freed_stands,
     what_the_head_is_on_is_known,
 )
+from proofs.promise import by_goal
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -483,6 +484,7 @@ THEORY = Theory(
     by_name(INVARIANTS),
     by_name(SAFETY),
     by_name(PREMISES),
+    promises=by_goal(train_service.PROMISES),
     parts=(
         "odometry",
         "braking",

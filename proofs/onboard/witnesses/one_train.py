@@ -111,6 +111,7 @@ def at_rest() -> Whole:
         astern=False,
         asked=begun.brake,
         held=True,
+        proceeds=False,
         computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
     )
 
