@@ -331,8 +331,6 @@ KEPT: Mapping[str, str] = {
     " leads to a block must make a neighbour of it",
     "a_part_ends_on_its_route": "is for service: a part that ended elsewhere would never be reported and so never"
     " released",
-    "tags_of_a_boundary_are_partners": "is for service: without a pair at the end of a block its release could have"
-    " no evidence; and it gives the premise `tags_lie_as_planned` its sense",
 }
 """Axioms and premises that no proof uses, and why they are asked of a site nevertheless."""
 
