@@ -53,7 +53,10 @@ HELD: Mapping[str, frozenset[str]] = {"joint": frozenset({"begins_mm", "block_en
 """Fields of a state that a machine holds though they are plain numbers: the lists that a unit was given."""
 
 NOTED: Mapping[str, Mapping[str, str]] = {
-    "train": {"awaited_mm": "the place of a tag that the orders told of, as it was told to the computer"},
+    "train": {
+        "awaited_mm": "the place of a tag that the orders told of, as it was told to the computer",
+        "proceeds": "what is promised while the orders let it proceed is promised by what the computer was told",
+    },
     "antenna_spacing": {
         "head_newest": "a tag is numbered by where it lies; that it was read is what the machine is told"
     },
