@@ -153,7 +153,7 @@ def a_tail_reads_on_while_a_missed_tag_is_not_overdue(steps: Steps) -> Scenario:
 
 
 def what_a_head_has_missed_is_awaited_no_longer(steps: Steps) -> Scenario:
-    """A tag passed unread is awaited until another is read, the ends are changed or a life begins; by its own train."""
+    """A tag passed unread is awaited until another is read, ends are changed or a life begins, by its train (T5)."""
     scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
     run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     roll(scenario, run)
