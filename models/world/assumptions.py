@@ -105,7 +105,7 @@ def a_missed_tag_is_overdue_before_the_tail_comes(
 ) -> bool:
     """A tag that the head has missed is overdue by running distance before what the tail reads there counts.
 
-    There is the missed tag itself, and the one that lies behind it at the same boundary.
+    There is the missed tag itself, and the other of its boundary unless the head read that just before.
     """
     return is_overdue_first(lies_at_a_miss(site, system, train, tag), line)
 

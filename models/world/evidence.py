@@ -26,6 +26,11 @@ def awaited_by_others(system: System, train: Train) -> frozenset[tuple[Train, Ta
     return frozenset((other, tag) for other, tag in system.track.unread if other != train)
 
 
+def awaited_but(system: System, train: Train, tag: Tag) -> frozenset[tuple[Train, Tag]]:
+    """What heads have passed unread, less a tag that this train's reads after all, having rolled back over it."""
+    return frozenset((other, missed) for other, missed in system.track.unread if other != train or missed != tag)
+
+
 def awaited_in(system: System, train: Train, unit: Unit) -> frozenset[tuple[Train, Tag]]:
     """What heads have passed unread and units await yet, with a unit in its next state: no other life awaits it."""
     if unit.life == system.units[train].life:

@@ -15,7 +15,7 @@ from models.world.assumptions import (
 )
 from models.world.evidence import awaited_by_others, awaited_in, unpassed
 from models.world.state import Site, System
-from models.world.truth import stands_within
+from models.world.truth import read_last_before, stands_within
 
 
 def start_rolling(site: Site, system: System, run: Run) -> System:
@@ -107,12 +107,16 @@ def change_ends(site: Site, system: System, train: Train, cab: Cab) -> System:
 
 
 def head_misses(site: Site, system: System, train: Train, tag: Tag) -> System:
-    """A head passes a tag and its antenna reads nothing (T5, T16)."""
+    """A head passes a tag and its antenna reads nothing (T5, T16).
+
+    Where it has just read the other tag of the boundary it has come to that already.
+    """
+    comes_to_it = not read_last_before(site, system, train, tag)
     return replace(
         system,
         track=replace(
             system.track,
-            passed=unpassed(site, system, train, tag),
+            passed=unpassed(site, system, train, tag) if comes_to_it else system.track.passed,
             unread=system.track.unread | {(train, tag)},
         ),
     )

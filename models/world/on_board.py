@@ -19,7 +19,7 @@ from models.world.assumptions import (
     a_tag_is_read_where_it_lies,
     a_train_within_its_destination_is_not_beyond,
 )
-from models.world.evidence import as_written, awaited_by_others, awaited_in, unpassed
+from models.world.evidence import as_written, awaited_but, awaited_by_others, awaited_in, unpassed
 from models.world.state import Site, System
 from models.world.truth import (
     is_genuine,
@@ -117,7 +117,7 @@ def head_reads(site: Site, system: System, train: Train, cab: Cab, tag: Tag, in_
             ),
             last_read=system.track.last_read | {train: tag},
             passed=unpassed(site, system, train, tag),
-            unread=system.track.unread if goes_on else awaited_by_others(system, train),
+            unread=awaited_but(system, train, tag) if goes_on else awaited_by_others(system, train),
             astray=system.track.astray if goes_on else system.track.astray | {(train, unit.life)},
         ),
     )

@@ -168,11 +168,23 @@ def came_round(site: Site, system: System, car: Car, block: Block, left: Tag, en
 
 
 def lies_at_a_miss(site: Site, system: System, train: Train, tag: Tag) -> bool:
-    """The head of a train has passed this tag unread, or the one that is passed before it; its unit awaits that yet."""
+    """The head of a train has passed this tag unread, or the other of its boundary and read neither; that is awaited.
+
+    Where the head has read the nearer tag of a boundary and missed the farther, its tail comes to the nearer before.
+    """
     return any(
-        other == train and (missed == tag or tag in site.ground.laid_leaves.get(missed, {}))
+        other == train
+        and (
+            missed == tag
+            or (tag in site.ground.laid_leaves.get(missed, {}) and not read_last_before(site, system, train, missed))
+        )
         for other, missed in system.track.unread
     )
+
+
+def read_last_before(site: Site, system: System, train: Train, missed: Tag) -> bool:
+    """What the head of a train has read last is the other tag of the boundary that this one lies at."""
+    return train in system.track.last_read and system.track.last_read[train] == site.layout.partner.get(missed)
 
 
 def is_overdue_first(is_unread: bool, line: ThroughLine) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kernel.names import Stage
 from models.world.evidence import as_written
 from models.world.state import Site, System
-from models.world.truth import stands_within
+from models.world.truth import read_last_before, stands_within
 from proofs.invariants.vocabulary import could_be_taken, genuine, reaches, told
 
 
@@ -273,8 +273,10 @@ def the_tails_last_read_was_passed_last(site: Site, system: System) -> bool:
         unit.tail_read is None
         or unit.loop_open
         or any(
-            other == train and tag in (unit.tail_read.tag, site.layout.partner.get(unit.tail_read.tag))
-            for other, tag in system.track.unread
+            other == train
+            and missed in (unit.tail_read.tag, site.layout.partner.get(unit.tail_read.tag))
+            and not read_last_before(site, system, train, missed)
+            for other, missed in system.track.unread
         )
         or site.records.record.get(unit.tail_read.tag) != unit.tail_read.record
         or (train, unit.tail_read.tag) in system.track.passed

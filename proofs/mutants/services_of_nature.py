@@ -54,7 +54,7 @@ def a_boundary_that_the_head_passes_is_passed_anew(steps: Steps) -> Scenario:
     first, second = running.pair(scenario.site.layout, WEST, THROAT)
     before = scenario.system
     anew = went((T1, first), (T1, second))
-    scenario.does("head_misses", {"track": {"passed": anew, "unread": came((T1, first))}}, train=T1, tag=first)
+    scenario.does("head_misses", {"track": {"passed": anew, "unread": came((T1, second))}}, train=T1, tag=second)
     scenario.system = before
     event = {"train": T1, "cab": running.head_cab(scenario, run), "tag": second, "in_window": True}
     scenario.does("head_reads", {"units": {T1: {"tail_read": None}}, "track": {"passed": anew}}, **event)

@@ -10,7 +10,7 @@ a cause that has a name (`train.a_train_that_may_run_comes_to_its_end`). So its 
 (`a_head_gets_into_the_next_block`), reads both tags of the boundary and is known there
 (`a_head_is_known_beyond_the_boundary`), and all of it begins anew with the next block. A run is led into each of its
 blocks once and out of it once, so that there are as many rounds as its way has blocks. A train that came to rest
-before is let out anew. In its destination it tells that it stands (`a_train_in_its_destination_tells_it`).
+before is let out anew. Held in its destination it tells that it stands (`a_train_in_its_destination_tells_it`).
 
 **No machine on board stops it for nothing.** Of the eight that may demand the brake each has a cause that the promise
 names; what such a cause is worth is claimed beside it, of a train whose sensors, motors, brake and antennas keep what

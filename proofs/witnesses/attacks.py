@@ -152,6 +152,23 @@ def a_tail_reads_on_while_a_missed_tag_is_not_overdue(steps: Steps) -> Scenario:
     return scenario
 
 
+def a_tail_reads_the_nearer_tag_where_the_farther_was_missed(steps: Steps) -> Scenario:
+    """The head has read the first tag of a boundary and missed the second: the tail comes to the first before (T5)."""
+    scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
+    run = set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    roll(scenario, run)
+    nearer, farther = pair(scenario.site.layout, WEST, THROAT)
+    scenario.does("head_reads", train=T1, cab=head_cab(scenario, run), tag=nearer, in_window=True)
+    scenario.does("head_misses", {"track": {"unread": came((T1, farther))}}, train=T1, tag=farther)
+    for car in (A1, A2):
+        enters(scenario, run, car, WEST, THROAT)
+    tail_reads_first(scenario, run, nearer)
+    leaves(scenario, A1, WEST)
+    leaves(scenario, A2, WEST)
+    scenario.refuses("tail_reads", **tail_read(scenario, run, farther))
+    return scenario
+
+
 def what_a_head_has_missed_is_awaited_no_longer(steps: Steps) -> Scenario:
     """A tag passed unread is awaited until another is read, ends are changed or a life begins, by its train (T5)."""
     scenario, runs = recovered(steps, {A1: frozenset({WEST}), A2: frozenset({WEST}), B1: frozenset({EAST})})
@@ -171,6 +188,7 @@ def what_a_head_has_missed_is_awaited_no_longer(steps: Steps) -> Scenario:
     behind = next(cab for car, cab in scenario.site.formation.cab.items() if car in (A1, A2) and cab != leads)
     for step, event in (
         ("head_reads", {"cab": leads, "tag": Tag("from elsewhere"), "in_window": True}),
+        ("head_reads", {"cab": leads, "tag": first, "in_window": True}),
         ("change_ends", {"cab": behind}),
         ("restart_unit", {"life": life}),
         ("take_over", {"epoch": epoch, "life": life, "blocks": frozenset({WEST})}),
