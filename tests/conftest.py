@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections import Counter
 
 import pytest
 from _pytest.junitxml import xml_key
@@ -13,6 +14,21 @@ from proofs.records import about
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
 settings.register_profile("explore", deadline=None, derandomize=False, print_blob=True)
 settings.load_profile(os.environ.get("HEISOKU_EXAMPLES", "repeatable"))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Leave all but one in so many cases of a sampled test to the slow ones; of few cases the first stays."""
+    cases = Counter[str]()
+    for item in items:
+        marker = item.get_closest_marker("sampled")
+        if marker is None or item.get_closest_marker("slow") is not None:
+            continue
+        (one_in,) = marker.args
+        of = item.nodeid.partition("[")[0]
+        if cases[of] % one_in:
+            item.add_marker(pytest.mark.slow)
+        cases[of] += 1
 
 
 def pytest_configure(config: pytest.Config) -> None:

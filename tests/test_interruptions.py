@@ -9,6 +9,7 @@ from tests.interruptions import COMMANDS, Disturbance, closed, drawn, ended, int
 CHECK, PROVE = COMMANDS[0], COMMANDS[4]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("words", "how", "moment"),
     [

@@ -79,6 +79,7 @@ PLANTED = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("fault", PLANTED)
 def test_a_deduction_left_out_breaks_a_claim(fault: str) -> None:
     register = packed(replace(REGISTER, bounds=PLANTED[fault]))
@@ -103,6 +104,7 @@ def test_dropped_guards_break_their_claims() -> None:
     assert total(rows, ASSUMPTIONS) == 0
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("fault", [fault.name for fault in BEYOND])
 def test_a_fault_beyond_what_is_assumed_is_counted_against_its_assumption(fault: str) -> None:
     rows = np.array([one_day(SEED, day, beyond=(fault,)) for day in range(6)])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import numpy as np
+import pytest
 
 from kernel.alarm.tone import Reason, Tone
 from models.compiled import packed
@@ -15,6 +16,7 @@ from models.reproduce.tables import table_as_text
 ALARM, FAULT, CAUTION, NORMAL = (packed(each) for each in (Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL))
 
 
+@pytest.mark.slow
 def test_the_paper_is_reproduced() -> None:
     told: list[tuple[int, int, str]] = []
     found = PAPERS["004"].reproduce(3, 2, lambda done, total, what: told.append((done, total, what)))

@@ -60,6 +60,7 @@ def test_a_day_is_the_same_in_whatever_batch() -> None:
     assert (SYSTEM.simulate(8, range(4)) != whole).any()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", BROKEN_BY)
 def test_a_broken_assumption_is_named(name: str) -> None:
     """And no other is, but those that follow from it."""
@@ -80,6 +81,7 @@ def test_broken_assumptions_break_claims() -> None:
 # ---- planted faults
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("change", "claim"),
     [({"reopening_cycles": 0}, "lifted_between"), ({"silence_cycles": 10**6}, "unwarned_silence")],

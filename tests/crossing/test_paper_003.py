@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from models.crossing.sites import CURVED, HOURS, STRAIGHT, WARNING_S
 from models.reproduce import paper_003
@@ -14,6 +15,7 @@ from models.reproduce.pictures import png
 from models.reproduce.tables import table_as_text
 
 
+@pytest.mark.slow
 def test_the_paper_is_reproduced() -> None:
     told: list[tuple[int, int, str]] = []
     found = paper_003.reproduce(3, 1, lambda done, total, what: told.append((done, total, what)))

@@ -29,6 +29,7 @@ def test_refused_with_file_line_and_hint(name: str, tmp_path: Path) -> None:
     assert refusal.value.hint
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", [name for name, (verdict, _) in ATTACKS.items() if verdict != "refused"])
 def test_means_in_logic_what_it_means_in_python(name: str, tmp_path: Path) -> None:
     verdict, text = ATTACKS[name]

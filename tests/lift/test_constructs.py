@@ -12,6 +12,7 @@ from tests.lift.differential import check_function
 from tests.lift.harbour import UNIVERSE
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "function", [*harbour.FUNCTIONS, *harbour_steps.FUNCTIONS], ids=lambda function: function.__name__
 )

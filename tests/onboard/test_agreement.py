@@ -48,6 +48,7 @@ def test_machines_are_found() -> None:
     assert len(FUNCTIONS) > 10
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_cpython_and_compiled_agree(name: str) -> None:
     module, function = FUNCTIONS[name]
@@ -55,12 +56,14 @@ def test_cpython_and_compiled_agree(name: str) -> None:
     assert seen[Outcome.AGREED] > SAMPLES // 2, f"hardly compared: {seen}"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", STATES)
 def test_cpython_and_compiled_agree_along_runs(name: str) -> None:
     module, state = STATES[name]
     assert agree_along_runs(module, compiled(module), state, runs=100, steps=40) > 1000
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", STATES)
 def test_no_reading_of_64_bits_makes_a_machine_wrap_round(name: str) -> None:
     module, state = STATES[name]
@@ -68,6 +71,7 @@ def test_no_reading_of_64_bits_makes_a_machine_wrap_round(name: str) -> None:
         assert strays(module, compiled(module), state, runs=2000, steps=4) == []
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_cpython_and_lifted_agree(name: str) -> None:
     module, function = FUNCTIONS[name]

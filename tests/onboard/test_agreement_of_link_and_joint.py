@@ -341,6 +341,7 @@ def test_every_transition_premise_and_claim_is_compared() -> None:
         assert {*theory.steps.values(), *theory.read.values()} <= set(FUNCTIONS.values())
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_cpython_and_lifted_terms_agree(name: str) -> None:
     seen = agree(name)

@@ -77,6 +77,7 @@ def test_all_that_is_claimed_can_hold_at_once(theory: Theory) -> None:
     assert false(theory.invariants, site, system) == []
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("theory", "name"),
     [(theory, name) for theory in OTHERS.values() for name in theory.invariants],
@@ -90,12 +91,14 @@ def test_every_claim_on_board_can_be_false(theory: Theory, name: str) -> None:
     assert any(name in false(theory.invariants, site, system) for site, system in models)
 
 
+@pytest.mark.sampled(2)
 @theories
 def test_every_transition_changes_the_state_in_a_witness(theory: Theory) -> None:
     assert witnesses(theory.name)
     assert sorted({call.step for call in calls_of(theory.name) if call.after != call.before}) == sorted(theory.steps)
 
 
+@pytest.mark.sampled(2)
 @theories
 def test_every_step_of_a_witness_is_within_the_premises_and_keeps_what_is_claimed(theory: Theory) -> None:
     for call in calls_of(theory.name):

@@ -243,6 +243,7 @@ def cut_off(path: Path, what: str) -> str:
     return what
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("what", ["answer", "text"])
 @pytest.mark.parametrize("tamper", [exchanged, copied, led_elsewhere, retyped, cut_off], ids=lambda each: each.__name__)
 def test_whatever_is_done_to_an_entry_is_named_and_changes_nothing_that_is_said(

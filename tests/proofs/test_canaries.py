@@ -124,6 +124,7 @@ def proved_with(fake: str, package: str, place: Path, *options: str) -> tuple[in
     return ended.returncode, lines, json.loads(record.read_text("utf-8"))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("solver", "package", "source"), [("z3", "z3", FAKE_Z3), ("cvc5", "cvc5", FAKE_CVC5)])
 def test_a_fake_in_place_of_the_library_is_named(solver: str, package: str, source: str, tmp_path: Path) -> None:
     only = "^(part|lock) locks_agree$"

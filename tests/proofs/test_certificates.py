@@ -23,6 +23,7 @@ from proofs.theories import THEORIES, columns, row_of
 DRAWN = random.Random(7)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("theory", THEORIES)
 def test_an_obligation_of_each_theory_is_gone_through(theory: str) -> None:
     rows = [row_of(THEORIES[theory], name) for name in THEORIES[theory].steps]
@@ -88,6 +89,7 @@ def stub(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     outside.installed.cache_clear()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("says", "code"),
     [

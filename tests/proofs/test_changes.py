@@ -57,6 +57,7 @@ def test_a_change_is_refuted(name: str) -> None:
     assert seen.by.endswith("by z3")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SAMPLE)
 def test_without_the_change_the_same_obligations_are_not_refuted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     made = planted(changes()[name])

@@ -90,6 +90,7 @@ def drawn(count: int) -> list[Change]:
     return [*random.Random(7).sample(small, count), changes()["wrong_epoch"]]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("change", drawn(4), ids=lambda each: each.name)
 def test_a_changed_kernel_changes_the_digest_of_whatever_is_lifted_from_it(change: Change, tree: Path) -> None:
     made, of = planted(change), change.theories
@@ -121,6 +122,7 @@ def test_every_change_of_the_kernel_that_is_written_down_changes_the_digests_of_
                 assert not made.touches(function) or not said or said & there, (change.name, function)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("file", "old", "new"),
     [

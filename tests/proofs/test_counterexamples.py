@@ -42,6 +42,7 @@ def conflicting() -> counterexample.Counterexample:
     return found
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("transition", [step.__name__ for step in TRANSITIONS])
 def test_no_transition_of_the_kernel_has_a_counterexample(transition: str) -> None:
     assert search(world(), transition).verdict == "none"

@@ -88,12 +88,13 @@ def test_service_is_there_while_no_guard_is_dropped(name: str) -> None:
     assert ONLOOKERS[name]({}).taken
 
 
-def test_every_guard_kept_for_service_has_a_witness_that_fails_without_it() -> None:
-    found = {entry.mutant: objection(entry) for entry in entries(SERVICE)}
-    assert {name: wrong for name, wrong in found.items() if wrong} == {}
-    assert found
+@pytest.mark.sampled(14)
+@pytest.mark.parametrize("entry", entries(SERVICE), ids=lambda entry: entry.mutant[:80])
+def test_every_guard_kept_for_service_has_a_witness_that_fails_without_it(entry: Entry) -> None:
+    assert objection(entry) == ""
 
 
-@pytest.mark.parametrize("entry", entries(IMPLIED)[::7], ids=lambda entry: entry.mutant[:80])
+@pytest.mark.sampled(28)
+@pytest.mark.parametrize("entry", entries(IMPLIED), ids=lambda entry: entry.mutant[:80])
 def test_implied_guard_makes_no_difference_on_any_layout(entry: Entry) -> None:
     assert objection(entry) == ""

@@ -52,6 +52,7 @@ def test_a_drop_on_board_is_noticed(beginning: str) -> None:
     assert verdict.finding
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "row",
     [
@@ -67,6 +68,7 @@ def test_no_step_breaks_a_claim_while_nothing_is_dropped(row: str) -> None:
     assert verdict in ("none", "unknown")
 
 
+@pytest.mark.sampled(3)
 @theories
 def test_no_witness_fails_while_nothing_is_dropped(theory: Theory) -> None:
     assert plays.failing(theory.name, {}) == []

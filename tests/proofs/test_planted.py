@@ -31,6 +31,7 @@ def named(fault: Fault | Protocol) -> str:
     return fault.name if isinstance(fault, Fault) else fault.fault.name
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("fault", FAULTS, ids=named)
 def test_fault_is_refuted_in_a_small_world_where_the_kernel_is_not(fault: Fault) -> None:
     answer = search(world(fault.without), fault.transition, fault.sources)

@@ -157,6 +157,7 @@ def refuted(of: Workbench, transition: str, name: str) -> bool:
     return False
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("dropped", "transition", "promise"),
     [
@@ -185,6 +186,7 @@ def test_a_kernel_that_forgets_or_does_not_act_breaks_a_promise(dropped: str, tr
     assert refuted(bench().replacing(mutant.sources), transition, promise)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("step", "promise"),
     [

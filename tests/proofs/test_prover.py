@@ -373,6 +373,7 @@ def test_the_hash_is_of_the_text(sample: list[Obligation]) -> None:
 # ---- both encodings
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("named", [True, False], ids=["two vocabularies", "substituted"])
 def test_both_forms_of_a_transition_prove_the_sample(named: bool) -> None:
     bench = Workbench(scope=UnboundedScope(), named=named)

@@ -47,6 +47,7 @@ def test_a_refusal_is_given_in_a_witness(why: Refusal, played: Mapping[str, Scen
     assert refused_by(played).get(why)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("transition", TRANSITIONS)
 def test_a_transition_that_does_nothing_is_noticed(transition: str) -> None:
     def nothing(site: Site, system: System, **event: Any) -> System:

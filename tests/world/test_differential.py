@@ -104,6 +104,7 @@ def test_every_transition_axiom_and_premise_is_compared() -> None:
     assert len(FUNCTIONS) > 200
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_cpython_and_lifted_terms_agree(name: str) -> None:
     universe = CROSSING if name == "kernel.restarts.restart_crossing" else UNIVERSE

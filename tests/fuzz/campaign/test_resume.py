@@ -87,6 +87,7 @@ def test_workers_end_with_a_campaign_that_is_killed(tmp_path: Path) -> None:
         time.sleep(0.05)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interrupted_campaign_says_how_to_go_on_and_keeps_what_is_finished(
     tmp_path: Path, number: signal.Signals

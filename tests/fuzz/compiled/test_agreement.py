@@ -90,6 +90,7 @@ class Beside:
         assert self.code.memory.final_hash(packed) == self.code.memory.final_hash(self.memory)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", STATIONS)
 @pytest.mark.parametrize("seed", FEW)
 def test_traffic_goes_the_same_way_compiled(name: str, seed: int) -> None:
@@ -186,6 +187,7 @@ def states(name: str, seed: int, count: int) -> Iterator[tuple[Traffic, System, 
             yield played, played.play.system, list(runs)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", STATIONS)
 def test_any_event_in_any_state_is_taken_the_same_way(name: str) -> None:
     code, random, changed = compiled(name), Random(3), 0
@@ -202,6 +204,7 @@ def test_any_event_in_any_state_is_taken_the_same_way(name: str) -> None:
     assert changed > 50
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", STATIONS)
 def test_each_invariant_says_the_same_of_states_that_cannot_be(name: str) -> None:
     code, random = compiled(name), Random(4)
@@ -224,6 +227,7 @@ def test_each_invariant_says_the_same_of_states_that_cannot_be(name: str) -> Non
     assert all(True in answers for answers in said.values())
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", STATIONS)
 def test_whatever_falsifies_an_invariant_has_it_asked(name: str) -> None:
     """Of a set's bits only what has grown, or what has shrunk, has to have an invariant asked that was true before."""

@@ -21,6 +21,7 @@ def shrunk(planted: str) -> Shrunk:
     return shrink(found(planted), imported(PLANTED[planted][0]))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("planted", PLANTED)
 def test_what_is_left_fails_alike_and_nothing_of_it_can_go(planted: str) -> None:
     place = imported(PLANTED[planted][0])

@@ -131,6 +131,7 @@ def test_a_batch_is_the_same_again() -> None:
     assert result(None, 1).covered != result().covered
 
 
+@pytest.mark.slow
 def test_what_is_found_does_not_depend_on_what_was_searched_before() -> None:
     fault = OLD_LIFE
     first = result(fault).failures

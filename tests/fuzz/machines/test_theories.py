@@ -25,6 +25,7 @@ def test_every_theory_but_the_interlocking_has_a_machine() -> None:
     assert {*BESIDE, "interlocking"} == set(THEORIES)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("theory", BESIDE)
 def test_the_sound_kernel_breaks_no_claim(theory: str) -> None:
     machine = machine_of(theory)
@@ -39,6 +40,7 @@ def found_with(fault: str) -> tuple[tuple[str, ...], int] | None:
     return None if broken is None else (broken.violated, len(broken.taken))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_planted_fault_is_found_and_shrunk(fault: str) -> None:
     """In a process of its own: what a hunt begins from does not depend on the tests before it."""

@@ -103,6 +103,7 @@ def failure() -> str:
     raise AssertionError("not found")
 
 
+@pytest.mark.slow
 def test_an_odometry_that_trusts_a_slipping_wheel_is_found_out_by_the_truth(failure: str) -> None:
     told = json.loads(failure)
     assert told["violated"][0] == "range_contains_the_train"

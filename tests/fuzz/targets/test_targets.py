@@ -34,7 +34,11 @@ def batch(target: Target, number: int = 0, seed: int = 3, weights: tuple[float, 
     return Batch(target.name, number, seed, weights)
 
 
-@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
+@pytest.mark.parametrize(
+    "target",
+    [pytest.param(TRAFFIC, marks=pytest.mark.slow), *TARGETS[1:]],
+    ids=lambda target: target.name,
+)
 def test_a_batch_follows_from_its_numbers_and_fails_nowhere(target: Target) -> None:
     once, again = (target.run(batch(target)) for _ in range(2))
     assert replace(once, seconds=0.0) == replace(again, seconds=0.0)
@@ -45,6 +49,7 @@ def test_a_batch_follows_from_its_numbers_and_fails_nowhere(target: Target) -> N
     assert other.failures == ()
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
 def test_every_tuple_has_words_and_every_family_a_weight(target: Target) -> None:
     found = target.run(batch(target))
@@ -120,6 +125,7 @@ def test_a_walk_that_fails_is_walked_again(tmp_path: Path, capsys: pytest.Captur
     assert heisoku.run(["replay", str(path), "--html", str(tmp_path / "page.html")]) == BAD_INPUT
 
 
+@pytest.mark.slow
 def test_a_jolted_state_that_fails_is_found_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     faulty = Jolted(STATION).with_fault("interlocking", FORGETFUL)
     assert faulty is not None

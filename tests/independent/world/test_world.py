@@ -10,7 +10,7 @@ import pytest
 
 from kernel.names import Point, Position, Train
 from tests.independent.world.cab import BOUNDS
-from tests.independent.world.campaign import Found, Tally, campaign, campaigns, happens_again, layouts, live, shrunk
+from tests.independent.world.campaign import Tally, campaign, campaigns, happens_again, layouts, live, shrunk
 from tests.independent.world.drawn import LAYOUTS, told
 from tests.independent.world.hazards import COLLISION, FREED, POINT, TRACK_ENDS, UNHELD, Hazard
 from tests.independent.world.kernel_calls import Board, Calls
