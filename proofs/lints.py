@@ -108,6 +108,11 @@ LEAVES: Mapping[str, Mapping[str, Leave]] = {
     },
     "models/world/radio.py": {},
     "models/world/evidence.py": {
+        "awaited_but": Leave(
+            frozenset({"track.unread"}),
+            frozenset(),
+            "gives the history `unread` for a step to write on; no machine is handed it",
+        ),
         "awaited_by_others": Leave(
             frozenset({"track.unread"}),
             frozenset(),

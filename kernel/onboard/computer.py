@@ -162,6 +162,15 @@ def note_entered(computer: Computer) -> Computer:
     return replace(computer, known=replace(known, limit=speed_limit.note_entered(known.limit, curve, turnout)))
 
 
+# ---- fixes
+
+
+def note_fix(computer: Computer, least_mm: int, most_mm: int) -> Computer:
+    """Narrow the range by a fix, as a feature of the track gives one: from where to where the front is now (P3, P7)."""
+    motion = odometry.note_fix(computer.known.motion, least_mm, most_mm)
+    return replace(computer, known=replace(computer.known, motion=motion))
+
+
 # ---- tags
 
 
@@ -241,8 +250,7 @@ def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, ki
     if not reads_in_window(limits, computer, place_mm):
         return read_unlisted(computer)
     found = fix(limits, computer, place_mm)
-    motion = odometry.note_fix(computer.known.motion, found.least_mm, found.most_mm)
-    fixed = replace(computer, known=replace(computer.known, motion=motion))
+    fixed = note_fix(computer, found.least_mm, found.most_mm)
     at = place_of_read(fixed)
     read = replace(
         fixed,
@@ -337,8 +345,7 @@ def note_place(limits: Limits, computer: Computer, least_mm: int, most_mm: int) 
     """
     if not is_held(standstill(limits, computer)):
         return computer
-    motion = odometry.note_fix(computer.known.motion, least_mm, most_mm)
-    return replace(computer, known=replace(computer.known, motion=motion))
+    return note_fix(computer, least_mm, most_mm)
 
 
 def withhold_end(computer: Computer) -> Computer:

@@ -29,6 +29,7 @@ from models.onboard.train_nature import (
     a_brake_that_has_responded_keeps_its_bound,
     a_cycle_begins_when_the_one_before_was_sensed,
     a_cycle_is_sensed_once,
+    a_recognised_feature_is_where_it_is_registered,
     a_rolling_wheel_measures,
     a_tachometer_sticks_at_a_speed,
     a_train_whose_computer_is_off_is_held,
@@ -234,6 +235,19 @@ def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole
         system,
         running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
         computer=said,
+    )
+
+
+def recognise_a_feature(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
+    """A feature of the track has been recognised: its fix says where the front is, carried on to now (P2, P3, P7)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    if not a_recognised_feature_is_where_it_is_registered(system, least_mm, most_mm):
+        return system
+    return replace(
+        system,
+        running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
+        computer=computer.note_fix(system.computer, least_mm, most_mm),
     )
 
 

@@ -398,6 +398,11 @@ def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> b
     return tag_fix.the_way_follows_the_speed(read_at_nm, system.front_nm, system.from_um_s, system.speed_um_s)
 
 
+def a_recognised_feature_is_where_it_is_registered(system: Whole, least_mm: int, most_mm: int) -> bool:
+    """A feature's fix contains the front (P3)."""
+    return NM_A_MM * least_mm <= system.front_nm <= NM_A_MM * most_mm
+
+
 def the_train_stands_where_it_is_said_to(system: Whole, least_mm: int, most_mm: int) -> bool:
     """Who locates a train anew sees it stand, and its front within what he says (P7, T8)."""
     return odometry.the_train_stands_where_it_is_said_to(before(system), least_mm, most_mm)

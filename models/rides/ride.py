@@ -50,8 +50,8 @@ Computer, put_into_service, decide, sense = (
 await_tag, await_none = MADE.computer.await_tag, MADE.computer.await_none
 reads_in_window, fix_of = MADE.computer.reads_in_window, MADE.computer.fix
 read_by_head, read_by_tail = MADE.computer.read_by_head, MADE.computer.read_by_tail
-Known, take_end = MADE.brake_demand.Known, MADE.braking.take_end
-note_fix, rear_least_mm = MADE.odometry.note_fix, MADE.odometry.rear_least_mm
+take_end = MADE.braking.take_end
+note_fix, rear_least_mm = MADE.computer.note_fix, MADE.odometry.rear_least_mm
 way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings
 note_frame, delivers, mended = MADE.tag_reader.note_frame, MADE.tag_reader.delivers, MADE.tag_reader.mended
@@ -181,16 +181,6 @@ def at_the_ends(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> A
 
 
 @compiled
-def fixed(computer: Any, least_mm: int, most_mm: int) -> Any:
-    """The computer, its range narrowed by a feature: it has no machine for these yet (P3, P7)."""
-    known, motion = computer.known, note_fix(computer.known.motion, least_mm, most_mm)
-    return Computer(
-        Known(motion, known.watch, known.movement, known.limit, known.wholeness, known.window, known.ahead),
-        computer.before, computer.from_mm, computer.spacing, computer.length, computer.brake,
-    )  # fmt: skip
-
-
-@compiled
 def feature_at(row: Any) -> Any:
     """A feature of the line, from its numbers."""
     return Feature(
@@ -217,7 +207,7 @@ def along_the_curve(trace: Any, cycle: int, computer: Any, curve: Any, fronts_mm
         error_mm = way_error_mm(SENSORS, since_mm)
         least_mm = detection.fix_least_mm + since_mm - error_mm
         most_mm = detection.fix_most_mm + since_mm + error_mm
-        computer = fixed(computer, least_mm, most_mm)
+        computer = note_fix(computer, least_mm, most_mm)
         out[tally.FEATURES_FIXED] += 1
         out[tally.FIX_BROKEN] += not least_mm <= trace.head_m[cycle] * 1000 <= most_mm
         out[tally.CONTRADICTED] += computer.known.motion.loss == CONTRADICTED

@@ -59,3 +59,28 @@ def what_is_said_too_late_of_a_train_is_not_taken() -> None:
     before = ride.system
     ride.step("note_place", least_mm=least_mm, most_mm=seen_mm + 1)
     assert ride.system == before, "a brake that has responded does not hold it at rest yet"
+
+
+def a_feature_narrows_the_range_of_a_train_that_runs() -> None:
+    """A fix that contains the front is taken under way, and no other; nothing else is changed by it (P2, P3, P7)."""
+    ride = Ride()
+    ride.start()
+    ride.run(100)
+    running = ride.system
+    ride.step("recognise_a_feature", least_mm=0, most_mm=10**9)
+    assert ride.system is running, "within a cycle nothing is recognised: its readings are yet to come"
+    ride.sense()
+    before, front_mm = ride.system, ride.system.front_nm // NM_A_MM
+    for least_mm, most_mm in ((front_mm + 1, front_mm + 1_000), (front_mm - 1_000, front_mm - 1)):
+        ride.step("recognise_a_feature", least_mm=least_mm, most_mm=most_mm)
+        assert ride.system == before, "the front is not there"
+    ride.step("recognise_a_feature", least_mm=front_mm, most_mm=front_mm + 1)
+    motion = replace(
+        before.computer.known.motion,
+        front_least_mm=front_mm,
+        front_most_mm=front_mm + 1,
+        anchor_least_mm=front_mm,
+        anchor_most_mm=front_mm + 1,
+        anchor_way_mm=before.computer.known.motion.way_mm,
+    )
+    assert ride.system.computer == replace(before.computer, known=replace(before.computer.known, motion=motion))
