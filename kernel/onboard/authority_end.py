@@ -70,8 +70,7 @@ def ends_mm(
 def is_stopped(unit: Unit, block_ends_mm: Map[Run, Map[Block, int]]) -> bool:
     """Tell whether the train is to stand: none of the runs that the unit has lists of lets it move (T4, T5).
 
-    A run that is led by the other cab lets it move no less than one that is led by this: lists are surveyed for the
-    leading cab's runs alone.
+    A host gives the lists of the runs that the leading cab leads: a run back would count here like any other.
     """
     return not any(may_proceed(unit, run) for run in block_ends_mm)
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from kernel.onboard import brake_demand, computer
 from kernel.onboard import braking as brake_control
+from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
 from models.onboard import (
@@ -229,13 +230,7 @@ def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole
     if not who_says_where_a_held_train_is_sees_it_stand(site, system, least_mm, most_mm):
         return system
     said = computer.note_place(site.limits, system.computer, least_mm, most_mm)
-    if said == system.computer:
-        return system
-    return replace(
-        system,
-        running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
-        computer=said,
-    )
+    return system if said == system.computer else _fixed(site, system, said, least_mm, most_mm)
 
 
 def recognise_a_feature(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -244,11 +239,13 @@ def recognise_a_feature(site: Train, system: Whole, least_mm: int, most_mm: int)
         return system
     if not a_recognised_feature_is_where_it_is_registered(system, least_mm, most_mm):
         return system
-    return replace(
-        system,
-        running=odometry.take_fix(line(site), running(system), least_mm, most_mm),
-        computer=computer.note_fix(system.computer, least_mm, most_mm),
-    )
+    return _fixed(site, system, computer.note_fix(system.computer, least_mm, most_mm), least_mm, most_mm)
+
+
+def _fixed(site: Train, system: Whole, told: Computer, least_mm: int, most_mm: int) -> Whole:
+    """The computer has taken a fix of the train where it is."""
+    running_on = odometry.take_fix(line(site), running(system), least_mm, most_mm)
+    return replace(system, running=running_on, computer=told)
 
 
 def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:

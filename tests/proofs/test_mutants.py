@@ -81,6 +81,8 @@ def test_what_compares_places_is_decided_in_a_small_world() -> None:
 
 def test_no_entry_speaks_of_a_mutant_that_is_no_more() -> None:
     assert [name for name in table() if name not in mutants()] == []
+    assert entries(SERVICE)
+    assert entries(IMPLIED)
 
 
 @pytest.mark.parametrize("name", [name for name in ONLOOKERS if name not in WITNESSES])

@@ -25,6 +25,10 @@ from tests.layouts.stations import ROOT
 STATION = ROOT / "layouts" / "passing_station.toml"
 TRAFFIC = Interlocking(STATION)
 TARGETS: tuple[Target, ...] = (TRAFFIC, Walks(), LinkRuns())
+each_target = pytest.mark.parametrize(
+    "target", [pytest.param(TRAFFIC, marks=pytest.mark.slow), *TARGETS[1:]], ids=lambda target: target.name
+)
+"""Traffic is compiled for a minute or more before its first batch."""
 FORGETFUL = "kernel.restarts.restart_centre: update claimed={}"
 LATE = "kernel.link.judge: guard if telegram.sent_at_ms - now_ms > 2 * limits.offset_ms: Outcome.FROM_THE_FUTURE"
 
@@ -34,11 +38,7 @@ def batch(target: Target, number: int = 0, seed: int = 3, weights: tuple[float, 
     return Batch(target.name, number, seed, weights)
 
 
-@pytest.mark.parametrize(
-    "target",
-    [pytest.param(TRAFFIC, marks=pytest.mark.slow), *TARGETS[1:]],
-    ids=lambda target: target.name,
-)
+@each_target
 def test_a_batch_follows_from_its_numbers_and_fails_nowhere(target: Target) -> None:
     once, again = (target.run(batch(target)) for _ in range(2))
     assert replace(once, seconds=0.0) == replace(again, seconds=0.0)
@@ -49,8 +49,7 @@ def test_a_batch_follows_from_its_numbers_and_fails_nowhere(target: Target) -> N
     assert other.failures == ()
 
 
-@pytest.mark.sampled(9)
-@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
+@each_target
 def test_every_tuple_has_words_and_every_family_a_weight(target: Target) -> None:
     found = target.run(batch(target))
     words = [target.describe(each) for each in found.covered]
