@@ -141,6 +141,7 @@ def a_fix_that_contradicts_leaves_the_track_unknown() -> None:
     assert told.known.motion.loss is Loss.CONTRADICTED
     assert told.known.limit.in_curve
     assert told.known.limit.at_turnout
+    assert told.known.limit == before.known.limit, "nor does one end where the front is not"
 
 
 def a_tail_that_follows_as_preset_counts() -> None:
