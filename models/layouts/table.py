@@ -14,8 +14,8 @@ routes run over it: from one block lead those that follow it on some route which
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import dataclass, replace
 from typing import Any
 
 from jsonschema import Draft202012Validator
@@ -70,7 +70,7 @@ _VALIDATOR = Draft202012Validator(
 
 @dataclass(frozen=True)
 class TableRoute:
-    """One row of an interlocking table; ``path`` holds segments and signals in running order."""
+    """One row of an interlocking table; ``path`` holds pieces of track in running order, and no signals."""
 
     name: str
     source: str
@@ -141,7 +141,7 @@ def _fouling(file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute]
     for index, pair in enumerate(pairs):
         for name, other in (pair, reversed(pair)):
             if name not in known:
-                what = f"no route runs over '{name}'"
+                what = f"no route runs over track '{name}'"
                 raise BadInput(file, f"fouling[{index}]", what, "correct the name: a section, or a piece of path")
             found[name] = found.get(name, frozenset()) | {other}
     return found
@@ -157,7 +157,25 @@ def read_routes(file: str, rows: list[Mapping[str, Any]]) -> dict[str, TableRout
         for other in sorted(route.conflicts - set(routes)):
             what = f"there is no route '{other}'"
             raise BadInput(file, f"route '{name}' conflicts", what, "correct the reference or add the route")
-    return routes
+    signals = {signal for route in routes.values() for signal in (route.source, route.destination)}
+    return {name: _on_track(file, route, signals) for name, route in routes.items()}
+
+
+def _on_track(file: str, route: TableRoute, signals: Set[str]) -> TableRoute:
+    """The row without the signals that its path passes: two routes that pass one signal share no track by that."""
+    made = {f"before {signal}": f"signal '{signal}'" for signal in signals}
+    made |= {f"at {point}": f"point '{point}'" for point in route.points}
+    for field, names in (("path", route.path), ("sections", route.sections), ("points", route.points)):
+        for name in names:
+            whose = made.get(name) if field != "points" else None
+            if whose or (name in signals and field != "path"):
+                what = f"'{name}' is the name of {f'a block at {whose}' if whose else 'a signal'} too"
+                raise BadInput(file, f"route '{route.name}' {field}", what, "give one of the two another name")
+    path = tuple(piece for piece in route.path if piece not in signals)
+    if not path:
+        place, what = f"route '{route.name}' path", "holds signals alone: the route leads over no track"
+        raise BadInput(file, place, what, "give the pieces of track that it runs over")
+    return replace(route, path=path)
 
 
 def _read_route(file: str, name: str, row: Mapping[str, Any]) -> TableRoute:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from kernel.layout import Layout
@@ -16,6 +16,7 @@ from models.layouts.findings import Findings
 from models.layouts.numbers import number_blocks, records_for
 from models.layouts.reading import escaped
 from models.layouts.results import Imported, Places
+from models.layouts.table_ways import compare_ways, named
 from models.layouts.told import Told, Wanted
 from models.layouts.track import LOW
 
@@ -30,14 +31,13 @@ def homes(routes: Sequence[TableRoute]) -> dict[str, str]:
     """The section that each piece of path belongs to; pieces that belong to none are left out."""
     over: dict[str, set[str]] = defaultdict(set)
     through: dict[str, set[str]] = defaultdict(set)
-    signals = {signal for route in routes for signal in (route.source, route.destination)}
     for route in routes:
         for piece in route.path:
             over[piece].add(route.name)
         for section in route.sections:
             through[section].add(route.name)
     found: dict[str, str] = {}
-    for piece in sorted(set(over) - signals):
+    for piece in sorted(over):
         share = {s: len(over[piece] & through[s]) / len(over[piece] | through[s]) for s in sorted(through)}
         best = max(share, key=lambda section: share[section])
         if share[best] >= ALWAYS_TOGETHER:
@@ -71,8 +71,7 @@ def assemble_table(
     rows = [Row(route, covers, _needs(route), Block("")) for route, covers in _covered(routes, findings)]
     _start(rows, findings)
     stands_in = _stand(rows, findings)
-    _agree(rows, stands_in, findings)
-    _merge(rows, stands_in, findings)
+    compare_ways(rows, stands_in, findings)
     track = Track(rows)
     layout = _layout(rows, stands_in, track, trains, _fouling(routes, fouls))
     places = Places(
@@ -103,21 +102,19 @@ def _needs(route: TableRoute) -> dict[Point, Position]:
 def _covered(routes: Sequence[TableRoute], findings: Findings) -> Iterable[tuple[TableRoute, list[Block]]]:
     """Each route with its blocks in running order, held against the sections it lists."""
     home = homes(routes)
-    signals = {signal for route in routes for signal in (route.source, route.destination)}
     for route in routes:
-        pieces = [home.get(piece, piece) for piece in route.path if piece not in signals]
-        covers = list(dict.fromkeys(Block(piece) for piece in pieces))
+        run = [block for block, _ in groupby(Block(home.get(piece, piece)) for piece in route.path)]
+        for block in sorted(block for block, times in Counter(run).items() if times > 1):
+            text = f"route '{route.name}' leaves '{block}' and comes back into it: a train would be in it twice"
+            findings.violation("a route passes a block once", (route.name, block), text)
+        covers = list(dict.fromkeys(run))
         passed = [block for block in covers if block in set(home.values())]
         if passed != list(route.sections):
-            text = f"route '{route.name}' lists sections {_list(route.sections)} but its path runs over {_list(passed)}"
+            text = f"route '{route.name}' lists sections {named(route.sections)} but its path runs over {named(passed)}"
             odd = sorted(set(passed) ^ set(route.sections)) or list(route.sections)
             findings.violation("sections are those of the path", (route.name, *odd), text)
         covers += [Block(section) for section in route.sections if section not in covers]
         yield route, covers
-
-
-def _list(names: Iterable[str]) -> str:
-    return ", ".join(f"'{name}'" for name in names) or "none"
 
 
 def _start(rows: Sequence[Row], findings: Findings) -> None:
@@ -137,7 +134,7 @@ def _start(rows: Sequence[Row], findings: Findings) -> None:
         else:
             row.start = min(found, key=lambda block: (-found[block], block))
             if len(found) > 1 and source not in told:
-                text = f"routes to signal '{source}' end in different sections: {_list(sorted(found))}"
+                text = f"routes to signal '{source}' end in different sections: {named(sorted(found))}"
                 findings.violation("a signal stands at one section", (source, *sorted(found)), text)
         told.add(source)
 
@@ -173,27 +170,12 @@ def _start_by_track(row: Row, met: set[Block], sections: Set[str], findings: Fin
     if len(met) == 1 or not tell:
         return
     if not met and row.covers[0] in sections:
-        findings.remark((source,), f"no route ends at signal '{source}': routes from it start in a block of their own")
+        text = f"no route ends at signal '{source}': routes from it start in a block of their own"
+        findings.remark((source,), text, "derived")
         return
-    found = f"{_list(sorted(met))} may lie before it" if met else "no route the other way shows what lies before it"
+    found = f"{named(sorted(met))} may lie before it" if met else "no route the other way shows what lies before it"
     text = f"no route ends at signal '{source}' and {found}: it is not known where its routes start"
     findings.violation("a route starts in a known block", (source, *sorted(met)), text)
-
-
-def _merge(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
-    """Routes that run the same way from two blocks into a third and on alike do so over a point."""
-    from_: dict[tuple[str, Block, Block | None], dict[Block, str]] = defaultdict(dict)
-    for row in rows:
-        for before, block, onward in zip(row.chain, row.covers, [*row.covers[1:], None], strict=False):
-            from_[row.route.orientation, block, onward].setdefault(before, row.route.name)
-    told: set[tuple[str, ...]] = set()
-    for (_, block, _), routes in from_.items():
-        if len(routes) > 1 and block not in stands_in.values():
-            elements = (*sorted(routes.values()), *sorted(routes))
-            text = f"routes {_list(sorted(routes.values()))} come into '{block}' from {_list(sorted(routes))}: no point"
-            if elements not in told:
-                findings.violation("tracks merge at a point", (*elements, str(block)), f"{text} stands there")
-            told.add(elements)
 
 
 def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
@@ -210,6 +192,10 @@ def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
         for point in row.needs:
             votes[point][Block(f"at {point}")] += 0
     stands_in = {point: min(found, key=lambda block: (-found[block], block)) for point, found in votes.items()}
+    for block in sorted({block for row in rows for block in row.covers} - set(stands_in.values()) - sections):
+        over = [row.route.name for row in rows if block in row.covers]
+        text = f"'{block}' belongs to no section, and no point stands there: nothing tells of a train in it"
+        findings.violation("track lies in a section or at a point", (block, *over), text)
     for row in rows:
         on_path = {point for point, block in stands_in.items() if block in row.covers}
         for point in sorted(on_path - set(row.needs)):
@@ -219,25 +205,6 @@ def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
             text = f"route '{row.route.name}' gives a position for point '{point}', which is not on its path"
             findings.violation("a route's positions are of its points", (row.route.name, point), text)
     return stands_in
-
-
-def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
-    """A point joins two blocks in the same position on every route; where rows differ, the fewest are wrong."""
-    lies: dict[tuple[Point, frozenset[Block]], dict[Position, list[str]]] = defaultdict(lambda: defaultdict(list))
-    for row in rows:
-        sides = dict(zip(row.chain[1:], zip(row.chain, row.chain[2:], strict=False), strict=False))
-        for point, position in row.needs.items():
-            before, behind = sides.get(stands_in[point], (None, None))
-            if before is not None and behind is not None:
-                lies[point, frozenset((before, behind))][position].append(row.route.name)
-    for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
-        most = max(map(len, by_position.values()))
-        doubted = [at for at in by_position if len(by_position[at]) < most] or list(by_position)
-        for position in sorted(doubted) if len(by_position) > 1 else ():
-            for route in by_position[position]:
-                between = _list(sorted(pair))
-                text = f"route '{route}' wants point '{point}' in '{position}' between {between}; others do not"
-                findings.violation("a point lies one way between two blocks", (route, point), text)
 
 
 def _fouling(routes: Sequence[TableRoute], fouls: Mapping[str, frozenset[str]]) -> dict[Block, frozenset[Block]]:

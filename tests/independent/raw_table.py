@@ -118,6 +118,8 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     if len(first) > 2:
         found.violations.append(Finding("routes run one way or the other", tuple(first.values())))
     _compare_positions(found)
+    _look_where_nothing_detects(found)
+    _look_at_ends(found)
     _compare_conflicts(found)
     return found
 
@@ -236,6 +238,57 @@ def _compare_positions(found: Enumerated) -> None:
         most = max(by, key=lambda position: (len(by[position]), position))
         odd |= {(route, point) for position, routes in by.items() if position != most for route in routes}
     found.violations += [Finding("a point lies one way between two blocks", one) for one in sorted(odd)]
+
+
+def _look_where_nothing_detects(found: Enumerated) -> None:
+    """A segment of no section on which no point stands, with every row over it."""
+    for segment in sorted(
+        {one for one, block in found.block_of.items() if one == block} - set(found.stands_in.values())
+    ):
+        over = [row.name for row in found.rows.values() if segment in row.segments]
+        found.violations.append(Finding("track lies in a section or at a point", (segment, *over)))
+
+
+def _look_at_ends(found: Enumerated) -> None:
+    """What adjoins each end of a block, with its points lying one way or without any: what several rows may not tell.
+
+    The ends of a block are left and right of a train of the first row's orientation.
+    """
+    ways: dict[tuple[str, tuple[str, ...]], set[tuple[str, str, str]]] = {}
+    orientation = next(iter(found.rows.values())).orientation
+    for route in found.routes.values():
+        way, points = ["", route.start, *route.covers, ""], found.rows[route.name].points
+        for left, block, right in zip(way, way[1:], way[2:], strict=False):
+            lying = tuple(sorted(f"{point} {at}" for point, at in points.items() if found.stands_in[point] == block))
+            ends = (left, right) if found.rows[route.name].orientation == orientation else (right, left)
+            if lying or block not in found.stands_in.values():
+                ways.setdefault((block, lying), set()).add((*ends, route.name))
+    for (block, lying), told in ways.items():
+        standing = [point for point, under in found.stands_in.items() if under == block]
+        if lying:
+            _lie_one_way(found, standing, {(left, right, name) for left, right, name in told if left and right})
+        else:
+            _adjoin(found, block, told)
+
+
+def _lie_one_way(found: Enumerated, points: list[str], told: set[tuple[str, str, str]]) -> None:
+    """Two rows over points that lie the same, which share the block on one side, share that on the other."""
+    for side in sorted({end for left, right, _ in told for end in (left, right)}):
+        here = {(right if left == side else left, name) for left, right, name in told if side in (left, right)}
+        if len(beyond := {other for other, _ in here}) > 1:
+            named = sorted({name for _, name in here})
+            found.violations.append(Finding("a point leads one way", (*named, *points, side, *sorted(beyond))))
+
+
+def _adjoin(found: Enumerated, block: str, told: set[tuple[str, str, str]]) -> None:
+    """Plain track adjoins one block at an end, or two tracks through it are apart and no row starts or ends there."""
+    for end in (0, 1):
+        beside = sorted({ends[end] for ends in told} - {""})
+        ways = {(left, right) for left, right, _ in told}
+        beyond = [right if end == 0 else left for left, right in ways]
+        if len(beside) > 1 and ("" in beyond or len(set(beyond)) < len(beyond) or len(beside) < len(beyond)):
+            named = sorted({ends[2] for ends in told if ends[end]})
+            found.violations.append(Finding("tracks merge at a point", (*named, *beside, block)))
 
 
 def fouling_blocks(found: Enumerated) -> set[tuple[str, str]]:

@@ -136,6 +136,55 @@ SKIPPED = table(
     row("1", "AD", "up", "x z", "2 3"), row("2", "AB", "up", "x y", "1 3"), row("3", "BD", "up", "z", "1 2")
 )
 
+
+def _beside(name: str, passed: tuple[str, str], **more: Any) -> str:
+    """Two lines of two sections each, routes over both and over each part, which conflict with what they lie in.
+
+    The long routes pass the signals ``passed``, which stand for a way onto another track.
+    """
+    up = row("1", "AB", "up", "x y", "2 3 4"), row("3", "AM", "up", "x", "1"), row("4", "MB", "up", "y", "1")
+    down = row("2", "CD", "up", "u v", "1 5 6"), row("5", "CN", "up", "u", "2"), row("6", "ND", "up", "v", "2")
+    for each, signal in zip((up[0], down[0]), passed, strict=True):
+        each["path"].insert(1, {"id": signal})
+    return table(*up, *down, row("7", "G" + name, "up", "w"), **more)
+
+
+def over_point(name: str, ends: str, way: str, beyond: str, conflicts: str) -> dict[str, Any]:
+    """A row over a loose piece where point P lies to the left, and over one section before or behind it."""
+    told = {"path": [{"id": "loose"}, {"id": f"piece {beyond}"}], "points": [{"id": "P", "position": "left"}]}
+    return {**row(name, ends, way, beyond, conflicts), **told}
+
+
+LEFT_TWICE = table(
+    over_point("1", "BA", "up", "a", "2 4"),
+    over_point("2", "CA", "up", "a", "1 4"),
+    row("4", "ED", "down", "a", "1 2"),
+    row("5", "XB", "up", "b"),
+    row("6", "YC", "up", "c"),
+)
+MEET_AT_AN_END = table(
+    row("1", "BD", "up", "a d", "2 3"),
+    row("2", "CS", "up", "a", "1"),
+    row("3", "SD", "up", "d", "1"),
+    row("5", "XB", "up", "b"),
+    row("6", "YC", "up", "c"),
+)
+MEET_THE_OTHER_WAY = table(
+    row("2", "CS", "up", "a", "7"),
+    row("3", "SD", "up", "d"),
+    row("6", "YC", "up", "c"),
+    row("7", "EF", "down", "a", "2"),
+    row("8", "FG", "down", "b"),
+)
+
+
+def _through(*more: dict[str, Any]) -> str:
+    """A row over three pieces that lists the sections of the first two, one that runs over the second, and others."""
+    three = {"path": [{"id": f"piece {piece}"} for piece in "xyz"]}
+    first = row("R", "AB", "up", "x y", " ".join(("D", *(each["id"] for each in more))))
+    return table({**first, **three}, row("D", "NM", "down", "y", "R"), *more)
+
+
 # ---- railML 3
 
 
@@ -238,6 +287,62 @@ DANGERS = {
         "'Up' is written once for 'up' where no row runs the other way",
         "differ in case",
         *("up", "Up"),
+    ),
+    "fouling of signals.yml": _of(
+        _beside("S", ("S", "G"), fouling=[["S", "G"]]),
+        "what fouls is told by the names of signals, which are no track: no block fouls another, and both trains run",
+        "no route runs over track 'S'",
+    ),
+    "one signal passed.yml": _of(
+        _beside("S", ("S", "S")),
+        "two routes are declared to conflict, and share the name of a signal alone: nothing keeps their trains apart",
+        "declared conflicts follow",
+        *("1", "2"),
+    ),
+    "left twice.yml": _of(
+        LEFT_TWICE,
+        "a point in one position leads from one track to two: trains are permitted onto the leg that it is not set for",
+        "a point leads one way",
+        *("1", "2", "P", "section a", "section b", "section c"),
+    ),
+    "meet where a route ends.yml": _of(
+        MEET_AT_AN_END,
+        "tracks meet in a section without a point, and the route over one of them ends there",
+        "tracks merge at a point",
+        *("1", "2", "section a", "section b", "section c"),
+    ),
+    "meet the other way.yml": _of(
+        MEET_THE_OTHER_WAY,
+        "the same, and the routes run the two ways",
+        "tracks merge at a point",
+        *("2", "8", "section a", "section b", "section c"),
+    ),
+    "of no section.yml": _of(
+        _through(row("E", "AN", "up", "x", "R")),
+        "the last piece of a path is of no section and of no point: the train in it is detected by nothing",
+        "track lies in a section or at a point",
+        *("R", "piece z"),
+    ),
+    "back into a section.yml": _of(
+        _through(),
+        "a path comes back into a section that it has left: one half of it lies behind the route's end",
+        "a route passes a block once",
+        *("R", "section x"),
+    ),
+    "signal and section.yml": _of(
+        table(*ROWS[:3], {**ROWS[3], "source": "section x"}),
+        "one name is a signal and a section",
+        "'section x' is the name of a signal too",
+    ),
+    "signals alone.yml": _of(
+        table(*ROWS, {**row("5", "AC", "up", "x"), "path": [{"id": "B"}]}),
+        "a path is of signals alone: the route runs over no track",
+        "holds signals alone",
+    ),
+    "block by name.yml": _of(
+        table({**ROWS[0], "path": [{"id": "before A"}, {"id": "piece y"}]}, *ROWS[1:]),
+        "a piece has the name of the block that a route is started in where the table begins",
+        "'before A' is the name of a block at signal 'A' too",
     ),
     "skips a piece.yml": _of(
         SKIPPED,

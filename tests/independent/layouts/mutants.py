@@ -48,8 +48,8 @@ from tests.layouts.railml_made import railml_of
 PACKAGE = ROOT / "models" / "layouts"
 MODULES = (
     *("alike", "assemble", "beside", "blocks", "clearance", "conflicts", "distances", "following", "geometry"),
-    *("granting", "loops", "native", "numbers", "railjson", "rests", "standing", "table", "table_layout", "track"),
-    *("checker", "conflict_pairs", "continuation", "sorts"),
+    *("granting", "loops", "native", "numbers", "railjson", "rests", "standing", "table", "table_layout", "table_ways"),
+    *("track", "checker", "conflict_pairs", "continuation", "sorts"),
     *("railml.declared", "railml.document", "railml.importing", "railml.marks", "railml.overlaps", "railml.routes"),
     *("railml.sections", "railml.switches", "railml.topology", "railml.unread", "railml.version_2"),
 )
@@ -286,7 +286,8 @@ def dangerous() -> Iterator[tuple[str, str]]:
 
 def reads(module: str, file: File) -> bool:
     """Whether a module has a part in importing a file."""
-    kinds = {"railjson": ".json", "native": ".toml", "conflicts": ".yml", "table": ".yml", "table_layout": ".yml"}
+    kinds = {"railjson": ".json", "native": ".toml"}
+    kinds |= dict.fromkeys(("conflicts", "table", "table_layout", "table_ways"), ".yml")
     if module in ("checker", "conflict_pairs", "sorts"):
         return True
     kind = kinds.get(module, ".railml" if module.startswith("railml") else "")
