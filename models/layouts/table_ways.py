@@ -7,7 +7,7 @@ joins, and what lies at either end of plain track, is the same for every row.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from kernel.names import Block, Point, Position
@@ -36,15 +36,23 @@ def named(names: Iterable[str]) -> str:
     return ", ".join(f"'{name}'" for name in names) or "none"
 
 
+def _over_points(
+    rows: Sequence[Row], stands_in: Mapping[Point, Block]
+) -> Iterator[tuple[str, Block, Block, Lie, Block]]:
+    """Each row through a block with points: its name, the block before, that block, how its points lie, and behind."""
+    for row in rows:
+        for before, block, behind in zip(row.chain, row.covers, row.covers[1:], strict=False):
+            lie = frozenset(need for need in row.needs.items() if stands_in[need[0]] == block)
+            if lie:
+                yield row.route.name, before, block, lie, behind
+
+
 def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
     """A point joins two blocks in the same position on every route; where rows differ, the fewest are wrong."""
     lies: dict[tuple[Point, frozenset[Block]], dict[Position, list[str]]] = defaultdict(lambda: defaultdict(list))
-    for row in rows:
-        sides = dict(zip(row.chain[1:], zip(row.chain, row.chain[2:], strict=False), strict=False))
-        for point, position in row.needs.items():
-            before, behind = sides.get(stands_in[point], (None, None))
-            if before is not None and behind is not None:
-                lies[point, frozenset((before, behind))][position].append(row.route.name)
+    for name, before, _, lie, behind in _over_points(rows, stands_in):
+        for point, position in lie:
+            lies[point, frozenset((before, behind))][position].append(name)
     for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
         most = max(map(len, by_position.values()))
         doubted = [at for at in by_position if len(by_position[at]) < most] or list(by_position)
@@ -58,12 +66,9 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
 def _lead_one_way(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
     """From one side, the points of a block in the same positions lead to one other side."""
     leads: dict[tuple[Block, Lie, Block], dict[Block, set[str]]] = defaultdict(lambda: defaultdict(set))
-    for row in rows:
-        for before, block, behind in zip(row.chain, row.covers, row.covers[1:], strict=False):
-            lie = frozenset(need for need in row.needs.items() if stands_in[need[0]] == block)
-            if lie:
-                leads[block, lie, before][behind].add(row.route.name)
-                leads[block, lie, behind][before].add(row.route.name)
+    for name, before, block, lie, behind in _over_points(rows, stands_in):
+        leads[block, lie, before][behind].add(name)
+        leads[block, lie, behind][before].add(name)
     for (_, lie, side), found in sorted(leads.items(), key=lambda item: (item[0][0], sorted(item[0][1]), item[0][2])):
         if len(found) > 1:
             routes, points = sorted(set().union(*found.values())), sorted(lie)
@@ -80,7 +85,7 @@ def _merge(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
     for row in rows:
         for before, block, behind in zip([None, *row.chain[:-1]], row.chain, [*row.covers, None], strict=True):
             way = (before, behind) if row.route.orientation == upward else (behind, before)
-            if block not in stands_in.values() and way != (None, None):
+            if block not in stands_in.values():
                 ways[block][way].add(row.route.name)
     for block, found in ways.items():
         for end in (0, 1):

@@ -8,7 +8,6 @@ segments are those listed by exactly the rows that list the section, and so for 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -196,29 +195,28 @@ def _follow(found: Enumerated, row: Row) -> None:
         found.violations.append(Finding("a route's positions are of its points", (row.name, point)))
 
 
-def onwards(found: Enumerated, orientation: str) -> dict[tuple[str, str], dict[str, str]]:
-    """Block and next block, as rows of an orientation have them -> what all these rows want of the first's points."""
-    wanted: dict[tuple[str, str], dict[str, str]] = {}
+def _onwards(found: Enumerated, orientation: str) -> dict[tuple[str, str], list[tuple[str, dict[str, str]]]]:
+    """Block and next block, as rows of an orientation have them -> where each came from, how the points lie there."""
+    wanted: dict[tuple[str, str], list[tuple[str, dict[str, str]]]] = {}
     for route in found.routes.values():
         row = found.rows[route.name]
-        if row.orientation != orientation:
-            continue
-        way = [route.start, *route.covers]
-        for block, following in pairwise(way):
+        way = ["", route.start, *route.covers]
+        for came, block, following in zip(way, way[1:], way[2:], strict=False):
             here = {point: position for point, position in row.points.items() if found.stands_in[point] == block}
-            known = wanted.setdefault((block, following), here)
-            wanted[block, following] = {point: at for point, at in known.items() if here.get(point) == at}
+            if row.orientation == orientation:
+                wanted.setdefault((block, following), []).append((came, here))
     return wanted
 
 
 def _look_astray(found: Enumerated, row: Row) -> None:
-    """Blocks that other rows of the orientation go on to, and no held point turns this one away from."""
+    """Blocks that rows which came the same way go on to, and no point that all rows there want turns this one away."""
     route = found.routes[row.name]
-    every = onwards(found, row.orientation)
-    way = [route.start, *route.covers]
-    for block, following in pairwise(way):
-        for (of, into), wanted in sorted(every.items()):
-            astray = of == block and into != following
+    every = _onwards(found, row.orientation)
+    way = ["", route.start, *route.covers]
+    for came, block, following in zip(way, way[1:], way[2:], strict=False):
+        for (of, into), rows in sorted(every.items()):
+            astray = of == block and into != following and (not came or any(other in ("", came) for other, _ in rows))
+            wanted = {point: at for point, at in rows[0][1].items() if all(here.get(point) == at for _, here in rows)}
             if astray and not any(route.needs.get(point, at) != at for point, at in wanted.items()):
                 found.violations.append(Finding("track_leads_along_the_way_or_is_turned", (row.name, block, into)))
 
@@ -235,8 +233,9 @@ def _compare_positions(found: Enumerated) -> None:
                     by.setdefault(position, set()).add(route.name)
     odd: set[tuple[str, str]] = set()
     for (point, _), by in wanted.items():
-        most = max(by, key=lambda position: (len(by[position]), position))
-        odd |= {(route, point) for position, routes in by.items() if position != most for route in routes}
+        most = max(len(routes) for routes in by.values())
+        few = [routes for routes in by.values() if len(routes) < most] or list(by.values())
+        odd |= {(route, point) for routes in few for route in routes if len(by) > 1}
     found.violations += [Finding("a point lies one way between two blocks", one) for one in sorted(odd)]
 
 

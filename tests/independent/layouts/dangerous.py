@@ -162,10 +162,15 @@ LEFT_TWICE = table(
     row("5", "XB", "up", "b"),
     row("6", "YC", "up", "c"),
 )
+LEFT_AND_RIGHT = table(
+    over_point("1", "BA", "up", "a", "2 4"),
+    {**over_point("2", "BE", "up", "a", "1 4"), "points": [{"id": "P", "position": "right"}]},
+    row("4", "ED", "down", "a", "1 2"),
+    row("5", "XB", "up", "b"),
+)
 MEET_AT_AN_END = table(
-    row("1", "BD", "up", "a d", "2 3"),
+    row("1", "BD", "up", "a d", "2"),
     row("2", "CS", "up", "a", "1"),
-    row("3", "SD", "up", "d", "1"),
     row("5", "XB", "up", "b"),
     row("6", "YC", "up", "c"),
 )
@@ -184,6 +189,20 @@ def _through(*more: dict[str, Any]) -> str:
     first = row("R", "AB", "up", "x y", " ".join(("D", *(each["id"] for each in more))))
     return table({**first, **three}, row("D", "NM", "down", "y", "R"), *more)
 
+
+TABLES_THAT_HOLD = {
+    "table.yml": table(*ROWS),
+    "tracks cross in a section.yml": table(
+        row("1", "AB", "up", "a x b", "2 3"),
+        row("2", "CD", "up", "c x d", "1 4"),
+        row("3", "AM", "up", "a", "1"),
+        row("4", "CN", "up", "c", "2"),
+    ),
+    "sections foul.yml": table(
+        row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
+    ),
+}
+"""Tables without a danger, one of each thing that can be right: what is wrong looks much like it."""
 
 # ---- railML 3
 
@@ -304,6 +323,12 @@ DANGERS = {
         "a point in one position leads from one track to two: trains are permitted onto the leg that it is not set for",
         "a point leads one way",
         *("1", "2", "P", "section a", "section b", "section c"),
+    ),
+    "left and right.yml": _of(
+        LEFT_AND_RIGHT,
+        "two routes run the same way over a point and want it otherwise: one of them is derailed",
+        "a point lies one way between two blocks",
+        *("1", "2", "P"),
     ),
     "meet where a route ends.yml": _of(
         MEET_AT_AN_END,

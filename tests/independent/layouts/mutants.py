@@ -34,7 +34,7 @@ from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
 from tests.independent.layouts import railml_2_pieces, railml_pieces
 from tests.independent.layouts.crafted import CRAFTED
-from tests.independent.layouts.dangerous import DANGERS
+from tests.independent.layouts.dangerous import DANGERS, TABLES_THAT_HOLD
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station
@@ -252,7 +252,8 @@ def corpus() -> Iterator[File]:
     for name in SAMPLES:
         yield File(name, files.path_of(name).read_text(encoding="utf-8"))
     yield from itertools.starmap(
-        File, (*CRAFTED.items(), *dangerous(), *railml_pieces.files(), *railml_2_pieces.files())
+        File,
+        (*CRAFTED.items(), *TABLES_THAT_HOLD.items(), *dangerous(), *railml_pieces.files(), *railml_2_pieces.files()),
     )
     for number in range(EDITED):
         what, data = edited("junction.toml", NATIVE, random.Random(number))

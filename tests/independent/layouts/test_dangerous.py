@@ -7,7 +7,7 @@ import re
 import pytest
 
 from models.layouts import BadInput, check, load_text
-from tests.independent.layouts.dangerous import BOTH, DANGERS, ROWS, SPOTS, railml, table
+from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, TABLES_THAT_HOLD, railml
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
 """Files that are no layout; of a train that is none there is no element to name."""
@@ -35,7 +35,7 @@ def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
     assert refused >= DANGERS[name].elements
 
 
-@pytest.mark.parametrize(("name", "text"), [("table.yml", table(*ROWS)), ("two lines.railml", railml(BOTH, SPOTS))])
+@pytest.mark.parametrize(("name", "text"), [*TABLES_THAT_HOLD.items(), ("two lines.railml", railml(BOTH, SPOTS))])
 def test_without_its_danger_nothing_of_the_kind_is_said(name: str, text: str) -> None:
     result = check(load_text(name, text))
     assert result.verdict == "holds"
