@@ -198,6 +198,15 @@ TABLES_THAT_HOLD = {
         row("3", "AM", "up", "a", "1"),
         row("4", "CN", "up", "c", "2"),
     ),
+    "starts in a crossing.yml": table(
+        row("1", "AB", "up", "x b", "2 3 4"),
+        row("2", "CD", "up", "x d", "1 3 4"),
+        row("3", "EF", "down", "b x a", "1 2 4"),
+        row("4", "GH", "down", "d x c", "1 2 3"),
+    ),
+    "starts behind a start.yml": table(
+        row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
+    ),
     "sections foul.yml": table(
         row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
     ),
@@ -324,6 +333,20 @@ DANGERS = {
         "a point leads one way",
         *("1", "2", "P", "section a", "section b", "section c"),
     ),
+    "two before.yml": _of(
+        table(
+            row("1", "AB", "up", "x", "2 3"), row("2", "CD", "down", "x w", "1 3"), row("3", "CE", "down", "x v", "1 2")
+        ),
+        "a route starts in one of two sections, and nobody knows in which",
+        "a route starts in a known block",
+        *("A", "section v", "section w"),
+    ),
+    "starts over a point.yml": _of(
+        table(over_point("1", "AB", "up", "a", "2"), row("2", "CD", "down", "a", "1")),
+        "a route starts over a point, and nothing tells what lies before that",
+        "a route starts in a known block",
+        "A",
+    ),
     "left and right.yml": _of(
         LEFT_AND_RIGHT,
         "two routes run the same way over a point and want it otherwise: one of them is derailed",
@@ -363,6 +386,11 @@ DANGERS = {
         table(*ROWS, {**row("5", "AC", "up", "x"), "path": [{"id": "B"}]}),
         "a path is of signals alone: the route runs over no track",
         "holds signals alone",
+    ),
+    "no sections.yml": _of(
+        table({**ROWS[0], "sections": []}, *ROWS[1:]),
+        "a route lists no section: nothing detects a train on it",
+        "sections: is empty",
     ),
     "block by name.yml": _of(
         table({**ROWS[0], "path": [{"id": "before A"}, {"id": "piece y"}]}, *ROWS[1:]),
