@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import sqlite3
 from collections.abc import Iterator
@@ -11,6 +12,7 @@ from typing import IO
 
 from fuzz.campaign.identity import FORMAT
 from fuzz.campaign.problems import CampaignError
+from models.exit_codes import BAD_INPUT, UNDECIDED
 
 DATABASE, LOCK = "campaign.db", "lock"
 APPLICATION = 0x6865_696B
@@ -30,23 +32,29 @@ def said(path: Path) -> Iterator[None]:
     try:
         yield
     except sqlite3.Error as error:
-        raise CampaignError(complaint(path, error)) from error
+        raise complaint(path, error) from error
     except OSError as error:
         where = error.filename or path
         line = f"{where}: cannot be written ({error.strerror}); make room or give leave, then start again with the same"
-        raise CampaignError(f"{line} folder: what was finished is kept") from error
+        code = UNDECIDED if error.errno in NO_ROOM else BAD_INPUT
+        raise CampaignError(f"{line} folder: what was finished is kept", code) from error
 
 
-def complaint(path: Path, error: sqlite3.Error) -> str:
-    """One line: what is wrong with the store, and what to do."""
+NO_ROOM = frozenset((errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO))
+"""What the file system says where the folder is right, and nothing can be written to it."""
+
+
+def complaint(path: Path, error: sqlite3.Error) -> CampaignError:
+    """One line: what is wrong with the store, and what to do; a store that is none is bad input."""
     code = getattr(error, "sqlite_errorcode", 0) & 0xFF
-    if code == sqlite3.SQLITE_FULL:
-        return f"{path}: the disk is full; make room and start again with the same folder: what was finished is kept"
     if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
-        return damaged(path, str(error))
-    if code == sqlite3.SQLITE_BUSY:
-        return f"{path}: is held by another program; end it and start again"
-    return f"{path}: cannot be read or written ({error}); mend that and start again: what was finished is kept"
+        return CampaignError(damaged(path, str(error)))
+    line = f"{path}: cannot be read or written ({error}); mend that and start again: what was finished is kept"
+    if code == sqlite3.SQLITE_FULL:
+        line = f"{path}: the disk is full; make room and start again with the same folder: what was finished is kept"
+    elif code == sqlite3.SQLITE_BUSY:
+        line = f"{path}: is held by another program; end it and start again"
+    return CampaignError(line, UNDECIDED)
 
 
 def damaged(path: Path, what: str) -> str:
