@@ -101,6 +101,10 @@ def answered(laid: Laid, asked: Iterable[Asked], there: Mapping[str, Any]) -> di
     return {by: there[key] for by, key in keys.items() if key in there}
 
 
+NO_STORE = frozenset((sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CANTOPEN))
+"""What SQLite says of a file that is none of its own."""
+
+
 @cache
 def _asking(solver: str, budget: int) -> str:
     package = {"z3": "z3-solver"}.get(solver, solver)
@@ -114,7 +118,8 @@ class KeptProofs:
 
     ``altered``: keys of entries that are not as they were kept; they count as not kept.
 
-    :raises BadInput: it is no such file, or cannot be read.
+    :raises BadInput: it is no such file, or cannot be opened.
+    :raises OSError: it cannot be read or written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -133,7 +138,14 @@ class KeptProofs:
                 self._db.executescript(SCHEMA)
             self._db.execute("PRAGMA synchronous = NORMAL")
         except sqlite3.Error as error:
-            raise self._bad(f"cannot be used ({error})") from error
+            raise self._failed("cannot be used", error) from error
+
+    def _failed(self, what: str, error: sqlite3.Error) -> BadInput | OSError:
+        """What SQLite says: of a file that is none of ours it is bad input, else it could not be read or written."""
+        said = f"{what} ({error})"
+        if getattr(error, "sqlite_errorcode", 0) & 0xFF in NO_STORE:
+            return self._bad(said)
+        return OSError(errno.EIO, said, str(self.path))
 
     def _bad(self, what: str) -> BadInput:
         return BadInput(str(self.path), "the file", what, "name another, or delete it: it only saves time")
@@ -147,7 +159,7 @@ class KeptProofs:
             try:
                 rows = self._db.execute(question, some).fetchall()
             except sqlite3.Error as error:
-                raise self._bad(f"cannot be read ({error})") from error
+                raise self._failed("cannot be read", error) from error
             for key, content, digest in rows:
                 if digest == sealed(key, content):
                     found[key] = json.loads(content)

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import resource
 import sqlite3
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -20,6 +23,7 @@ from proofs.matrix import totals
 from proofs.records import Report
 from proofs.solvers import Reply
 
+ROOT = Path(__file__).resolve().parents[2]
 ONLY = r"^display\.(init|take_place|hear) "
 """A few obligations, of which some ask nothing."""
 
@@ -303,6 +307,22 @@ def test_what_cannot_be_written_loses_no_verdict(tmp_path: Path, monkeypatch: py
     report = proved(tmp_path / "F")
     assert report.verdict == "proved"
     assert report.said == [f"{tmp_path / 'F'}: nothing more is kept (database or disk is full)"]
+
+
+@pytest.mark.parametrize("limit", [0, 600, 40_000])
+def test_a_file_that_may_not_grow_is_no_bad_input(limit: int, tmp_path: Path) -> None:
+    """Where nothing can be written to it nothing is decided, or what was found is said without it."""
+    ended = subprocess.run(
+        [sys.executable, str(ROOT / "heisoku_start.py"), "prove", "--jobs", "1", "--only", ONLY, "--kept", "F"],
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=300,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert (ended.returncode, "Traceback" in ended.stderr) in ((3, False), (0, False))
+    assert "F: " in ended.stdout + ended.stderr
 
 
 # ---- no evidence
