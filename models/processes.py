@@ -10,6 +10,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import active_children, parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
+from multiprocessing.resource_tracker import ensure_running
 from typing import TypeVar
 
 Work = TypeVar("Work")
@@ -18,7 +19,12 @@ Found = TypeVar("Found")
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """A process started in here is not ended by the terminal's interruption: whoever started it ends it."""
+    """A process started in here is not ended by the terminal's interruption: whoever started it ends it.
+
+    The process that keeps track of shared memory is begun before: Python begins it with the first process of all, and
+    lets interruptions through again then.
+    """
+    ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -12,6 +13,7 @@ import pytest
 
 from models.processes import as_they_end, processes, spread
 
+ROOT = Path(__file__).resolve().parents[2]
 LONG_S = 600.0
 PATIENCE_S = 60.0
 PROGRAM = """
@@ -30,6 +32,21 @@ def work_long(note: Path) -> None:
     beside.write_text(str(os.getpid()))
     beside.replace(note)
     time.sleep(LONG_S)
+
+
+FIRST = """
+from tests.host.test_processes import say_whether_interrupted
+from models.processes import Uninterrupted
+if __name__ == "__main__":
+    for _ in range(2):
+        process = Uninterrupted(target=say_whether_interrupted)
+        process.start()
+        process.join()
+"""
+
+
+def say_whether_interrupted() -> None:
+    print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []), flush=True)
 
 
 def square(number: int) -> int:
@@ -54,6 +71,16 @@ def waited_for(notes: list[Path]) -> list[int]:
         assert time.monotonic() < until, "the work has not begun"
         time.sleep(0.05)
     return [int(note.read_text()) for note in notes]
+
+
+def test_not_even_the_first_process_of_a_program_hears_an_interruption(tmp_path: Path) -> None:
+    program = tmp_path / "first.py"
+    program.write_text(FIRST)
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    told = subprocess.run(
+        [sys.executable, program], env=environment, text=True, capture_output=True, timeout=PATIENCE_S, check=False
+    )
+    assert (told.stdout.split(), told.stderr) == (["True", "True"], "")
 
 
 @pytest.mark.parametrize("way", ["spread", "as_they_end"])
