@@ -20,6 +20,7 @@ class Blocks:
 
     ``of``: the block of every segment.  ``ends``: for a block, the headings out of it, at
     detectors and at ends of track.  ``bounds``: the marks that bound it.  ``points_in``: its points.
+    ``alike``: blocks whose names are told apart by a number alone, since one name was made for several.
     """
 
     segments: Segments
@@ -28,6 +29,7 @@ class Blocks:
     ends: Mapping[Block, tuple[Heading, ...]]
     bounds: Mapping[Block, tuple[str, ...]]
     points_in: Mapping[Block, frozenset[Point]]
+    alike: frozenset[Block] = frozenset()
 
     @cached_property
     def stands_in(self) -> Mapping[Point, Block]:
@@ -70,13 +72,17 @@ def _named(segments: Segments, pieces: list[tuple[int, ...]], given: Mapping[int
     ends: dict[Block, tuple[Heading, ...]] = {}
     bounds: dict[Block, tuple[str, ...]] = {}
     points: dict[Block, frozenset[Point]] = {}
+    alike: set[Block] = set()
     for piece in pieces:
         out = tuple(
             heading for index in piece for heading in ((index, LOW), (index, HIGH)) if not _joins(segments, heading)
         )
         marks = sorted({mark for heading in out if (mark := _mark_at(segments, heading)) is not None})
         wanted = next((given[index] for index in piece if index in given), None)
-        block = _fresh(wanted or "B:" + "+".join(marks or [segments.segments[piece[0]].track]), named)
+        derived = "B:" + "+".join(marks or [segments.segments[piece[0]].track])
+        block = _fresh(wanted or derived, named)
+        if wanted is None and block != derived:
+            alike |= {block, Block(derived)}
         named[block], ends[block], bounds[block] = piece, out, tuple(marks)
         for index in piece:
             of[index] = block
@@ -86,7 +92,7 @@ def _named(segments: Segments, pieces: list[tuple[int, ...]], given: Mapping[int
             for end in joints
             if isinstance(end, Joint) and segments.station.junctions[end.junction].is_point
         )
-    return Blocks(segments, of, named, ends, bounds, points)
+    return Blocks(segments, of, named, ends, bounds, points, frozenset(alike))
 
 
 def _joins(segments: Segments, heading: Heading) -> bool:

@@ -9,7 +9,7 @@ from models.layouts.blocks import Blocks
 from models.layouts.measures import LEAST_CLEARANCE_MM
 from models.layouts.results import Leg, Violation
 from models.layouts.told import Told
-from models.layouts.track import Cut, Heading, Joint, Junction
+from models.layouts.track import Cut, Heading, Joint, Junction, Stop
 
 
 def legs_of(blocks: Blocks, told: Told) -> tuple[Leg, ...]:
@@ -43,15 +43,26 @@ def _nearest(blocks: Blocks, told: Told, junction: Junction, start: Heading) -> 
             continue
         met.add(heading)
         end, onward = blocks.segments.at[heading], list[Heading]()
-        if isinstance(end, Cut):
-            if blocks.of[end.beyond[0]] not in closed:
+        if not isinstance(end, Joint):
+            behind = _behind(blocks, heading)
+            if behind is not None and blocks.of[behind[0]] not in closed:
                 return end_mm, end.mark
-            onward = [end.beyond]
-        elif isinstance(end, Joint) and end.junction != junction.name:
+            onward = [behind] if behind is not None else []
+        elif end.junction != junction.name:
             onward = [beyond for _, _, beyond in blocks.segments.onward(end)]
         for beyond in onward:
             heappush(todo, (end_mm + _long_mm(blocks, beyond), beyond))
     return 0, None
+
+
+def _behind(blocks: Blocks, heading: Heading) -> Heading | None:
+    """The heading behind the mark that one runs to; none where track ends, and not only at a buffer stop."""
+    match blocks.segments.at[heading]:
+        case Cut(_, beyond):
+            return beyond
+        case Stop(str() as mark):
+            return blocks.segments.beside[mark].get(heading[1])
+    return None
 
 
 def _long_mm(blocks: Blocks, heading: Heading) -> int:

@@ -21,9 +21,11 @@ from models.layouts.measures import (
 )
 from models.layouts.numbers import LONGEST_DISTANCE_MM
 from models.layouts.told import Told
+from models.layouts.track import HIGH, LOW
 
 ROOM = "a block has room for its tags"
 HOLDS = "a distance fits its tag"
+ENDS = "no track goes on behind a buffer stop at a joint"
 OVERLAP = "an overlap is longer than a train slips"
 
 
@@ -49,18 +51,31 @@ def say_what_is_no_railway(
     for block, long_mm in long.items():
         text = f"block '{block}' is {long_mm / 1_000_000:,.0f} km long: is the unit right, a boundary missing?"
         findings.remark(blocks.bounds[block], text)
-    station = blocks.segments.station
-    for mark in station.marks.values():
-        if not mark.cuts and 0 < mark.at_mm < station.tracks[mark.track]:
-            text = f"'{mark.name}' ends track '{mark.track}' at {mark.at_mm:,} mm, where the file has track go on"
-            findings.remark((mark.name, mark.track), text)
+    _say_what_ends_no_track(blocks, findings)
     for block, (long_mm, least_mm, between) in short.items():
         text = f"block '{block}' is {long_mm:,} mm {between}: its tags need {least_mm:,}"
         findings.violation(ROOM, blocks.bounds[block], text)
+    station = blocks.segments.station
     longest_mm = max(station.tracks.values(), default=0)
     if ways and longest_mm < SHORTEST_VEHICLE_MM:
         text = f"no track is longer than {longest_mm:,} mm, less than one vehicle: were kilometres given for metres?"
         findings.violation("a track is as long as a vehicle", list(station.tracks), text)
+
+
+def _say_what_ends_no_track(blocks: Blocks, findings: Findings) -> None:
+    """What ends track, such as a buffer stop, with track behind it: where it is joined there, one of them is wrong."""
+    station = blocks.segments.station
+    joined = {end: name for name, junction in station.junctions.items() for end in junction.ports.values()}
+    for mark in station.marks.values():
+        if mark.cuts or len(blocks.segments.beside[mark.name]) < 2:
+            continue
+        told = f"'{mark.name}' ends track '{mark.track}' at {mark.at_mm:,} mm"
+        if 0 < mark.at_mm < station.tracks[mark.track]:
+            findings.remark((mark.name, mark.track), f"{told}, where the file has track go on")
+            continue
+        junction = joined[mark.track, HIGH if mark.at_mm else LOW]
+        text = f"{told}, where '{junction}' joins it to other track: move '{mark.name}', or take the joint away"
+        findings.violation(ENDS, (mark.name, mark.track, junction), text)
 
 
 def say_what_is_too_short(paths: Iterable[Path], findings: Findings) -> None:

@@ -263,6 +263,9 @@ class NativeReader:
         for index, (first, second) in enumerate(self.data.get(field, [])):
             for name in (first, second):
                 self._known(f"{field}[{index}]", "block", name, blocks.pieces)
+                if name in blocks.alike:
+                    what = f"'{name}' is made of the names of boundaries, and so is that of another block"
+                    raise self.bad(f"{field}[{index}]", what, "give the block a name of its own under blocks")
             found.append((Block(first), Block(second)))
         return found
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from kernel.layout import Layout
 from kernel.names import Route
 from models.layouts.results import Imported, Rest, RestKind
+from models.layouts.track import HIGH, LOW
 
 Instances = Sequence[tuple[str, ...]]
 
@@ -19,6 +20,7 @@ WORDS: Mapping[RestKind, str] = {
     "clearance": "legs of points that no clearance is known of",
     "start": "points in start blocks, before the system first starts laid for the track that a train there stands on",
     "joint": "joints of track made by one name at two ends alone",
+    "end": "ends of track that nothing is joined to and no buffer stop, border or open end is told of",
     "position": "points held in a position that nobody states",
     "derived": "routes, lengths or choices that the file does not tell and the import made",
     "unread": "elements of the file that are not read",
@@ -38,6 +40,7 @@ def rests_of(imported: Imported) -> tuple[Rest, ...]:
         ("start", True, [each for each in at_start if each[0] in laid]),
         ("start", False, [each for each in at_start if each[0] not in laid]),
         ("joint", False, _by_name(imported)),
+        ("end", False, list(_open_ends(imported))),
         ("position", False, list(_unstated(imported))),
         ("derived", False, _remarked(imported, "derived")),
         ("unread", False, _remarked(imported, "unread")),
@@ -115,6 +118,19 @@ def _by_name(imported: Imported) -> Instances:
         for junction in names
         if junction.name.removeprefix("joint ") not in told.joints
     ]
+
+
+def _open_ends(imported: Imported) -> Iterator[tuple[str, ...]]:
+    """The ends of track, by track and place, that the file neither joins to others nor says to be ends."""
+    station = imported.station
+    if station is None:
+        return
+    joined = {end for junction in station.junctions.values() for end in junction.ports.values()}
+    closed = {(mark.track, mark.at_mm) for mark in station.marks.values() if not mark.cuts}
+    for track, length_mm in station.tracks.items():
+        for side, at_mm in ((LOW, 0), (HIGH, length_mm)):
+            if (track, side) not in joined and (track, at_mm) not in closed:
+                yield track, f"{at_mm} mm"
 
 
 def _unstated(imported: Imported) -> Iterator[tuple[str, ...]]:

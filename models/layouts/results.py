@@ -56,7 +56,9 @@ class Remark:
     rests: RestKind | None = None
 
 
-RestKind = Literal["authority", "clearance", "start", "loop", "joint", "position", "derived", "unread", "left out"]
+RestKind = Literal[
+    "authority", "clearance", "start", "loop", "joint", "end", "position", "derived", "unread", "left out"
+]
 """What a verdict can rest on that no axiom says: :mod:`models.layouts.rests` has each in words."""
 
 

@@ -153,7 +153,7 @@ def differing_rests(imported: Imported, result: CheckResult, found: Enumerated) 
     theirs: dict[tuple[str, bool], set[tuple[str, ...]]] = {
         (rest.kind, rest.declared): set(rest.instances) for rest in result.rests
     }
-    kinds = {"authority", "clearance", "start", "joint", "position", "left out"}
+    kinds = {"authority", "clearance", "start", "joint", "end", "position", "left out"}
     differing = [
         f"{kind}: {theirs.get(kind)} is not {ours.get(kind)}"
         for kind in sorted({*ours, *(each for each in theirs if each[0] in kinds)})

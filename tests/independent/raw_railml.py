@@ -17,6 +17,7 @@ UNREAD = {
     *("genericDetector", "routeRelation", "combinedRoute", "movableCrossing", "hasPositionRestriction"),
     *("gaugeChange", "gaugeSection", "clearanceGaugeChange", "clearanceGaugeSection", "loadingGauge"),
     *("axleWeightChange", "axleWeightSection", "meterLoadSection", "gradientChange", "gradientCurve"),
+    *("trackGauge", "horizontalCurve", "radiusChange", "relatedMovableElement"),
 }
 SAFETY = {
     *UNREAD,

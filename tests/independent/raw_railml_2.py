@@ -182,6 +182,8 @@ class _Reader:
             for number, (_, each) in enumerate(standing)
             if each is into and into is out and each is not crossing and each.tag == self.space + "crossing"
         ]
+        if halves and len(joins) > 1:
+            raise Broken(f"crossing {crossing.get('id')}: which legs a double slip joins, told on both, is not told")
         done |= {_id(into) for _ in halves if not isinstance(into, tuple)}
         across = halves[0] if halves else (self.end_met(by["incoming"]), self.end_met(by["outgoing"]))
         legs = dict(zip(("a1", "b1", "a2", "b2"), (before, behind, *across), strict=True))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections.abc import Iterator, Mapping, Set
 from heapq import heapify, heappop, heappush
 from itertools import count
 
@@ -20,7 +20,7 @@ MOST_STEPS = 3_000
 def rests_again(
     network: Network, routes: Mapping[str, Route], told: Told, named: Mapping[tuple[str, str], str | None]
 ) -> Rests:
-    """Authority, clearances, points at the first start, joints and routes left out.
+    """Authority, clearances, points at the first start, joints, ends of track and routes left out.
 
     ``named``: of boundaries equally near behind a leg, the one that is told.
     """
@@ -44,6 +44,7 @@ def rests_again(
         ("start", True): {each for each in start if each[0] in told.laid_at_start},
         ("start", False): {each for each in start if each[0] not in told.laid_at_start},
         ("joint", False): set(_joints(network, told)),
+        ("end", False): set(_open_ends(network)),
         ("position", False): {
             (point, name)
             for name, route in routes.items()
@@ -78,6 +79,13 @@ def _joints(network: Network, told: Told) -> list[tuple[str, ...]]:
         name.removeprefix("joint "): sorted(track for track, _ in each.legs.values()) for name, each in plain.items()
     }
     return [(name, *tracks) for name, tracks in named.items() if name not in told.joints]
+
+
+def _open_ends(network: Network) -> Iterator[tuple[str, str]]:
+    """The ends of track that no junction joins, and at which nothing stands that ends track."""
+    known = {*network.stops, *(end for junction in network.junctions.values() for end in junction.legs.values())}
+    for track, long_mm in network.lengths.items():
+        yield from ((track, f"{mm} mm") for end, mm in ((0, 0), (1, long_mm)) if (track, end) not in known)
 
 
 def _held(network: Network, route: Route, stated: Wanted) -> Set[tuple[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import re
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,53 @@ def test_the_same_network_in_railml_is_the_same_layout() -> None:
 def test_points_that_no_route_names_follow_from_its_only_way(version: str) -> None:
     untold = load_text("railml", railml_of(RAILJSON, version, given=False))
     assert facts(untold, {}) == facts(load_text("railml", RAILML), {})
+
+
+def test_track_is_that_of_every_level_micro_and_of_no_other() -> None:
+    names = [track["id"] for track in RAILJSON["track_sections"]]
+
+    def levels(*told: tuple[str, list[str]]) -> str:
+        listed = [(word, "".join(f'<networkResource ref="{each}"/>' for each in each_of)) for word, each_of in told]
+        made = "".join(f'<network><level descriptionLevel="{word}">{refs}</level></network>' for word, refs in listed)
+        macro = '<netElement id="line"/><netElement id="area"/>'
+        return RAILML.replace("<netElements>", f"<networks>{made}</networks><netElements>{macro}", 1)
+
+    two = load_text("railml", levels(("Macro", ["line"]), ("Micro", names[:2]), ("Micro", names[2:])))
+    assert facts(two, {}) == facts(load_text("railml", RAILML), {})
+    assert [remark.elements for remark in two.remarks if remark.rests == "unread"] == [("area",)]
+    with pytest.raises(BadInput, match="which is on no level Micro"):
+        load_text("railml", levels(("Micro", names[:2]), ("Meso", names[2:])))
+
+
+DRAWN = """<netElement id="w" length="1000.0"><geometricCoordinate x="0" y="0"/><geometricCoordinate x="900" y="0"/>
+</netElement>"""
+
+
+@pytest.mark.parametrize(
+    ("pattern", "into", "elements"),
+    [
+        (r'(?s)<switchIS id="P".*?</switchIS>', "", {"P_A_B1"}),
+        (r'<netElement id="w" length="1000.0"/>', DRAWN, {"w"}),
+        (r'(?s)(<route id="a-d">.*?<refersTo ref=")d-normal"', r'\1d-reverse"', {"a-d", "d-reverse"}),
+    ],
+)
+def test_a_strict_verdict_does_not_rest_on_what_the_import_chose(pattern: str, into: str, elements: set[str]) -> None:
+    text, count = re.subn(pattern, into, railml_of(RAILJSON, given=False), count=1)
+    imported = load_text("railml", text)
+    assert count == 1
+    assert {each for remark in imported.remarks if remark.rests == "derived" for each in remark.elements} == elements
+    assert check(imported).verdict == "holds"
+    refused = check(imported, strict=True).violations
+    assert elements <= {each for violation in refused for each in violation.elements}
+
+
+def test_a_mark_at_a_joint_may_be_told_at_both_ends_that_meet_there() -> None:
+    ends = [("x", "1"), ("z", "0"), ("w", "0")]
+    told = [f'<spotLocation netElementRef="{track}" intrinsicCoord="{share}"/>' for track, share in ends]
+    for spots, odd in (("".join(told[:2]), []), ("".join(told[1:]), [("seam",)])):
+        seam = f'<trainDetectionElement id="seam">{spots}</trainDetectionElement></functionalInfrastructure>'
+        result = check(load_text("railml", RAILML.replace("</functionalInfrastructure>", seam)))
+        assert [v.elements for v in result.violations if v.axiom == "an element lies in one place"] == odd
 
 
 def test_a_branch_that_is_told_often_is_one_branch() -> None:

@@ -70,13 +70,18 @@ def _track(name: str, begin: str, end: str, connections: str, *signals: tuple[st
 
 
 @pytest.mark.parametrize("halves", [False, True])
-def test_a_crossing_is_one_block_and_a_double_slip_leads_four_ways(halves: bool) -> None:
+def test_a_crossing_is_one_block(halves: bool) -> None:
     straight = load_text("file", crossing("simpleCrossing", halves))
     assert {"m1 - mb", "s1 - sb"} <= straight.layout.routes
     assert straight.layout.claims["m1 - mb"] & straight.layout.claims["s1 - sb"]  # type: ignore[index]
-    slip = load_text("file", crossing("doubleSwitchCrossing", halves))
+
+
+def test_a_double_slip_leads_four_ways_and_is_told_on_one_track() -> None:
+    slip = load_text("file", crossing("doubleSwitchCrossing"))
     assert {"m1 - mb", "m1 - sb", "s1 - mb", "s1 - sb"} <= slip.layout.routes
     assert check(slip).verdict == "holds"
+    with pytest.raises(BadInput, match="crossing 'X': is told on its other track as 'Y'"):
+        load_text("file", crossing("doubleSwitchCrossing", halves=True))
 
 
 CHANGES: tuple[tuple[str, str, str], ...] = (

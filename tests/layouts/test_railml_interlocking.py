@@ -9,6 +9,7 @@ import pytest
 from models.layouts import BadInput, Imported, check, load_text
 from models.layouts.conflict_pairs import Conflicts
 from models.layouts.native import import_native
+from models.layouts.railml.overlaps import FITS
 from tests.layouts.railml_made import railml_of
 from tests.layouts.stations import plain_station, railjson_of
 
@@ -46,7 +47,8 @@ def native_with_overlap(end: str) -> Imported:
         (overlap('<hasTvdSection ref="Q1"/><hasTvdSection ref="gh"/>'), "h"),
         (overlap("", more='length="150"'), "g"),
         (overlap("", more='length="200.5"'), "h"),
-        (overlap("", more='length="99000"'), "east"),
+        (overlap('<hasTvdSection ref="gh"/>'), "h"),
+        (overlap("", more='length="2100"'), "east"),
         (overlap('<isLimitedBy ref="g"/>', '<relatedToTrackAsset ref="d-normal"/>'), "g"),
     ],
 )
@@ -65,6 +67,7 @@ def test_an_overlap_is_followed_to_its_end(piece: str, end: str) -> None:
         (overlap(""), "overlap 'o': says neither what limits it, nor its sections, nor its length"),
         (overlap('<isLimitedBy ref="a"/>'), "overlap 'o': no ways lead from 'd'"),
         (overlap('<isLimitedBy ref="g"/>', '<activeForApproachRoute ref="P"/>'), "'o': is told for 'P'"),
+        (overlap('<hasTvdSection ref="ab"/><hasTvdSection ref="Q1"/>'), "overlap 'o': no ways lead from 'd'"),
         (overlap('<isLimitedBy ref="nix"/>'), "refers to 'nix', which is not there"),
         (overlap("", more='length="-5"'), "overlap 'o': length is '-5'"),
         (
@@ -80,6 +83,15 @@ def test_an_overlap_that_leads_nowhere_is_refused(piece: str, said: str) -> None
     with pytest.raises(BadInput) as refused:
         told(piece)
     assert said in str(refused.value)
+
+
+def test_an_overlap_that_is_told_longer_than_the_track_is_a_violation() -> None:
+    for length, found in (("2100", []), ("2100.001", [("a-d", "o", "east")]), ("99000", [("a-d", "o", "east")])):
+        result = check(told(overlap("", more=f'length="{length}"')))
+        assert [v.elements for v in result.violations if v.axiom == FITS] == found
+        assert (result.verdict == "holds") == (not found)
+    limited = check(told(overlap('<isLimitedBy ref="g"/>', more='length="99000"')))
+    assert limited.verdict == "holds"
 
 
 def test_of_several_overlaps_the_first_is_taken_and_timers_are_not() -> None:

@@ -11,7 +11,7 @@ from kernel.names import Block
 from models.layouts import BadInput, Imported, check, load, load_text
 from models.layouts.clearance import RULE as CLEAR
 from models.layouts.railml.sections import MATCH
-from models.layouts.railml.switches import AGREE, FOULS
+from models.layouts.railml.switches import AGREE, FOULS, ONE_MARKER
 from models.layouts.railml.unread import NOT_READ
 from tests.layouts.railml_2_made import railml_2_of
 from tests.layouts.railml_made import railml_of
@@ -106,6 +106,19 @@ def test_a_clearance_marker_tells_where_a_leg_is_clear(share: str, clear_mm: int
     imported = told(marker("t1", share), switch_il("t1", "t2", '<hasGaugeClearanceMarker ref="mark"/>'))
     assert [leg.clear_mm for leg in imported.legs if leg.clear_mm is not None] == [clear_mm]
     assert elements_of(imported, CLEAR) == ([("P", "c")] if clear_mm > 100_000 else [])
+
+
+@pytest.mark.parametrize(("near", "far"), [("0.05", "0.07"), ("0.07", "0.05"), ("0.05", "0.05")])
+def test_a_leg_that_is_marked_in_two_places_is_a_violation_and_clear_from_the_farther(near: str, far: str) -> None:
+    markers = "".join(marker("t1", share).replace('"mark"', f'"{name}"') for name, share in (("m", near), ("n", far)))
+    switch = switch_il("t1", "t2", '<hasGaugeClearanceMarker ref="m"/><hasGaugeClearanceMarker ref="n"/>')
+    imported = told(markers, switch)
+    assert [leg.clear_mm for leg in imported.legs if leg.clear_mm] == [round(float(max(near, far)) * 1_000_000)]
+    assert elements_of(imported, ONE_MARKER) == ([("P", "n")] if near != far else [])
+
+
+def test_what_is_not_read_and_has_no_id_goes_by_that_of_what_it_stands_in() -> None:
+    assert unread(told("", switch_il("t1", "t2", '<relatedMovableElement ref="Q"/>'))) == {"il"}
 
 
 def test_a_clearance_marker_on_no_leg_is_told() -> None:

@@ -86,6 +86,25 @@ def test_joints_by_name_alone_are_told_until_the_file_lists_them() -> None:
     assert "joint" not in rests(check(import_railjson("x", railjson_of(plain_station()), ("T1",))))
 
 
+def test_ends_of_track_that_nothing_closes_are_told() -> None:
+    data = railjson_of(plain_station())
+    assert "end" not in rests(check(import_railjson("x", data, ("T1",))))
+    lengths = {track["id"]: f"{track['length'] * 1_000:.0f} mm" for track in data["track_sections"]}
+    stops = [stop for stop in data["buffer_stops"] if stop["id"] != "east"]
+    (gone,) = (stop for stop in data["buffer_stops"] if stop["id"] == "east")
+    data["routes"] = [
+        each for each in data["routes"] if "east" not in (each["entry_point"]["id"], each["exit_point"]["id"])
+    ]
+    open_end = check(import_railjson("x", {**data, "buffer_stops": stops}, ("T1",)))
+    assert [rest.instances for rest in open_end.rests if rest.kind == "end"] == [
+        ((gone["track"], lengths[gone["track"]]),)
+    ]
+    detector = {"id": "far", "track": gone["track"], "position": gone["position"]}
+    detected = {**data, "buffer_stops": stops, "detectors": [*data["detectors"], detector]}
+    assert rests(check(import_railjson("x", detected, ("T1",))))["end"] == 1
+    assert check(import_railjson("x", {**data, "buffer_stops": stops}, ("T1",)), strict=True).verdict == "does not hold"
+
+
 def two_legs(**more: object) -> Imported:
     """A block in which trains start from either leg of a point that they trail."""
     return import_native("legs", {**tomllib.loads(STOPS), **more}, ("T1",))

@@ -100,12 +100,13 @@ def _compare_places(
 def _compare_spots(
     source: Document, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
 ) -> None:
-    """Of an element with several places, all are one, or the ends of track that meet there."""
+    """Of an element with several places, all are one, or ends of track that meet at one junction."""
     places = {placed(source, topology, name, spot) for spot in spots}
-    inside = [place for place in places if 0 < place[1] < topology.lengths_mm[place[0]]]
-    if len(places) > 1 and inside:
+    junctions = {topology.joined_at.get(place) for place in places}
+    if len(places) > 1 and (len(junctions) > 1 or None in junctions):
         told = ", ".join(f"'{track}' at {at_mm:,} mm" for track, at_mm in sorted(places))
-        findings.violation("an element lies in one place", (name,), f"'{name}' lies in {len(places)} places: {told}")
+        text = f"'{name}' lies in {len(places)} places: {told}; no junction joins them: correct its spotLocations"
+        findings.violation("an element lies in one place", (name,), text)
 
 
 SAME_PLACE_M = 1.0

@@ -9,10 +9,11 @@ from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element
 from models.layouts.railml.marks import Marks, signal_of
 from models.layouts.railml.routes import Ends, Followed, Way, given_positions, ways_from
-from models.layouts.railml.sections import demarcated
+from models.layouts.railml.sections import demarcated, segments_of
 from models.layouts.track import Segments
 
 LONGEST_M = 100_000
+FITS = "there is as much track as an overlap is long"
 
 
 def with_overlaps(
@@ -26,7 +27,8 @@ def with_overlaps(
     """The routes with their overlaps, where the file tells any.
 
     An overlap is that of the routes it names, or of all that end at the element it names.  It ends at what limits
-    it, else with its sections, else at the first mark that lies as far as it is long.
+    it, else with its sections, else at the first mark that lies as far as it is long; where track ends before
+    that, the file contradicts itself.
 
     Raises:
         BadInput: an overlap has no one way over the track, or does not say where it ends.
@@ -43,7 +45,7 @@ def with_overlaps(
             names = [source.attribute(overlap, "id") for overlap in overlaps]
             text = f"route '{name}' has {len(names)} overlaps to choose from: it always claims the first, '{names[0]}'"
             findings.remark([name, *names], text)
-        found.append(_with(source, segments, marks, each, overlaps[0]) if overlaps else each)
+        found.append(_with(source, segments, marks, each, overlaps[0], findings) if overlaps else each)
     timed = sum(1 for _ in source.all("overlapRelease"))
     if timed:
         text = f"{timed} of overlapRelease are not read: an overlap is free once its train has told that it stands"
@@ -64,10 +66,13 @@ def _routes_of(source: Document, overlap: Element, routes: Mapping[str, Ends]) -
     return [name for name, (_, _, last) in routes.items() if source.attribute(last, "id") == exit_of]
 
 
-def _with(source: Document, segments: Segments, marks: Marks, route: Followed, overlap: Element) -> Followed:
+def _with(
+    source: Document, segments: Segments, marks: Marks, route: Followed, overlap: Element, findings: Findings
+) -> Followed:
     """One route with its overlap."""
     given = dict(given_positions(source, overlap, segments))
     way = _way(source, segments, marks, route, overlap, given)
+    _compare_length(source, segments, route, overlap, way, findings)
     positions = {**way.positions, **route.wanted.positions}
     flank = {**{point: at for point, at in given.items() if point not in positions}, **route.wanted.flank}
     return replace(route, wanted=replace(route.wanted, overlap=way.to, positions=positions, flank=flank))
@@ -82,13 +87,11 @@ def _way(
         what = f"route '{route.wanted.name}' ends at '{first}', where track ends"
         raise source.bad(overlap, what, "take the overlap away")
     limits = {marks.of.get(source.attribute(each, "id"), "") for each in _limits(source, overlap)}
-    bounds = demarcated(source, marks)
     listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
     if limits:
         ways = ways_from(segments, first, side, lambda mark, _: mark in limits)
     elif listed:
-        once = [mark for name in listed for mark in bounds.get(name, ())]
-        ways = ways_from(segments, first, side, lambda mark, _: once.count(mark) == 1)
+        ways = _over_sections(source, segments, marks, first, side, listed)
     elif overlap.get("length") is not None:
         ways = _so_long(source, segments, first, side, overlap, given)
     else:
@@ -102,6 +105,37 @@ def _way(
 
 def _limits(source: Document, overlap: Element) -> list[Element]:
     return [signal_of(source, source.referred(each)) for each in source.all("isLimitedBy", overlap)]
+
+
+def _over_sections(
+    source: Document, segments: Segments, marks: Marks, mark: str, side: int, listed: Sequence[str]
+) -> list[Way]:
+    """The ways that leave the last of the listed sections, having run through all of them."""
+    bounds, track = demarcated(source, marks), segments_of(source, segments, marks)
+    once = [each for name in listed for each in bounds.get(name, ())]
+    inside = frozenset[int]().union(*(track.get(name, ()) for name in listed))
+    ways = ways_from(segments, mark, side, lambda end, heading: heading[0] in inside and once.count(end) == 1)
+    return [way for way in ways if all(track[name] & set(way.segments) for name in listed if track.get(name))]
+
+
+def _compare_length(
+    source: Document, segments: Segments, route: Followed, overlap: Element, way: Way, findings: Findings
+) -> None:
+    """An overlap that is told by its length alone, and is longer than the track there, is a violation."""
+    if overlap.get("length") is None or _limits(source, overlap) or source.first("hasTvdSection", overlap) is not None:
+        return
+    name, told_mm = source.attribute(overlap, "id"), round(source.number(overlap, "length", 0.001, LONGEST_M) * 1_000)
+    long_mm = _long_mm(segments, way)
+    if long_mm < told_mm:
+        text = (
+            f"overlap '{name}' of route '{route.wanted.name}' is told to be {told_mm:,} mm long, and from its exit "
+            f"'{route.wanted.exit}' to '{way.to}' there are {long_mm:,} mm: correct its length, or move the exit"
+        )
+        findings.violation(FITS, (route.wanted.name, name, way.to), text)
+
+
+def _long_mm(segments: Segments, way: Way) -> int:
+    return sum(segments.segments[at].to_mm - segments.segments[at].from_mm for at in way.segments)
 
 
 def _so_long(
@@ -119,7 +153,7 @@ def _so_long(
         if len(ways) != 1:
             return ways
         (way,) = ways
-        run_mm += sum(segments.segments[at].to_mm - segments.segments[at].from_mm for at in way.segments)
+        run_mm += _long_mm(segments, way)
         positions, over = {**positions, **way.positions}, (*over, *way.segments)
         mark, side = way.to, way.arrives[1]
         if run_mm >= length_mm or side not in segments.beside[mark] or len(set(over)) < len(over):

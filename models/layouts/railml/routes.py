@@ -98,7 +98,8 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
         raise source.bad(route, what, "name the position of each facing point")
     (way,) = ways
     if marks.side.get(last, way.arrives[1]) != way.arrives[1]:
-        findings.remark([name, last], f"route '{name}' ends at '{last}', which speaks to trains the other way")
+        text = f"route '{name}' ends at '{last}', which speaks to trains the other way"
+        findings.remark([name, last], text, "derived")
     parts = tuple(mark for mark in way.passed if mark in marks.parts)
     departing = dict(given_positions(source, route, segments, DEPARTURE))
     positions, flank = {**departing, **way.positions}, {p: at for p, at in given.items() if p not in way.positions}

@@ -100,6 +100,15 @@ def _listed(names: Collection[str]) -> str:
     return ", ".join(sorted(names)) or "none"
 
 
+def segments_of(source: Document, segments: Segments, marks: Marks) -> Mapping[str, frozenset[int]]:
+    """For each section the track between what demarcates it, as segments; none where no piece of track is that."""
+    regions = list(_regions(segments, marks))
+    return {
+        section: frozenset(each for inside, around in regions if around == bounds for each in inside)
+        for section, bounds in demarcated(source, marks).items()
+    }
+
+
 def demarcated(source: Document, marks: Marks) -> Mapping[str, frozenset[str]]:
     """For each section the marks that demarcate it, as far as they have a place.
 

@@ -15,6 +15,7 @@ from models.layouts.track import HIGH, Junction
 
 BRANCHES = {"left": "branchLeft", "right": "branchRight"}
 AGREE = "a switch has one left and one right branch"
+ONE_MARKER = "a leg is clear from one place on"
 FOULS = "a detector that fouls a point lies at its block"
 
 
@@ -80,6 +81,8 @@ def _net_elements(source: Document, element: Element) -> set[str]:
 def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: Blocks, findings: Findings) -> Clearance:
     """The fouling points that are marked, and the detectors that are said to lie before them.
 
+    A leg that is marked in two places is a violation, and taken to be clear from the farther one.
+
     Raises:
         BadInput: one refers to what is not there, or lies nowhere.
     """
@@ -94,11 +97,26 @@ def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: B
                 text = f"clearance marker '{name}' does not lie on a leg of switch '{point.name}': it is not read"
                 findings.remark([point.name, name], text, "unread")
             else:
-                clear_mm[point.name, found[0]] = max(found[1], 1)
+                _note_clear(clear_mm, point.name, found, source.attribute(marker, "id"), findings)
         for item in source.all("hasFoulingTrainDetectors", switch):
             detector = source.attribute(signal_of(source, source.referred(item)), "id")
             _foul(point.name, detector, marks, blocks, fouls, findings)
     return Clearance(clear_mm, fouls)
+
+
+def _note_clear(
+    clear_mm: dict[tuple[str, str], int], point: str, marked: tuple[str, int], marker: str, findings: Findings
+) -> None:
+    """Note where a leg is clear, which no other marker tells otherwise."""
+    leg, at_mm = marked[0], max(marked[1], 1)
+    before_mm = clear_mm.get((point, leg), at_mm)
+    if before_mm != at_mm:
+        text = (
+            f"clearance marker '{marker}' lies {at_mm:,} mm behind switch '{point}' on its leg '{leg}', another one "
+            f"{before_mm:,} mm: leave the one from which the leg is clear"
+        )
+        findings.violation(ONE_MARKER, (point, marker), text)
+    clear_mm[point, leg] = max(before_mm, at_mm)
 
 
 def _along(source: Document, topology: Topology, point: Junction, marker: Element) -> tuple[str, int] | None:

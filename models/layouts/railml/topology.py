@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from math import hypot
 from string import digits
@@ -17,7 +18,7 @@ import networkx
 
 from models.layouts.findings import Findings
 from models.layouts.numbers import LONGEST_DISTANCE_MM
-from models.layouts.railml.document import Document, Element
+from models.layouts.railml.document import Document, Element, kind_of
 from models.layouts.track import HIGH, LOW, Junction, Kind
 
 End = tuple[str, int]
@@ -36,6 +37,15 @@ class Topology:
 
     lengths_mm: Mapping[str, int]
     junctions: Mapping[str, Junction]
+
+    @cached_property
+    def joined_at(self) -> Mapping[tuple[str, int], str]:
+        """For each end of track that is joined, by net element and mm, the junction there."""
+        return {
+            (track, self.lengths_mm[track] if side == HIGH else 0): name
+            for name, junction in self.junctions.items()
+            for track, side in junction.ports.values()
+        }
 
 
 @dataclass(frozen=True)
@@ -61,9 +71,9 @@ def read_topology(source: Document, findings: Findings) -> Topology:
     Raises:
         BadInput: there is none, an end is related to none, or a place is nothing that rails can be.
     """
-    micro = _micro(source)
+    micro = _micro(source, findings)
     lengths_mm = {name: _length_mm(source, name, findings) for name in micro}
-    named = dict(_named(source))
+    named = _named(source)
     junctions: dict[str, Junction] = {}
     for meeting in _meetings(source, lengths_mm):
         junction = _junction(source, meeting, named, findings)
@@ -77,18 +87,28 @@ def read_topology(source: Document, findings: Findings) -> Topology:
     return Topology(lengths_mm, junctions)
 
 
-def _micro(source: Document) -> list[str]:
-    """The net elements of the finest level; all that collect no others where no level is said to be that."""
+def _micro(source: Document, findings: Findings) -> list[str]:
+    """The net elements of the finest level, whichever networks have one; without any, all that collect no others.
+
+    One that no level lists, and that collects no others, is track of which nothing is known: a verdict rests on it.
+    """
     every = {source.attribute(each, "id"): each for each in source.all("netElement")}
-    level = next((each for each in source.all("level") if each.get("descriptionLevel") == "Micro"), None)
-    if level is not None:
-        listed = [source.attribute(each, "ref") for each in source.all("networkResource", level)]
-        found = [name for name in listed if name in every]
-    else:
-        found = [name for name, each in every.items() if source.first("elementPart", each) is None]
+    least = [name for name, each in every.items() if source.first("elementPart", each) is None]
+    levels = list(source.all("level"))
+    fine = [level for level in levels if level.get("descriptionLevel") == "Micro"]
+    found = [name for level in fine for name in _listed(source, level) if name in every] if fine else least
+    known = {*found, *(name for level in levels for name in _listed(source, level))}
+    unlisted = [name for name in least if name not in known]
+    if unlisted:
+        text = f"{len(unlisted)} net elements are on no level: they are not read, list them on the level Micro"
+        findings.remark(unlisted, text, "unread")
     if not found:
         raise source.bad(None, "has no netElement: there is no track", "give the topology at the level Micro")
     return list(dict.fromkeys(found))
+
+
+def _listed(source: Document, level: Element) -> Iterator[str]:
+    return (source.attribute(each, "ref") for each in source.all("networkResource", level))
 
 
 # ---- lengths
@@ -108,7 +128,8 @@ def _length_mm(source: Document, name: str, findings: Findings) -> int:
         text = f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}"
         findings.remark([name], text, "derived")
     elif drawn_m is not None and abs(drawn_m - told_m) > TOLERANCE * told_m:
-        findings.remark([name], f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long")
+        text = f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long"
+        findings.remark([name], text, "derived")
     length_m = told_m if told_m is not None else drawn_m
     if length_m is None or not 0.001 <= length_m <= LONGEST_M:
         raise source.bad(element, f"its length is {length_m!r:.40} m", f"give 0.001 to {LONGEST_M} m")
@@ -143,7 +164,11 @@ def _meetings(source: Document, known: Mapping[str, int]) -> Iterator[Meeting]:
     graph: networkx.Graph[End] = networkx.Graph()
     for relation in source.all("netRelation"):
         one, other = (_end(source, relation, each) for each in ("A", "B"))
-        if one[0] not in known or other[0] not in known:
+        strange = [end[0] for end in (one, other) if end[0] not in known]
+        if len(strange) == 1:
+            what = f"relates track to '{strange[0]}', which is on no level Micro: what comes from there is not known"
+            raise source.bad(relation, what, "list both its elements on the level Micro, or neither")
+        if strange:
             continue
         if one == other:
             raise source.bad(relation, "relates an end to itself", "correct its elements or positions")
@@ -170,8 +195,24 @@ def _end(source: Document, relation: Element, side: str) -> End:
     return source.attribute(referring, "ref"), BY_POSITION[position]
 
 
-def _named(source: Document) -> Iterator[tuple[str, Named]]:
-    """For each relation that is a branch of a switch or crossing, that."""
+def _named(source: Document) -> dict[str, Named]:
+    """For each relation that is a branch of a switch or crossing, that.
+
+    Raises:
+        BadInput: it is a branch of two.
+    """
+    found: dict[str, Named] = {}
+    for relation, named in _branching(source):
+        other = found.setdefault(relation, named).element
+        if other is not named.element:
+            taken = f"{kind_of(other)} '{source.attribute(other, 'id')}'"
+            what = f"its relation '{relation}' is a branch of {taken} as well"
+            raise source.bad(named.element, what, "let one element name each place, or correct its branches")
+    return found
+
+
+def _branching(source: Document) -> Iterator[tuple[str, Named]]:
+    """Each branch of a switch or crossing, by its relation."""
     for kind in ("switchIS", "crossing", "crossingIS"):
         for element in source.all(kind):
             branches = {
@@ -205,7 +246,8 @@ def _junction(source: Document, meeting: Meeting, named: Mapping[str, Named], fi
         what = f"{len(ports)} ends of track meet here, and {len(ways)} ways lead from one to another"
         raise source.bad(element, f"{what}: no joint, point, crossing or slip has that", "correct the relations")
     if by is None and len(kind.positions) > 1:
-        findings.remark([name], f"relation '{name}' is at a point that no switch names: it goes by the relation's id")
+        text = f"relation '{name}' is at a point that no switch names: it goes by the relation's id"
+        findings.remark([name], text, "derived")
     return Junction(name, kind, ports)
 
 

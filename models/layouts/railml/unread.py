@@ -25,7 +25,11 @@ NOT_READ: Mapping[str, str] = {
     **dict.fromkeys(("gaugeChange", "gaugeSection", "clearanceGaugeChange", "clearanceGaugeSection"), GUARDED),
     **dict.fromkeys(("loadingGauge", "axleWeightChange", "axleWeightSection", "meterLoadSection"), GUARDED),
     **dict.fromkeys(("gradientChange", "gradientCurve"), "the brake's bounds are taken to cover every slope"),
+    **dict.fromkeys(("trackGauge", "horizontalCurve", "radiusChange"), GUARDED),
     "movableCrossing": "it is read as a crossing that does not move",
+    "relatedMovableElement": "each point is held by the routes that need it, and not by one that moves with it",
+    "isValid": "what is not there yet, or no more, is run over all the same",
+    "linearCoordinate": "a place is taken by its coordinate along the net element alone, and not held against this",
     "hasPositionRestriction": "no route is kept from that position",
 }
 """For each kind of element, in railML 2 or 3, what its being left out means."""
@@ -73,5 +77,7 @@ def _holding(source: Document, kind: str, out: Callable[[Element], bool]) -> Ite
 
 
 def _named(element: Element) -> str:
-    """An element's id; without one, its kind and line."""
-    return element.get("id") or f"{kind_of(element)} in line {element.sourceline}"
+    """An element's id; without one, that of what it stands in, or its kind and line."""
+    holding = element.getparent()
+    around = None if holding is None else holding.get("id")
+    return element.get("id") or around or f"{kind_of(element)} in line {element.sourceline}"

@@ -226,10 +226,17 @@ class Connections:
     def _other_half(
         self, crossing: Element, connections: Mapping[str, Element], done: set[str]
     ) -> tuple[End, ...] | None:
-        """The ends of the other track, where that tells the same crossing and both refer to each other."""
+        """The ends of the other track, where that tells the same crossing and both refer to each other.
+
+        Raises:
+            BadInput: it is a double slip, whose ways depend on which way round the other track runs.
+        """
         first, second = (self._partner(connections[each])[1].owner for each in ("incoming", "outgoing"))
         if first is not second or kind_of(first) != "crossing" or first is crossing:
             return None
+        if len(KINDS[crossing.get("type", "simpleCrossing")]) > 1:
+            what = f"is told on its other track as '{self.source.attribute(first, 'id')}': which legs meet is not told"
+            raise self.source.bad(crossing, what, "tell it on one track, the other in two that end there")
         track = next(track for track, crossed in self.cut if crossed is first)
         done.add(self.source.attribute(first, "id"))
         return track.beside(_position_mm(self.source, first))

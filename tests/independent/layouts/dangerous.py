@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from tests.independent.layouts.crafted import NEAR, RING
-from tests.independent.layouts.railml_2_pieces import LINE, TRACKS, changed
+from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
 
 
 class Danger(NamedTuple):
@@ -100,6 +100,25 @@ ANEW = railjson(
 )
 CD = [{"id": name, "track": "t", "position": at} for name, (_, at) in LINE_OF_FOUR.items() if name != "B"]
 
+
+BEYOND = [{"id": "stop", "track": "s", "position": 1.0}]
+MIDDLE = [{"id": "stop", "track": "e", "position": 0.0}]
+
+# ---- native
+
+NAMES_ALIKE = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+fouling = [["B:a+b+c", "B:u+v"]]
+[tracks]
+one = { from = "w1", to = "e1", length_mm = 900_000, boundaries = { "a" = 300_000, "b+c" = 600_000 } }
+two = { from = "w2", to = "e2", length_mm = 900_000, boundaries = { "a+b" = 300_000, "c" = 600_000 } }
+three = { from = "w3", to = "e3", length_mm = 900_000, boundaries = { u = 300_000, v = 600_000 } }
+[routes]
+one = { from = "a", direction = "forward", to = "b+c" }
+two = { from = "a+b", direction = "forward", to = "c" }
+three = { from = "u", direction = "forward", to = "v" }
+"""
 
 # ---- tables
 
@@ -216,7 +235,7 @@ TABLES_THAT_HOLD = {
 # ---- railML 3
 
 
-def railml(relations: str, spots: str, functional: str = "") -> str:
+def railml(relations: str, spots: str, functional: str = "", assets: str = "", networks: str = "") -> str:
     """Four net elements of 500 m, what relates them, and routes from A to B and from C to D."""
     elements = "".join(f'<netElement id="{name}" length="500"/>' for name in "wens")
     routes = "".join(
@@ -226,9 +245,10 @@ def railml(relations: str, spots: str, functional: str = "") -> str:
     )
     return (
         '<railML xmlns="https://www.railml.org/schemas/3.1" version="3.1"><infrastructure><topology>'
+        f"<networks>{networks}</networks>"
         f"<netElements>{elements}</netElements><netRelations>{relations}</netRelations></topology>"
         f"<functionalInfrastructure>{functional}{spots}</functionalInfrastructure></infrastructure>"
-        f"<interlocking><assetsForIL>{routes}</assetsForIL></interlocking></railML>"
+        f"<interlocking><assetsForIL>{routes}{assets}</assetsForIL></interlocking></railML>"
     )
 
 
@@ -255,6 +275,35 @@ CLOSED = """<track id="T"><elementState value="closed"/><linearLocation><associa
 </linearLocation></track>"""
 GAUGES = """<trackElements><gaugeChanges><gaugeChange id="gauge" pos="1500" value="1067"/></gaugeChanges>
 <axleWeightChanges><axleWeightChange id="weight" pos="10"/></axleWeightChanges></trackElements><ocsElements>"""
+TURNOUT = (
+    relation("we", "w", "e")
+    + relation("ws", "w", "s")
+    + relation("es", "e", "s", "None").replace('positionOnA="1"', 'positionOnA="0"')
+)
+ON_LEGS = spot("A", "w", "0.4") + spot("B", "w", "0.8") + spot("C", "e", "0.2") + spot("D", "e", "0.8")
+SWITCHES = """<switchIS id="P"><leftBranch netRelationRef="we"/><rightBranch netRelationRef="ws"/></switchIS>"""
+AGAIN = """<switchIS id="R"><leftBranch netRelationRef="ws"/><rightBranch netRelationRef="we"/></switchIS>"""
+AT_END = '<spotLocation netElementRef="{}" intrinsicCoord="1.0" applicationDirection="normal"/>'
+BORDER = '<border id="edge"><spotLocation netElementRef="s" intrinsicCoord="0.0"/></border>'
+MARKERS = "".join(
+    f'<signalIS id="{name}"><spotLocation netElementRef="e" intrinsicCoord="{share}"/></signalIS>'
+    for name, share in (("far", "0.16"), ("near", "0.1"))
+)
+BUFFER = """<bufferStop id="wall"><spotLocation netElementRef="e" intrinsicCoord="1.0"/></bufferStop>
+</functionalInfrastructure>"""
+COUPLED = '<switchIL id="il"><refersTo ref="P"/><relatedMovableElement ref="il"/></switchIL>'
+MARKED = """<switchIL id="il"><refersTo ref="P"/><hasGaugeClearanceMarker ref="far"/>
+<hasGaugeClearanceMarker ref="near"/></switchIL>"""
+CURVED = '<trackGauge id="broad" value="1524"/><horizontalCurve id="bend" radius="60"/>'
+SHORT_OF_IT = '<overlap id="o" length="300.001"><activeForApproachRoute ref="CD"/></overlap>'
+
+
+def level(*names: str) -> str:
+    """A network whose level Micro lists these."""
+    listed = "".join(f'<networkResource ref="{name}"/>' for name in names)
+    return f'<network><level descriptionLevel="Micro">{listed}</level></network>'
+
+
 OFF = '<track id="T0"><state disabled="true"/>'
 
 UNREAD = "not read"
@@ -275,6 +324,33 @@ DANGERS = {
         "a buffer stop stands in the middle of a track that goes on with detectors: trains meet at it from both sides",
         "where the file has track go on",
         *("middle", "t"),
+    ),
+    "stop at a joint.json": _of(
+        railjson(
+            {"W": ("w", 300.0), "E": ("e", 300.0), "F": ("e", 600.0)},
+            [("r", "W", "stop"), ("s", "E", "F")],
+            buffer_stops=MIDDLE,
+            switches=[switch("link", A=("w", "END"), B=("e", "BEGIN"))],
+        ),
+        "a buffer stop stands exactly where two tracks are joined: trains meet at it from both sides",
+        "no track goes on behind a buffer stop at a joint",
+        *("stop", "e", "X"),
+    ),
+    "stop on a leg.json": _of(
+        railjson(
+            {"W": ("w", 800.0), "E": ("e", 100.0), "S": ("s", 100.0), "T": ("s", 600.0)},
+            [("r", "S", "T")],
+            buffer_stops=BEYOND,
+            switches=[switch("point_switch", A=("w", "END"), B1=("e", "BEGIN"), B2=("s", "BEGIN"))],
+        ),
+        "behind a buffer stop 1 m from a switch track goes on: a train behind it is foul of the other leg",
+        "boundary 'stop' lies 1,000 mm behind 'X'",
+        *("X", "stop"),
+    ),
+    "names alike.toml": _of(
+        NAMES_ALIKE,
+        "blocks between a and b+c and between a+b and c get one name: the second does not foul what it was meant to",
+        "is made of the names of boundaries, and so is that of another block",
     ),
     "stub.json": _of(
         STUB,
@@ -419,6 +495,20 @@ DANGERS = {
         UNREAD,
         *("gauge", "weight"),
     ),
+    "curve.railml": _of(
+        changed(
+            TRACKS,
+            [("<ocsElements>", '<trackElements><radiusChange id="bend" radius="60"/></trackElements><ocsElements>')],
+        ),
+        "a curve of 60 m within a route",
+        UNREAD,
+        "bend",
+    ),
+    "slip told twice.railml": _of(
+        crossing("doubleSwitchCrossing", "y1", "y2", HALF),
+        "a double slip is told on both of its tracks: which way round these run, and so which legs meet, is not told",
+        "which legs meet is not told",
+    ),
     "disabled.railml": _of(
         changed(TRACKS, [('<track id="T0">', OFF)]),
         "the track is out of use, and routes run over it",
@@ -446,6 +536,62 @@ DANGERS = {
         "a signal and its detector lie in two places, 125 m apart: a train stands behind the wrong one",
         "an element lies in one place",
         "B",
+    ),
+    "ends apart.railml": _of(
+        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "1.0", AT_END.format("w")))),
+        "a signal and its detector lie at two ends of track that do not meet, 500 m apart",
+        "no junction joins them",
+        "B",
+    ),
+    "border at a switch.railml": _of(
+        railml(TURNOUT, ON_LEGS, SWITCHES + BORDER),
+        "a border stands at the switch, with track behind it: a train there is foul of the other leg",
+        "no track goes on behind a buffer stop at a joint",
+        *("edge", "s", "P"),
+    ),
+    "overlap too long.railml": _of(
+        railml(
+            TURNOUT, ON_LEGS.replace('"e" intrinsicCoord="0.8"', '"e" intrinsicCoord="0.4"'), SWITCHES, SHORT_OF_IT
+        ).replace("</functionalInfrastructure>", BUFFER),
+        "an overlap is told to be longer than the track behind the exit: a train slips through the buffer stop",
+        "there is as much track as an overlap is long",
+        *("CD", "o", "wall"),
+    ),
+    "two networks.railml": _of(
+        railml(BOTH, SPOTS, networks=level("w", "e", "n")),
+        "a relation leads on from known track to an element that no level Micro lists",
+        "which is on no level Micro",
+    ),
+    "on no level.railml": _of(
+        railml(BOTH, SPOTS, networks=level(*"wens")).replace(
+            "<netElements>", '<netElements><netElement id="z" length="5"/>'
+        ),
+        "track of which no level says that it is there is not read",
+        "not read",
+        "z",
+    ),
+    "two markers.railml": _of(
+        railml(TURNOUT, ON_LEGS, SWITCHES + MARKERS, MARKED),
+        "two markers say of one leg where it is clear: the nearer would let a train stand foul",
+        "a leg is clear from one place on",
+        *("P", "near"),
+    ),
+    "two switches.railml": _of(
+        railml(TURNOUT, ON_LEGS, SWITCHES + AGAIN),
+        "two switches are told of one place, with left and right the other way round",
+        "is a branch of switchIS 'P' as well",
+    ),
+    "coupled.railml": _of(
+        railml(TURNOUT, ON_LEGS, SWITCHES, COUPLED),
+        "a switch moves with another one, and is thrown under a train when that is",
+        UNREAD,
+        "il",
+    ),
+    "gauges and curves.railml": _of(
+        railml(BOTH, SPOTS, CURVED),
+        "the gauge of track, and a curve of 60 m",
+        UNREAD,
+        *("broad", "bend"),
     ),
     "closed.railml": _of(
         railml(BOTH, SPOTS, CLOSED),
