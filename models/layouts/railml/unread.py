@@ -28,7 +28,6 @@ NOT_READ: Mapping[str, str] = {
     **dict.fromkeys(("trackGauge", "horizontalCurve", "radiusChange"), GUARDED),
     "movableCrossing": "it is read as a crossing that does not move",
     "relatedMovableElement": "each point is held by the routes that need it, and not by one that moves with it",
-    "isValid": "what is not there yet, or no more, is run over all the same",
     "linearCoordinate": "a place is taken by its coordinate along the net element alone, and not held against this",
     "hasPositionRestriction": "no route is kept from that position",
 }
@@ -54,6 +53,12 @@ def say_what_is_not_read(source: Document, findings: Findings) -> None:
     closed = [_named(each) for kind, out in OUT_OF_USE.items() for each in _holding(source, kind, out)]
     if closed:
         findings.remark(closed, f"{len(closed)} elements are not in use: routes run over them all the same", "unread")
+    dated = [
+        _named(each) for each in _holding(source, "isValid", lambda _: True) if kind_of(each) in {*READ, *NOT_READ}
+    ]
+    if dated:
+        text = f"from when to when {len(dated)} elements are there is not read: routes run over them at any time"
+        findings.remark(dated, text, "unread")
     one_way = [_named(each) for each in source.all("netRelation") if each.get("navigability") in ("AB", "BA")]
     if one_way:
         text = f"{len(one_way)} net relations are navigable one way alone: routes are taken both ways"

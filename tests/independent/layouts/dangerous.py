@@ -593,6 +593,12 @@ DANGERS = {
         UNREAD,
         *("broad", "bend"),
     ),
+    "not yet there.railml": _of(
+        railml(BOTH, SPOTS, CLOSED.replace('<elementState value="closed"/>', '<isValid from="2999-01-01"/>')),
+        "the track that a route runs over is not yet there",
+        "from when to when",
+        "T",
+    ),
     "closed.railml": _of(
         railml(BOTH, SPOTS, CLOSED),
         "the track that a route runs over is closed",
