@@ -16,6 +16,7 @@ from tests.independent.raw_graph import Network, leads
 from tests.independent.raw_graph import Route as Walked
 from tests.independent.raw_measures import measured
 from tests.independent.raw_names import drawn_alike
+from tests.independent.raw_records import differing_records
 from tests.independent.raw_rests import rests_again, shortest_loops
 
 
@@ -181,7 +182,10 @@ def disagreements(imported: Imported, result: CheckResult, found: Enumerated) ->
     ]
     for route, facts in differing_routes(imported, found).items():
         differing += [f"{route}: {fact}" for fact in facts]
-    return differing or differing_ground(imported, found) + differing_rests(imported, result, found)
+    if differing:
+        return differing
+    beside = differing_ground(imported, found) + differing_rests(imported, result, found)
+    return [*beside, *differing_records(imported, found)]
 
 
 def alike(ours: Listed, theirs: Listed, found: Enumerated) -> bool:
