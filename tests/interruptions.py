@@ -36,6 +36,7 @@ PROGRAM = (sys.executable, str(ROOT / "heisoku_start.py"))
 STATION = "layouts/passing_station.toml"
 ENDS_AFTER_S = 120.0
 """A command that is interrupted or ended does end, and all its processes do, in this time; else it is a finding."""
+TELLS_EVERY_S = 10.0
 GOES_ON = 4
 """A command that goes on has so many times as long as it takes undisturbed: others may use the machine by then."""
 
@@ -236,8 +237,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args(arguments)
     came: Counter[Any] = Counter()
-    bad = 0
+    bad, told = 0, time.monotonic()
     for words, how, moment in drawn(given.seed, given.runs):
+        if time.monotonic() - told > TELLS_EVERY_S:
+            told = time.monotonic()
+            print(f"{came.total()} of {given.runs} disturbed", file=sys.stderr, flush=True)
         code, found = wrong(words, how, moment)
         came[how.name, code] += 1
         bad += bool(found)
