@@ -71,6 +71,14 @@ PROMISE: Mapping[str, tuple[Memory, str]] = {
 }
 """A train's promise to a crossing: it is kept through restarts of the train (`kernel.crossing.promise`)."""
 
+RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
+    "turns": (Memory.LOST, "{}"),
+    "pairs": (Memory.LOST, "0"),
+    "number": (Memory.LASTING, ""),
+    "taken_ms": (Memory.LOST, "settings.slot_ms"),
+}
+"""The slots of a radio channel: all that is ordered may still be under way, and its number is not given again."""
+
 TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),
     "opens_ms": (Memory.LOST, "now_ms + limits.coming_ms"),

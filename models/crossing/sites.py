@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
+from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -29,6 +30,11 @@ SETTINGS = Settings(
 """Bell 5 s and lowering 10 s: 15 s.  Lifting takes 6 s; a road that would be open for less than 20 s stays shut (ours).
 
 The start points are further off than the old crossing's: by what a terminal may be silent, and two cycles.
+"""
+CHANNEL = ChannelSettings(tick_ms=10, slot_ms=100, most_pairs=17)
+"""Ten rangings a second, by radios of 2.4 GHz whose order may pass a few relays (ours; the paper gives no times).
+
+So many pairs may wait for their turn and a ranging that counts for three cycles is not lost.
 """
 EXCESS = 1.05
 """A driver may exceed a limit by so much before the line's train protection brakes (ours, typical)."""
@@ -222,5 +228,6 @@ def lawful() -> bool:
 def is_lawful(trial: Trial) -> bool:
     """Tell whether one trial's are."""
     return are_lawful(trial.settings) and all(
-        have_one_warning_time(trial.bounds(kind), trial.settings) for kind in (trial.express, trial.local)
+        have_one_warning_time(trial.bounds(kind), trial.settings) and are_in_time(CHANNEL, trial.bounds(kind))
+        for kind in (trial.express, trial.local)
     )
