@@ -74,7 +74,7 @@ PROMISE: Mapping[str, tuple[Memory, str]] = {
 RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
     "turns": (Memory.LOST, "{}"),
     "pairs": (Memory.LOST, "0"),
-    "number": (Memory.LASTING, ""),
+    "number": (Memory.COUNTED, "number"),
     "taken_ms": (Memory.LOST, "settings.slot_ms"),
 }
 """The slots of a radio channel: all that is ordered may still be under way, and its number is not given again."""

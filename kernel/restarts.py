@@ -66,11 +66,11 @@ def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack]) -> Cr
     )
 
 
-def restart_ranging_schedule(settings: ChannelSettings, schedule: Schedule) -> Schedule:
+def restart_ranging_schedule(settings: ChannelSettings, number: int) -> Schedule:
     """Begin, or begin anew: the channel is taken for a slot, and the next one has a new number (X1)."""
     return Schedule(
         turns={},
         pairs=0,
-        number=schedule.number,
+        number=number,
         taken_ms=settings.slot_ms,
     )

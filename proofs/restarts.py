@@ -87,7 +87,7 @@ def source() -> str:
             "restart_ranging_schedule",
             "schedule",
             Schedule,
-            "settings: ChannelSettings, schedule: Schedule",
+            "settings: ChannelSettings, number: int",
             "Begin, or begin anew: the channel is taken for a slot, and the next one has a new number (X1).",
             persistence.RANGING_SCHEDULE,
         ),

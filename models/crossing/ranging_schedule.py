@@ -147,7 +147,7 @@ def register(site: Channel, system: Ranging, pair: Pair) -> Ranging:
     if not machine.are_in_time(site.settings, site.bounds):
         return system
     schedule = machine.register(site.settings, system.schedule, pair)
-    if pair in system.waits or pair not in schedule.turns:
+    if pair in system.schedule.turns or pair not in schedule.turns:
         return replace(system, schedule=schedule)
     registered = system.registered + 1
     waits = {other: replace(wait, most=greater(wait.most, registered)) for other, wait in system.waits.items()}
@@ -157,7 +157,7 @@ def register(site: Channel, system: Ranging, pair: Pair) -> Ranging:
 def leave(site: Channel, system: Ranging, gone: Pair) -> Ranging:
     """A pair is taken off: the train has passed, has turned back, or is not heard any more (X1)."""
     schedule = machine.leave(system.schedule, gone)
-    if gone not in system.waits or gone in schedule.turns:
+    if gone not in system.schedule.turns or gone in schedule.turns:
         return replace(system, schedule=schedule)
     waits = {pair: wait for pair, wait in system.waits.items() if pair != gone}
     return replace(system, schedule=schedule, registered=system.registered - 1, waits=waits)
@@ -226,10 +226,8 @@ def begin_ranging(site: Channel, system: Ranging, number: int) -> Ranging:
     """Trackside and train radio begin to range by an order that they have heard, once or again (X1)."""
     if not a_ranging_begins_by_a_fresh_order(site, system, number):
         return system
-    under_way = system.under_way | {number}
-    if number in system.taken:
-        return replace(system, under_way=under_way)
-    return replace(system, under_way=under_way, taken=system.taken | {number: 0})
+    taken = system.taken | {number: system.taken.get(number, 0)}
+    return replace(system, under_way=system.under_way | {number}, taken=taken)
 
 
 def end_ranging(site: Channel, system: Ranging, number: int) -> Ranging:
@@ -254,5 +252,5 @@ def restart(site: Channel, system: Ranging, number: int) -> Ranging:
     """
     if not a_start_goes_on_from_the_last_number(system, number):
         return system
-    started = restart_ranging_schedule(site.settings, replace(system.schedule, number=number))
+    started = restart_ranging_schedule(site.settings, number)
     return replace(system, schedule=started, registered=0, waits={})
