@@ -30,7 +30,6 @@ from typing import NewType
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Train
 from kernel.maps import Map
-from kernel.onboard.arithmetic import larger
 
 NONE = -1
 """The number of no slot: that of a pair that has had none since it registered."""
@@ -112,19 +111,6 @@ def are_in_time(settings: ChannelSettings, bounds: ArrivalBounds) -> bool:
     )
 
 
-def refusal(settings: ChannelSettings, bounds: ArrivalBounds) -> str:
-    """Say in one line why a channel is not put into service with these settings; nothing if it is (X1)."""
-    if are_in_time(settings, bounds):
-        return ""
-    if settings.tick_ms <= 0 or settings.slot_ms <= 0:
-        return f"tick {settings.tick_ms} ms, slot {settings.slot_ms} ms: both must be longer than 0 ms"
-    return (
-        f"{settings.most_pairs} pairs in slots of {settings.slot_ms} ms: rangings up to"
-        f" {longest_apart_ms(settings, bounds)} ms old, but they count for"
-        f" {bounds.silence_cycles * bounds.cycle_ms} ms: write fewer pairs or shorter slots"
-    )
-
-
 # ---- who is registered
 
 
@@ -157,7 +143,7 @@ def next_tick(settings: ChannelSettings, schedule: Schedule) -> Schedule:
 
     The pair with nobody before it is ranged, and is the last one from now on.
     """
-    taken_ms = larger(0, schedule.taken_ms - settings.tick_ms)
+    taken_ms = schedule.taken_ms - settings.tick_ms
     if taken_ms > 0:
         return replace(schedule, taken_ms=taken_ms)
     number = schedule.number + 1

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
-from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time
+from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time, longest_apart_ms
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -228,6 +228,19 @@ def lawful() -> bool:
 def is_lawful(trial: Trial) -> bool:
     """Tell whether one trial's are."""
     return are_lawful(trial.settings) and all(
-        have_one_warning_time(trial.bounds(kind), trial.settings) and are_in_time(CHANNEL, trial.bounds(kind))
+        have_one_warning_time(trial.bounds(kind), trial.settings) and not refusal(CHANNEL, trial.bounds(kind))
         for kind in (trial.express, trial.local)
+    )
+
+
+def refusal(channel: ChannelSettings, bounds: ArrivalBounds) -> str:
+    """Say in one line why a channel is not put into service for a crossing; nothing if it is (X1)."""
+    if are_in_time(channel, bounds):
+        return ""
+    if channel.tick_ms <= 0 or channel.slot_ms <= 0:
+        return f"tick {channel.tick_ms} ms, slot {channel.slot_ms} ms: both must be longer than 0 ms"
+    return (
+        f"{channel.most_pairs} pairs in slots of {channel.slot_ms} ms: rangings up to"
+        f" {longest_apart_ms(channel, bounds)} ms old, but they count for"
+        f" {bounds.silence_cycles * bounds.cycle_ms} ms: write fewer pairs or shorter slots"
     )

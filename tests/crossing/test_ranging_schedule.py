@@ -20,8 +20,8 @@ from kernel.crossing import ranging_schedule as machine
 from kernel.crossing.crossing import Train
 from kernel.crossing.ranging_schedule import NONE, ChannelSettings, CrossingName, Pair, Schedule, Turn, are_in_time
 from kernel.restarts import restart_ranging_schedule
-from models.crossing.sites import CHANNEL, TRIALS
-from proofs.crossing.witnesses.ranging_schedule import EAST, ONE, ONE_EAST, SITE, THREE, TWO, WITNESSES, Played
+from models.crossing.sites import CHANNEL, TRIALS, refusal
+from proofs.crossing.witnesses.ranging_schedule import BOUNDS, EAST, ONE, ONE_EAST, SITE, THREE, TWO, WITNESSES, Played
 
 SETTINGS = ChannelSettings(tick_ms=10, slot_ms=100, most_pairs=6)
 RANGING_MS, LATEST_MS = 30, 60
@@ -243,3 +243,25 @@ def test_the_simulated_crossings_have_time_for_all_their_pairs() -> None:
         for kind in (trial.express, trial.local):
             assert are_in_time(CHANNEL, trial.bounds(kind))
             assert not are_in_time(replace(CHANNEL, most_pairs=CHANNEL.most_pairs + 1), trial.bounds(kind))
+
+
+@pytest.mark.parametrize(
+    ("channel", "words"),
+    [
+        (ChannelSettings(10, 105, 3), ""),
+        (
+            ChannelSettings(10, 106, 3),
+            "3 pairs in slots of 106 ms: rangings up to 604 ms old, but they count for 600 ms: write fewer pairs or"
+            " shorter slots",
+        ),
+        (
+            ChannelSettings(1, 1, 225),
+            "225 pairs in slots of 1 ms: rangings up to 601 ms old, but they count for 600 ms: write fewer pairs or"
+            " shorter slots",
+        ),
+        (ChannelSettings(0, 105, 3), "tick 0 ms, slot 105 ms: both must be longer than 0 ms"),
+        (ChannelSettings(10, 0, 3), "tick 10 ms, slot 0 ms: both must be longer than 0 ms"),
+    ],
+)
+def test_settings_that_leave_no_time_are_refused_in_one_line(channel: ChannelSettings, words: str) -> None:
+    assert refusal(channel, replace(BOUNDS, cycle_ms=150)) == words
