@@ -68,6 +68,7 @@ NOTED: Mapping[str, Mapping[str, str]] = {
         "may_proceed": "what is claimed of an order is claimed of what the unit was told",
         "acknowledged": "what is claimed of a release is claimed of what the driver did",
     },
+    "alarm_tone": {"newest_ms": "the clock that the server reads at its start is what it is told"},
     "alarm_distance": {"received_mm": "a receiver that hangs tells again what it told; that is what the unit was told"},
 }
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""

@@ -12,6 +12,8 @@ from pathlib import Path
 
 from kernel import persistence
 from kernel.alarm.distance import TrainFix
+from kernel.alarm.tone import Handset
+from kernel.alarm.train_list import Server
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
@@ -84,6 +86,16 @@ ALARM_UNIT = (
     "Nothing survives. The receiver may have hung before the start, and nobody knows since when it has told its place:"
     " the first place after a start is no fix until another is told, to the millimetre."
 )
+ALARM_SERVER = (
+    "Nothing survives. Its life is GPS time at the start, so no counter on a disk can be lost; a life that is repeated"
+    " would look like the one before, and is assumed away. The list is not whole until a person has confirmed it for"
+    " this life: a confirmation for an earlier one is none, and an entry or a list from before the start is of another"
+    " life. So it is of a spare server that takes over."
+)
+ALARM_HANDSET = (
+    "Nothing survives: no tone is mild before it has read a whole list from its first entry on, and has a fix of its"
+    " own. So it is of a spare handset."
+)
 
 
 def persistence_page() -> str:
@@ -108,6 +120,8 @@ def persistence_page() -> str:
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),
+        ("The display's server, which keeps the alarm's list", Server, persistence.ALARM_SERVER, ALARM_SERVER),
+        ("A track worker's handset", Handset, persistence.ALARM_HANDSET, ALARM_HANDSET),
     ):
         said = described(state)
         lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]

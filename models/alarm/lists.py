@@ -40,6 +40,11 @@ def who_confirms_has_entered_every_train(system: Worksite) -> bool:
     return all(of.is_entered for _train, of in system.lists.let_on.items())
 
 
+def only_what_a_person_confirmed_is_heard(system: Worksite, life_ms: int) -> bool:
+    """A confirmation that reaches the server was given by a person, for the life of the server that it bears (A1)."""
+    return life_ms in system.lists.confirmed
+
+
 def what_is_reported_left_and_silent_has_left(system: Worksite, train: Train) -> bool:
     """A train reported to have left, of which then neither source has told for 6 s, is not on the line (A2)."""
     return train not in system.lists.reported or (
@@ -114,7 +119,8 @@ def strike_off(site: Railway, system: Worksite, train: Train) -> Worksite:
     """The server looks whether a train is to come off its list; who has entered it sees it go (A2)."""
     if not what_is_reported_left_and_silent_has_left(system, train):
         return system
-    lists, server = system.lists, machine.strike_off(system.server, train)
+    lists = system.lists
+    server = machine.strike_off(system.server, train)
     kept = {other: of for other, of in lists.reported.items() if other != train or not is_accounted_for(of)}
     if server.count == system.server.count:
         return replace(system, server=server, lists=replace(lists, reported=kept))
@@ -152,7 +158,7 @@ def confirm_the_list(site: Railway, system: Worksite) -> Worksite:
 
 def hear_confirmation(site: Railway, system: Worksite, life_ms: int) -> Worksite:
     """What a person has confirmed reaches the server, perhaps after it has restarted (A1)."""
-    if life_ms not in system.lists.confirmed:
+    if not only_what_a_person_confirmed_is_heard(system, life_ms):
         return system
     return replace(system, server=machine.confirm(system.server, life_ms))
 
@@ -162,20 +168,18 @@ def hear_confirmation(site: Railway, system: Worksite, life_ms: int) -> Worksite
 
 def send_entry(site: Railway, system: Worksite, number: int) -> Worksite:
     """The server sends an entry, for the first time or again (A1)."""
-    server, lists = system.server, system.lists
-    if number not in server.entries:
-        return system
-    entries = lists.entries | {(server.life_ms, number): server.entries[number]}
-    return replace(system, lists=replace(lists, entries=entries))
+    server = system.server
+    before = system.lists.entries
+    sent = before | {(server.life_ms, number): server.entries[number]} if number in server.entries else before
+    return replace(system, lists=replace(system.lists, entries=sent))
 
 
 def send_summary(site: Railway, system: Worksite) -> Worksite:
     """The server sends how its list is; only one that is said to be whole matters (A1)."""
     said = machine.summary(system.server)
-    if not said.is_whole:
-        return system
-    summaries = system.lists.summaries | {(said.life_ms, said.count): 0}
-    return replace(system, lists=replace(system.lists, summaries=summaries))
+    before = system.lists.summaries
+    sent = before | {(said.life_ms, said.count): 0} if said.is_whole else before
+    return replace(system, lists=replace(system.lists, summaries=sent))
 
 
 # ---- what the handset is told
