@@ -63,7 +63,6 @@ READINGS: Mapping[str, str] = {
     "train.run_a_cycle.acknowledged": "a button that the driver presses",
     "brake_watch.run_a_cycle.applied": "what the unit itself tells its brake; any is allowed for",
     "alarm_tone.hear_summary.servers_well": "what the servers say of themselves",
-    "alarm_tone.hear_summary.is_whole": "what the server says of its list; that it is whole only if it has said so",
     "alarm_tone.look_at_the_battery.battery_well": "what the gauge of the battery says",
     "dispatching.arrive.stands": "what the tram's own machine found, as `stopping` proves it",
     "display.take_place.is_located": "whether the receiver gives a place",

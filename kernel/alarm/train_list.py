@@ -10,8 +10,9 @@ After a start the list is empty and not whole.  It becomes whole when a person c
 that every train on the line, or let onto it, has been entered.
 
 A number comes onto the list when it is entered, or when GPS or the traffic display tells of a train by it.  It leaves
-the list when it was reported to have left and then neither has told of it for some time.  So one report alone takes no
-train off, and a train that changes its number leaves its old one on the list until that is accounted for.
+the list when it was reported to have left and since that report neither has told of it for some time; what is told of
+after the report makes that void.  So one report alone takes no train off, and a train that changes its number leaves
+its old one on the list until that is accounted for.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from kernel.alarm.tone import NOTHING_KNOWN, Handset, Listing, Train, has_whole_
 from kernel.maps import Map
 
 QUIET_MS = 6_000
-"""A train reported to have left is off the list after neither source has told of it for so long (ours).
+"""A train reported to have left is off the list after neither source has told of it for so long since (ours).
 
 GPS tells every 2 s and the display every 3 s (004, 3.1, 3.2), so that three and two in a row are missing then.
 """
@@ -58,13 +59,12 @@ class Summary:
 class Listed:
     """A train on the server's list (A2).
 
-    ``number``: of its entry.  ``left_ms``: how long ago it was reported to have left.
-    ``silent_ms``: how long ago it was entered, or either source told of it.
+    ``number``: of its entry.  ``left_ms``: how long ago it was reported to have left, if it has not been entered and
+    neither source has told of it since.
     """
 
     number: int
     left_ms: int
-    silent_ms: int
 
 
 @dataclass(frozen=True)
@@ -94,11 +94,7 @@ def older_server(server: Server, elapsed_ms: int) -> Server:
     return replace(
         server,
         trains={
-            train: replace(
-                listed,
-                left_ms=older_ms(listed.left_ms, elapsed_ms),
-                silent_ms=older_ms(listed.silent_ms, elapsed_ms),
-            )
+            train: replace(listed, left_ms=older_ms(listed.left_ms, elapsed_ms))
             for train, listed in server.trains.items()
         },
     )
@@ -112,30 +108,29 @@ def with_entry(server: Server, train: Train, has_left: bool) -> Server:
 
 
 def enter(server: Server, train: Train) -> Server:
-    """Enter a train number; a report that it has left was of an earlier run then (A2)."""
+    """Take a train onto the list that a person enters, or that GPS or the traffic display tells of (A2).
+
+    A report that it has left was of an earlier run then, or wrong, and is void.
+    """
     number = server.trains[train].number if train in server.trains else server.count + 1
-    listed = Listed(number=number, left_ms=NOT_REPORTED_MS, silent_ms=0)
+    listed = Listed(number=number, left_ms=NOT_REPORTED_MS)
     entered = server if train in server.trains else with_entry(server, train, has_left=False)
     return replace(entered, trains=server.trains | {train: listed})
 
 
-def note_heard(server: Server, train: Train) -> Server:
-    """Note that GPS or the traffic display has told of a train; one that is not on the list comes onto it (A2)."""
-    if train not in server.trains:
-        return enter(server, train)
-    return replace(server, trains=server.trains | {train: replace(server.trains[train], silent_ms=0)})
-
-
 def note_left(server: Server, train: Train) -> Server:
-    """Note a report that a train has left the line, or its number is used no more (A2)."""
-    if train not in server.trains:
+    """Note a report that a train has left the line, or its number is used no more (A2).
+
+    One that is made again counts from the first.
+    """
+    if train not in server.trains or server.trains[train].left_ms <= GREATEST_AGE_MS:
         return server
     return replace(server, trains=server.trains | {train: replace(server.trains[train], left_ms=0)})
 
 
 def is_accounted_for(listed: Listed) -> bool:
-    """Tell whether a train was reported to have left, and neither source has told of it since for some time (A2)."""
-    return QUIET_MS <= listed.left_ms <= GREATEST_AGE_MS and listed.silent_ms >= QUIET_MS
+    """Tell whether a train was reported to have left, and neither source has told of it for some time since (A2)."""
+    return QUIET_MS <= listed.left_ms <= GREATEST_AGE_MS
 
 
 def strike_off(server: Server, gone: Train) -> Server:

@@ -18,7 +18,6 @@ from models.alarm.worksite import (
     Lists,
     OfList,
     Railway,
-    Reported,
     Told,
     Worksite,
     age_after_ms,
@@ -32,7 +31,7 @@ from models.alarm.worksite import (
 
 def each_start_is_later(system: Worksite, now_ms: int) -> bool:
     """The server takes GPS time at its start, and no two starts are at one time (A1)."""
-    return now_ms > system.lists.newest_ms
+    return now_ms > system.newest_ms
 
 
 def who_confirms_has_entered_every_train(system: Worksite) -> bool:
@@ -46,7 +45,7 @@ def only_what_a_person_confirmed_is_heard(system: Worksite, life_ms: int) -> boo
 
 
 def what_is_reported_left_and_silent_has_left(system: Worksite, train: Train) -> bool:
-    """A train reported to have left, of which then neither source has told for 6 s, is not on the line (A2)."""
+    """A train reported to have left, of which since then neither source has told for 6 s, is not on the line (A2)."""
     return train not in system.lists.reported or (
         not is_accounted_for(system.lists.reported[train]) or train not in system.bodies
     )
@@ -74,13 +73,14 @@ def start_server(site: Railway, system: Worksite, now_ms: int) -> Worksite:
     return replace(
         system,
         server=machine.started(now_ms),
-        lists=replace(system.lists, newest_ms=now_ms, let_on=let_on, reported={}),
+        newest_ms=now_ms,
+        lists=replace(system.lists, let_on=let_on, reported={}),
     )
 
 
 def with_server(system: Worksite, server: machine.Server, lists: Lists, train: Train) -> Worksite:
     """Give the worksite with a train on the server's list; who was not there bears the newest entry."""
-    open_since = lists.open_since | {(lists.newest_ms, train): server.count}
+    open_since = lists.open_since | {(system.newest_ms, train): server.count}
     return replace(
         system,
         server=server,
@@ -92,26 +92,21 @@ def enter(site: Railway, system: Worksite, train: Train) -> Worksite:
     """A train number is entered, and the server shows it: from now on the train may be let on (A2)."""
     lists = system.lists
     of = lists.let_on.get(train, LetOn(age_ms=0, is_entered=True))
-    noted = replace(
-        lists,
-        let_on=lists.let_on | {train: replace(of, is_entered=True)},
-        reported=lists.reported | {train: Reported(left_ms=3_600_001, silent_ms=0)},
-    )
+    let_on = lists.let_on | {train: replace(of, is_entered=True)}
+    noted = replace(lists, let_on=let_on, reported=lists.reported | {train: 3_600_001})
     return with_server(system, machine.enter(system.server, train), noted, train)
 
 
 def hear_of(site: Railway, system: Worksite, train: Train) -> Worksite:
     """GPS or the display tells the server of a train, whatever that may be (A1, A2)."""
-    reported = system.lists.reported
-    of = reported.get(train, Reported(left_ms=3_600_001, silent_ms=0))
-    noted = replace(system.lists, reported=reported | {train: replace(of, silent_ms=0)})
-    return with_server(system, machine.note_heard(system.server, train), noted, train)
+    noted = replace(system.lists, reported=system.lists.reported | {train: 3_600_001})
+    return with_server(system, machine.enter(system.server, train), noted, train)
 
 
 def report_left(site: Railway, system: Worksite, train: Train) -> Worksite:
     """The interlocking, or a person, reports that a train has left, truly or not (A2)."""
     reported = system.lists.reported
-    left = {other: replace(of, left_ms=0) if other == train else of for other, of in reported.items()}
+    left = {other: 0 if other == train and ms > 3_600_000 else ms for other, ms in reported.items()}
     return replace(system, server=machine.note_left(system.server, train), lists=replace(system.lists, reported=left))
 
 
@@ -121,7 +116,7 @@ def strike_off(site: Railway, system: Worksite, train: Train) -> Worksite:
         return system
     lists = system.lists
     server = machine.strike_off(system.server, train)
-    kept = {other: of for other, of in lists.reported.items() if other != train or not is_accounted_for(of)}
+    kept = {other: ms for other, ms in lists.reported.items() if other != train or not is_accounted_for(ms)}
     if server.count == system.server.count:
         return replace(system, server=server, lists=replace(lists, reported=kept))
     return replace(
@@ -134,7 +129,7 @@ def strike_off(site: Railway, system: Worksite, train: Train) -> Worksite:
             open_since={
                 (life_ms, other): number
                 for (life_ms, other), number in lists.open_since.items()
-                if life_ms != lists.newest_ms or other != train
+                if life_ms != system.newest_ms or other != train
             },
         ),
     )
@@ -152,7 +147,7 @@ def confirm_the_list(site: Railway, system: Worksite) -> Worksite:
     """A person confirms to the server, in the life that it is in, that every train has been entered (A2)."""
     if not who_confirms_has_entered_every_train(system):
         return system
-    confirmed = system.lists.confirmed | {system.lists.newest_ms}
+    confirmed = system.lists.confirmed | {system.newest_ms}
     return replace(system, lists=replace(system.lists, confirmed=confirmed))
 
 
@@ -257,12 +252,7 @@ def lists_after(lists: Lists, elapsed_ms: int) -> Lists:
     return replace(
         lists,
         let_on={train: replace(of, age_ms=age_after_ms(of.age_ms, elapsed_ms)) for train, of in lists.let_on.items()},
-        reported={
-            train: Reported(
-                left_ms=age_after_ms(of.left_ms, elapsed_ms), silent_ms=age_after_ms(of.silent_ms, elapsed_ms)
-            )
-            for train, of in lists.reported.items()
-        },
+        reported={train: age_after_ms(left_ms, elapsed_ms) for train, left_ms in lists.reported.items()},
         summaries={
             (life_ms, count): age_after_ms(age_ms, elapsed_ms) for (life_ms, count), age_ms in lists.summaries.items()
         },

@@ -20,7 +20,7 @@ from models.compiled import compiled
 
 KERNEL = MADE.train_list
 started, older_server, enter, confirm = KERNEL.started, KERNEL.older_server, KERNEL.enter, KERNEL.confirm
-note_heard, note_left, strike_off = KERNEL.note_heard, KERNEL.note_left, KERNEL.strike_off
+note_left, strike_off = KERNEL.note_left, KERNEL.strike_off
 RESTARTS, CUT, RENUMBERED, UNLISTED = (KIND[name] for name in ("server_restarts", "list_cut", "renumbered", "unlisted"))
 DISPLAY_OUT, TRAIN_SILENT = KIND["display_out"], KIND["train_silent"]
 LEFT_BROKEN, LIST_BROKEN = NUMBER["left_broken"], NUMBER["list_broken"]
@@ -87,9 +87,9 @@ def hear_of(day: Any, sent: Any, train: int, server: Any, second: int) -> Any:
     if is_of(day, UNLISTED, train, second):
         return server
     if (second + train) % 2 == 0 and sent.has_fix[train, now] and not is_of(day, TRAIN_SILENT, train, second):
-        server = note_heard(server, sent.number[train, now])
+        server = enter(server, sent.number[train, now])
     if (second + train) % 3 == 0 and train != SHUNTER and not is_on(day, DISPLAY_OUT, second):
-        server = note_heard(server, sent.number[train, now])
+        server = enter(server, sent.number[train, now])
     return server
 
 

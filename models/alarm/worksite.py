@@ -142,30 +142,19 @@ class LetOn:
 
 
 @dataclass(frozen=True)
-class Reported:
-    """What was told to this life of the server of a train that it has on its list (A2).
-
-    ``left_ms``: how long ago it was reported to have left; more than an hour where it was not.
-    ``silent_ms``: how long ago it was entered, or either source told of it.
-    """
-
-    left_ms: int
-    silent_ms: int
-
-
-@dataclass(frozen=True)
 class Lists:
     """A history: the server's lives, who was let onto the line, and what was told to it and sent by it (A1, A2).
 
-    ``newest_ms``: the time of its last start.  ``entries``: those sent, by life and number.
+    ``let_on``: who is on the line or let onto it.  ``reported``: the trains that were entered or told of in this life
+    and are not accounted for, and how long ago they were first reported to have left since then; more than an hour
+    where they were not.  ``entries``: those sent, by life and number.
     ``summaries``: those sent that said the list was whole, by life and count, and how long ago the last one was.
     ``open_since``: which trains each life has on its list, or had at its end, by the number of the entry.
     ``confirmed``: the lives in which a person has confirmed the list.
     """
 
-    newest_ms: int
     let_on: Map[Train, LetOn]
-    reported: Map[Train, Reported]
+    reported: Map[Train, int]
     entries: Map[tuple[int, int], Entry]
     summaries: Map[tuple[int, int], int]
     open_since: Map[tuple[int, Train], int]
@@ -174,11 +163,15 @@ class Lists:
 
 @dataclass(frozen=True)
 class Worksite:
-    """One moment: the worker, every train of the line, server and lists, what was told, known and heard."""
+    """One moment: the worker, every train of the line, server and lists, what was told, known and heard.
+
+    ``newest_ms``: a history: the time of the server's last start.
+    """
 
     worker_um: int
     bodies: Map[Train, Body]
     server: Server
+    newest_ms: int
     lists: Lists
     told: Told
     handset: Handset
@@ -392,9 +385,9 @@ def is_list_fresh(site: Railway, told: Told) -> bool:
     return is_young and told.servers_well and is_list_whole(told.listing)
 
 
-def is_accounted_for(of: Reported) -> bool:
-    """Tell whether a train was reported to have left, and then neither source told of it for 6 s (ours; A2)."""
-    return 6_000 <= of.left_ms <= 3_600_000 and of.silent_ms >= 6_000
+def is_accounted_for(left_ms: int) -> bool:
+    """Tell whether a train was reported to have left, and since then neither source told of it for 6 s (ours; A2)."""
+    return 6_000 <= left_ms <= 3_600_000
 
 
 def is_just_beyond(section: NoUse, fix: TrainFix, worker_um: int) -> bool:

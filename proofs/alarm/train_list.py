@@ -12,7 +12,7 @@ def nothing_was_sent(site: Railway, system: Worksite) -> bool:
     """At the start the server has just started, and trains are on the line, let on long before (A1)."""
     server, lists = system.server, system.lists
     return (
-        server.life_ms == lists.newest_ms
+        server.life_ms == system.newest_ms
         and server.count == 0
         and not server.is_whole
         and all(False for _train in server.trains)
@@ -36,12 +36,11 @@ def nothing_was_sent(site: Railway, system: Worksite) -> bool:
 def a_train_that_is_told_of_is_on_the_list(site: Railway, system: Worksite) -> bool:
     """Whoever was entered, or told of by either source, is on the server's list until it is accounted for (A2).
 
-    So it is until it was reported to have left, and neither source has told of it for 6 s then.
+    So it is until it was reported to have left, and neither source has told of it for 6 s since.
     """
     trains = system.server.trains
     return all(
-        train in trains and trains[train].left_ms == of.left_ms and trains[train].silent_ms == of.silent_ms
-        for train, of in system.lists.reported.items()
+        train in trains and trains[train].left_ms == left_ms for train, left_ms in system.lists.reported.items()
     ) and all(train in system.lists.reported for train in trains)
 
 
@@ -68,7 +67,7 @@ def what_was_entered_is_on_the_list(site: Railway, system: Worksite) -> bool:
 
 def a_confirmed_list_has_all_that_were_let_on(site: Railway, system: Worksite) -> bool:
     """Once a person has confirmed this life of the server, all that are let on were entered in it (A2)."""
-    return system.lists.newest_ms not in system.lists.confirmed or all(
+    return system.newest_ms not in system.lists.confirmed or all(
         of.is_entered for _train, of in system.lists.let_on.items()
     )
 
@@ -77,11 +76,11 @@ def no_life_is_of_the_future(site: Railway, system: Worksite) -> bool:
     """What was sent, listed and confirmed is of lives so far, the server's being the newest (A1)."""
     lists = system.lists
     return (
-        system.server.life_ms == lists.newest_ms
-        and all(life_ms <= lists.newest_ms for life_ms, _number in lists.entries)
-        and all(life_ms <= lists.newest_ms for life_ms, _count in lists.summaries)
-        and all(life_ms <= lists.newest_ms for life_ms, _train in lists.open_since)
-        and all(life_ms <= lists.newest_ms for life_ms in lists.confirmed)
+        system.server.life_ms == system.newest_ms
+        and all(life_ms <= system.newest_ms for life_ms, _number in lists.entries)
+        and all(life_ms <= system.newest_ms for life_ms, _count in lists.summaries)
+        and all(life_ms <= system.newest_ms for life_ms, _train in lists.open_since)
+        and all(life_ms <= system.newest_ms for life_ms in lists.confirmed)
     )
 
 
@@ -91,12 +90,12 @@ def trains_of_the_list_have_entries(site: Railway, system: Worksite) -> bool:
     return (
         server.count >= 0
         and all(
-            (lists.newest_ms, train) in lists.open_since
-            and lists.open_since[(lists.newest_ms, train)] == listed.number
+            (system.newest_ms, train) in lists.open_since
+            and lists.open_since[(system.newest_ms, train)] == listed.number
             and 1 <= listed.number <= server.count
             for train, listed in server.trains.items()
         )
-        and all(train in server.trains for life_ms, train in lists.open_since if life_ms == lists.newest_ms)
+        and all(train in server.trains for life_ms, train in lists.open_since if life_ms == system.newest_ms)
     )
 
 
@@ -118,12 +117,12 @@ def entries_of_the_server_are_true(site: Railway, system: Worksite) -> bool:
     """An entry that a train has left has none after it only if the train is off the list (A2)."""
     lists, server = system.lists, system.server
     return all(
-        number <= server.count and says_the_last_of_its_train(lists, lists.newest_ms, number, entry)
+        number <= server.count and says_the_last_of_its_train(lists, system.newest_ms, number, entry)
         for number, entry in server.entries.items()
     ) and all(
         server.entries[number].train == train and not server.entries[number].has_left
         for (life_ms, train), number in lists.open_since.items()
-        if life_ms == lists.newest_ms and number in server.entries
+        if life_ms == system.newest_ms and number in server.entries
     )
 
 
@@ -131,7 +130,7 @@ def entries_sent_are_true(site: Railway, system: Worksite) -> bool:
     """So it is of each that was sent, in any life (A2)."""
     lists = system.lists
     return all(
-        (life_ms != lists.newest_ms or number <= system.server.count)
+        (life_ms != system.newest_ms or number <= system.server.count)
         and says_the_last_of_its_train(lists, life_ms, number, entry)
         for (life_ms, number), entry in lists.entries.items()
     ) and all(
@@ -149,7 +148,7 @@ def trains_on_a_list_have_a_number(site: Railway, system: Worksite) -> bool:
 def whole_lists_are_sent_by_whole_servers(site: Railway, system: Worksite) -> bool:
     """What the server has said of its list in this life, it stands by (A1)."""
     return all(
-        age_ms >= 0 and (life_ms != system.lists.newest_ms or system.server.is_whole)
+        age_ms >= 0 and (life_ms != system.newest_ms or system.server.is_whole)
         for (life_ms, _count), age_ms in system.lists.summaries.items()
     )
 

@@ -118,7 +118,7 @@ class Drawn:
                 self.day.step(step)
                 self.day.step("look_at_the_battery", battery_well=True)
             case "start_server":
-                self.day.step(step, now_ms=self.day.system.lists.newest_ms + 1)
+                self.day.step(step, now_ms=self.day.system.newest_ms + 1)
                 for each in self.trains[: self.chance.randrange(4)]:
                     self.day.step("enter", train=each)
             case _:

@@ -98,9 +98,9 @@ class Day(Play[Railway, Worksite]):
 
     def __init__(self, worker_mm: int = WORKER_MM) -> None:
         """Begin: the server and the handset have started, nothing was told, and no train is there."""
-        server, lists = train_list.started(0), Lists(0, {}, {}, {}, {}, {}, frozenset())
+        server, lists = train_list.started(0), Lists({}, {}, {}, {}, {}, frozenset())
         told, nothing = nothing_told_to_the_handset(), machine.switched_on()
-        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, server, lists, told, nothing, SILENT))
+        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, SILENT))
         self.step("look_at_the_battery", battery_well=True)
 
     def tone(self) -> Tone:

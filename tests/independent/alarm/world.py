@@ -31,7 +31,10 @@ DUTIES = ("enters first", "confirms when all are entered", "reports who has left
 
 @dataclass
 class Running:
-    """A train: its number, where its antenna is, which way it runs and how fast, and whether it is on the line yet."""
+    """A train: its number, where its antenna is, which way it runs and how fast, and whether it is on the line yet.
+
+    ``told_s``: when either source told the server of it last.
+    """
 
     number: Train
     at_m: float
@@ -41,6 +44,7 @@ class Running:
     is_there: bool = False
     next_number: Train | None = None
     next_entered_s: int = 0
+    told_s: int = 0
 
 
 @dataclass
@@ -134,11 +138,11 @@ class Line:
             if self.second < self.comes_up_s:
                 return
             self.server = train_list.started(1_000 * self.second)
-            self.confirms_s = self.second + self.chance.randrange(1, 60)
+            self.confirms_s = self.second + self.chance.choice((1, 2, self.chance.randrange(1, 60)))
         self.server = train_list.older_server(self.server, 1_000)
         for train in self.trains:
-            if self.chance.random() < 0.7:
-                self.server = train_list.note_heard(self.server, train.number)
+            if self.chance.random() < 0.3 or self.second >= train.told_s + QUIET_S - 1:
+                self.server, train.told_s = train_list.enter(self.server, train.number), self.second
         wrong = self.broken == "reports who has left"
         reported = {train.number for train in self.trains if wrong or self.chance.random() < 0.002} | set(self.gone)
         for number in [each for each in self.server.trains if each in reported]:
@@ -147,9 +151,9 @@ class Line:
         for number in list(self.server.trains):
             self.server = train_list.strike_off(self.server, number)
         self.send(train_list.summary(self.server))
-        for entry in self.server.entries.values():
+        for number in range(1, self.server.count + 1):
             if self.chance.random() < 0.5:
-                self.send(entry)
+                self.send(self.server.entries[number])
         if self.chance.random() < 0.004:
             self.server, self.comes_up_s = None, self.second + self.chance.randrange(30)
             self.restarts += 1
