@@ -91,8 +91,8 @@ def with_server(system: Worksite, server: machine.Server, lists: Lists, train: T
 def enter(site: Railway, system: Worksite, train: Train) -> Worksite:
     """A train number is entered, and the server shows it: from now on the train may be let on (A2)."""
     lists = system.lists
-    of = lists.let_on.get(train, LetOn(age_ms=0, is_entered=True))
-    let_on = lists.let_on | {train: replace(of, is_entered=True)}
+    age_ms = lists.let_on[train].age_ms if train in lists.let_on else 0
+    let_on = lists.let_on | {train: LetOn(age_ms=age_ms, is_entered=True)}
     noted = replace(lists, let_on=let_on, reported=lists.reported | {train: 3_600_001})
     return with_server(system, machine.enter(system.server, train), noted, train)
 
@@ -116,20 +116,18 @@ def strike_off(site: Railway, system: Worksite, train: Train) -> Worksite:
         return system
     lists = system.lists
     server = machine.strike_off(system.server, train)
-    kept = {other: ms for other, ms in lists.reported.items() if other != train or not is_accounted_for(ms)}
-    if server.count == system.server.count:
-        return replace(system, server=server, lists=replace(lists, reported=kept))
+    is_off = server.count != system.server.count
     return replace(
         system,
         server=server,
         lists=replace(
             lists,
-            reported=kept,
-            let_on={other: of for other, of in lists.let_on.items() if other != train},
+            reported={each: ms for each, ms in lists.reported.items() if each != train or not is_accounted_for(ms)},
+            let_on={each: of for each, of in lists.let_on.items() if each != train or not is_off},
             open_since={
-                (life_ms, other): number
-                for (life_ms, other), number in lists.open_since.items()
-                if life_ms != system.newest_ms or other != train
+                (life_ms, each): number
+                for (life_ms, each), number in lists.open_since.items()
+                if each != train or not is_off
             },
         ),
     )

@@ -149,7 +149,8 @@ class Lists:
     and are not accounted for, and how long ago they were first reported to have left since then; more than an hour
     where they were not.  ``entries``: those sent, by life and number.
     ``summaries``: those sent that said the list was whole, by life and count, and how long ago the last one was.
-    ``open_since``: which trains each life has on its list, or had at its end, by the number of the entry.
+    ``open_since``: which trains each life has on its list, or had at its end and no later one has taken off since, by
+    the number of the entry.
     ``confirmed``: the lives in which a person has confirmed the list.
     """
 

@@ -162,12 +162,27 @@ def a_train_that_changes_its_number_is_never_gone() -> None:
     assert set(day.system.handset.trains) == {NEW}
 
 
+def a_new_number_begins_with_nothing_told() -> None:
+    """Another train stays what it is, and a fix that was wrong was one of the old number (A2)."""
+    day = with_a_train(WORKER_MM - 6 * KM)
+    day.come(OTHER, WORKER_MM - 20 * KM)
+    day.let_on(NEW)
+    day.tell(FIRST, off_mm=-7 * KM)
+    day.run(600_000)
+    day.tell(FIRST, off_mm=-7 * KM)
+    assert not day.system.bodies[FIRST].fix_is_right
+    day.step("renumber", old=FIRST, new=NEW)
+    assert set(day.system.bodies) == {OTHER, NEW}
+    assert day.system.bodies[NEW].fix_is_right
+
+
 def trains_are_coupled_and_parted() -> None:
     """One becomes longer and the other leaves; one becomes shorter and the other is made up (A2)."""
     day = with_a_train(WORKER_MM - 6 * KM)
     day.come(OTHER, WORKER_MM - 6 * KM)
     day.step("couple_or_part", train=FIRST, below_mm=60_000, above_mm=3_000)
     assert (day.system.bodies[FIRST].below_mm, day.system.bodies[FIRST].above_mm) == (60_000, 3_000)
+    assert set(day.system.bodies) == {FIRST, OTHER}
     for below_mm, above_mm in ((60_001, 0), (0, 60_001), (-1, 0)):
         before = day.system
         assert day.step("couple_or_part", train=FIRST, below_mm=below_mm, above_mm=above_mm) == before
@@ -190,6 +205,7 @@ def one_wrong_report_takes_no_train_off() -> None:
         day.step("strike_off", train=FIRST)
         assert FIRST in day.system.server.trains
     day.step("enter", train=FIRST)
+    assert day.system.server.count == 1
     day.run(6_000)
     day.step("strike_off", train=FIRST)
     assert day.system.server.trains[FIRST].left_ms == NEVER_MS
@@ -231,6 +247,7 @@ def who_is_told_of_comes_onto_the_list() -> None:
     day = Day()
     day.step("hear_of", train=FIRST)
     assert day.system.server.trains == {FIRST: machine.Listed(1, NEVER_MS)}
+    assert machine.summary(day.system.server) == machine.Summary(0, 1, is_whole=False, age_ms=0)
     day.hear()
     assert day.system.handset.trains == {FIRST: NOTHING_KNOWN}
     assert day.tone() == FAULT
@@ -297,6 +314,7 @@ WITNESSES = (
     an_old_entry_takes_no_train_off,
     an_old_list_counts_no_longer_than_it_is_fresh,
     a_train_that_changes_its_number_is_never_gone,
+    a_new_number_begins_with_nothing_told,
     trains_are_coupled_and_parted,
     one_wrong_report_takes_no_train_off,
     a_report_of_more_than_an_hour_ago_is_none,

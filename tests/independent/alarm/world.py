@@ -151,9 +151,9 @@ class Line:
         for number in list(self.server.trains):
             self.server = train_list.strike_off(self.server, number)
         self.send(train_list.summary(self.server))
-        for number in range(1, self.server.count + 1):
+        for written in range(1, self.server.count + 1):
             if self.chance.random() < 0.5:
-                self.send(self.server.entries[number])
+                self.send(self.server.entries[written])
         if self.chance.random() < 0.004:
             self.server, self.comes_up_s = None, self.second + self.chance.randrange(30)
             self.restarts += 1
