@@ -251,13 +251,17 @@ def test_the_simulated_crossings_have_time_for_all_their_pairs() -> None:
         (ChannelSettings(10, 105, 3), ""),
         (
             ChannelSettings(10, 106, 3),
-            "3 pairs in slots of 106 ms: rangings up to 604 ms old, but they count for 600 ms: write fewer pairs or"
-            " shorter slots",
+            (
+                "3 pairs in slots of 106 ms: rangings up to 604 ms old, but they count for 600 ms: write fewer pairs or"
+                " shorter slots"
+            ),
         ),
         (
             ChannelSettings(1, 1, 225),
-            "225 pairs in slots of 1 ms: rangings up to 601 ms old, but they count for 600 ms: write fewer pairs or"
-            " shorter slots",
+            (
+                "225 pairs in slots of 1 ms: rangings up to 601 ms old, but they count for 600 ms: write fewer pairs or"
+                " shorter slots"
+            ),
         ),
         (ChannelSettings(0, 105, 3), "tick 0 ms, slot 105 ms: both must be longer than 0 ms"),
         (ChannelSettings(10, 0, 3), "tick 10 ms, slot 0 ms: both must be longer than 0 ms"),
