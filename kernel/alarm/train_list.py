@@ -2,7 +2,8 @@
 
 The server writes a train register: each entry says that a train number is on the list, or has left it, and bears the
 server's life (GPS time at its start) and a number of its own.  Entries are never changed, so those that come late,
-twice or in another order are of the same list; a handset takes the next one only, and of one life only.  A summary says
+twice or in another order are of the same list; a handset takes the next one only, and of one life only.  It goes over
+to a later life and never back: what a server still says after a spare one has taken over is let go.  A summary says
 how many entries there are, and whether the list is whole.  Whoever has fewer has a short list, and knows no trains by
 it that are not there.
 
@@ -175,12 +176,14 @@ def note_entry(handset: Handset, entry: Entry) -> Handset:
 def note_summary(handset: Handset, told: Summary, servers_well: bool) -> Handset:
     """Note what the server says of its list, and the monitoring server of both; what is older is let go (A1).
 
+    So is what a server says from a life before the one that is read, however new: another has taken over from it.
+
     In a new life of the server the list is read anew.  The trains known from before stay until it has been read and is
     whole, so that who hears the alarm goes on hearing it.
     """
-    if not 0 <= told.age_ms <= handset.server_age_ms:
-        return handset
     read = handset.listing
+    if not 0 <= told.age_ms <= handset.server_age_ms or told.life_ms < read.life_ms:
+        return handset
     goes_on = told.life_ms == read.life_ms
     listing = Listing(
         life_ms=told.life_ms,

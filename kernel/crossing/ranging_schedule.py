@@ -178,4 +178,6 @@ def counts(schedule: Schedule, pair: Pair, number: int) -> bool:
 
     Then it is as old as ``age_cycles`` of its turn says, however late it came.
     """
+    if number == NONE:
+        return False
     return pair in schedule.turns and schedule.turns[pair].number == number

@@ -52,9 +52,12 @@ def what_is_reported_left_and_silent_has_left(system: Worksite, train: Train) ->
 
 
 def a_list_is_no_older_than_it_says(system: Worksite, life_ms: int, count: int, age_ms: int) -> bool:
-    """A summary that says that the list is whole was sent, and no longer ago than it is told with (A1)."""
+    """A summary that says that the list is whole was sent, and no longer ago than it is told with (A1).
+
+    Of a life before the one that the handset reads anything may be said: its server may run on beside the spare one.
+    """
     sent = system.lists.summaries
-    return (life_ms, count) in sent and sent[(life_ms, count)] <= age_ms
+    return life_ms < system.told.listing.life_ms or ((life_ms, count) in sent and sent[(life_ms, count)] <= age_ms)
 
 
 def a_train_comes_after_it_was_let_on(site: Railway, system: Worksite, train: Train) -> bool:
@@ -199,8 +202,8 @@ def told_entry(told: Told, entry: Entry) -> Told:
 
 
 def told_summary(told: Told, life_ms: int, count: int, is_whole: bool, age_ms: int, servers_well: bool) -> Told:
-    """Give what was told after a summary, which counts if it is younger than the last that did (A1)."""
-    if not 0 <= age_ms <= told.list_age_ms:
+    """Give what was told after a summary, which counts if it is younger than the last, and of no life before (A1)."""
+    if not 0 <= age_ms <= told.list_age_ms or life_ms < told.listing.life_ms:
         return told
     of = told.listing
     read = of.taken if life_ms == of.life_ms else 0

@@ -22,7 +22,7 @@ class Channel:
     """What does not change (X1).
 
     ``settings``: what is written for the channel.  ``bounds``: by which one of its crossings reckons.
-    ``over_ms``: so long after its order a ranging is over, or never begins.
+    ``over_ms``: so long after the tick at which its slot began a ranging is over, or never begins.
     """
 
     settings: ChannelSettings
@@ -32,7 +32,7 @@ class Channel:
 
 @dataclass(frozen=True)
 class Order:
-    """An order as it was sent: to the radios of which pair, and how long ago."""
+    """An order as it was sent: to the radios of which pair, and how long ago its slot began."""
 
     pair: Pair
     since_ms: int
@@ -120,7 +120,7 @@ def rangings_under_way_end_in_time(site: Channel, system: Ranging, passed_ms: in
 
 
 def ticks_come_in_time(site: Channel, passed_ms: int) -> bool:
-    """From one tick of the ground unit to the next as much time passes as is written (X1)."""
+    """From a tick or start of the ground unit to its next tick as much time passes as is written (X1)."""
     return passed_ms == site.settings.tick_ms
 
 
@@ -130,8 +130,8 @@ def a_decision_begins_each_cycle(site: Channel, system: Ranging) -> bool:
 
 
 def an_answer_has_the_number_of_its_order(system: Ranging, number: int) -> bool:
-    """What is heard as an answer is of a ranging that was made, by the order of that number (X1)."""
-    return number in system.taken
+    """What is heard as an answer is of a ranging that was made, by the order of that number, or has no number (X1)."""
+    return number == -1 or number in system.taken
 
 
 def a_start_goes_on_from_the_last_number(system: Ranging, number: int) -> bool:

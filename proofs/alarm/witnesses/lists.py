@@ -140,6 +140,20 @@ def an_old_list_counts_no_longer_than_it_is_fresh() -> None:
     assert day.step("hear_summary", age_ms=-1, **{**said, "is_whole": False}) == before
 
 
+def a_server_that_runs_on_beside_its_spare_is_heard_no_more() -> None:
+    """Its list was confirmed while empty, and it goes on saying so, as new; trains are entered elsewhere (A1)."""
+    day = Day()
+    day.hear()
+    day.step("start_server", now_ms=5)
+    day.come(FIRST, WORKER_MM - KM)
+    day.tell(FIRST, DOWN)
+    assert day.tone() == ALARM
+    before = day.system
+    for life_ms in (0, 4):
+        assert day.step("hear_summary", life_ms=life_ms, count=0, is_whole=True, age_ms=0, servers_well=True) == before
+    assert day.tone() == ALARM
+
+
 def a_train_that_changes_its_number_is_never_gone() -> None:
     """The new one is entered first; the old one stays until it is accounted for, and is a fault meanwhile (A2)."""
     day = with_a_train(WORKER_MM - 6 * KM)
@@ -313,6 +327,7 @@ WITNESSES = (
     a_short_list_is_the_fault_tone,
     an_old_entry_takes_no_train_off,
     an_old_list_counts_no_longer_than_it_is_fresh,
+    a_server_that_runs_on_beside_its_spare_is_heard_no_more,
     a_train_that_changes_its_number_is_never_gone,
     a_new_number_begins_with_nothing_told,
     trains_are_coupled_and_parted,

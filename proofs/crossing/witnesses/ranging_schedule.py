@@ -218,6 +218,7 @@ def who_comes_back_in_its_own_slot_is_not_ordered_again() -> None:
     channel.register(ONE)
     assert channel.ordered() == []
     assert channel.system.schedule.turns[ONE] == Turn(1, NONE, 0)
+    assert not channel.hear(ONE, NONE)
     assert not channel.hear(ONE, channel.range())
     before = channel.system
     assert channel.step("send_order", pair=ONE) == before

@@ -53,6 +53,11 @@ def test_a_wrong_report_takes_no_train_off_that_is_told_of() -> None:
     assert breaches(FEW[:8], DUTIES[2]) == 0
 
 
+def test_a_server_that_runs_on_is_not_believed_by_who_has_heard_of_the_spare_one() -> None:
+    """Each that was replaced goes on saying how its list was, as new; handsets do not start anew there."""
+    assert breaches(FEW, DUTIES[3]) == 0
+
+
 def always(_listing: Listing) -> bool:
     return True
 
@@ -91,6 +96,13 @@ def with_any_age(handset: Handset, told: Summary, servers_well: bool) -> Handset
     return SUMMARY(handset, replace(told, age_ms=0), servers_well)
 
 
+def of_a_life_before(handset: Handset, told: Summary, servers_well: bool) -> Handset:
+    read = handset.listing
+    if told.life_ms < read.life_ms:
+        handset = replace(handset, listing=Listing(life_ms=-1, taken=0, count=0, is_whole=False, named={}))
+    return SUMMARY(handset, told, servers_well)
+
+
 PLANTED: dict[str, tuple[Any, str, Any]] = {
     "a list is always whole": (tone, "has_whole_list", always),
     "a short list is whole": (tone, "has_whole_list", whatever_is_missing),
@@ -109,6 +121,11 @@ def test_a_planted_fault_is_heard(fault: str, monkeypatch: pytest.MonkeyPatch) -
     module, name, instead = PLANTED[fault]
     monkeypatch.setattr(module, name, instead)
     assert any(breaches(range(seed, seed + 1)) for seed in range(60))
+
+
+def test_a_server_that_was_replaced_and_is_believed_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(train_list, "note_summary", of_a_life_before)
+    assert any(breaches(range(seed, seed + 1), DUTIES[3]) for seed in range(60))
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ REGISTER = Register(
     stabled=frozenset(),
     openings={},
 )
-DUTIES = ("enters first", "confirms when all are entered", "reports who has left")
+DUTIES = ("enters first", "confirms when all are entered", "reports who has left", "cuts off the server before")
 
 
 @dataclass
@@ -66,6 +66,7 @@ class Line:
         self.gone: dict[Train, int] = {}
         self.numbers = 0
         self.server: Server | None = train_list.confirm(train_list.started(0), 0)
+        self.run_on: list[Server] = []
         self.comes_up_s, self.confirms_s, self.confirmation_ms = 0, 0, -1
         self.air: list[Sent] = []
         self.worker_m = self.chance.uniform(2_000, LINE_M - 2_000)
@@ -134,6 +135,8 @@ class Line:
 
     def serve(self) -> None:
         """The server hears of trains, takes off who is accounted for, sends, and restarts at any moment."""
+        for other in self.run_on:
+            self.send(train_list.summary(other))
         if self.server is None:
             if self.second < self.comes_up_s:
                 return
@@ -155,6 +158,7 @@ class Line:
             if self.chance.random() < 0.5:
                 self.send(self.server.entries[written])
         if self.chance.random() < 0.004:
+            self.run_on += [self.server] if self.broken == "cuts off the server before" else []
             self.server, self.comes_up_s = None, self.second + self.chance.randrange(30)
             self.restarts += 1
 
@@ -172,7 +176,7 @@ class Line:
         self.air = [each for each in self.air if each.at_s > self.second]
         self.chance.shuffle(come)
         self.handset = tone.older(self.handset, 1_000)
-        if self.chance.random() < 0.001:
+        if self.chance.random() < 0.001 and self.broken != "cuts off the server before":
             self.handset = tone.switched_on()
         for each in come:
             age_ms = 1_000 * (self.second - each.made_s)
