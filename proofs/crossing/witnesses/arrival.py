@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import Coming, Crossing, Taken, cannot_both_be, is_of_this_line
+from models.crossing.arrival import Brought, Coming, Crossing, Taken, cannot_both_be, is_of_this_line
 from proofs.crossing.arrival import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
@@ -38,6 +38,7 @@ def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
         arrived=False,
         decided=False,
         told=Ranging(True, way_mm, speed_mm_s, 0),
+        brought=Brought(way_mm, max(0, speed_mm_s)),
         contradicted=False,
         worst=known,
         left_cycles=BOUNDS.warning_cycles + 1,
@@ -241,7 +242,8 @@ def a_ranging_again_takes_the_place_of_the_worst() -> None:
 
 def a_late_ranging_is_shortened_by_its_age() -> None:
     """By the line's speed, and the train may have gained since; at any age that counts (X2)."""
-    train = Train(contacted(3_000_000, 20_000))
+    train = Train(contacted(3_002_000, 20_000))
+    train.cycle(2_000_000)
     train.range()
     told = train.ranging()
     for _ in range(5):
@@ -253,6 +255,34 @@ def a_late_ranging_is_shortened_by_its_age() -> None:
     for age_cycles, counts in ((20, True), (21, False), (0, True), (-1, False)):
         assert machine.counts(BOUNDS, Ranging(True, 0, 0, age_cycles)) == counts
     assert machine.taken(BOUNDS, held, Ranging(True, 9_000, 29_950, 7)).short_um == 0
+
+
+def a_radio_that_hangs_is_silent() -> None:
+    """At 12 m/s, just out of reach of the warning, it tells one ranging as new for ever: that is lost (X1, X3)."""
+    for way_mm, speed_mm_s in ((1_060_000, 12_000), (9_000_000, 2)):
+        train = Train(contacted(way_mm, speed_mm_s))
+        hung = train.ranging()
+        for silent in range(1, 23):
+            train.cycle(BOUNDS.cycle_ms * speed_mm_s, hung)
+            assert train.system.silent_cycles == silent
+            assert train.warns() or silent < 22
+        assert train.warns()
+        assert not train.system.contradicted
+    train = Train(contacted(9_000_000, 12_000))
+    told = train.ranging()
+    for other in (replace(told, way_mm=8_999_999), replace(told, speed_mm_s=12_001)):
+        assert machine.is_told_again(BOUNDS, train.system.followed, told)
+        assert not machine.is_told_again(BOUNDS, train.system.followed, other)
+
+
+def who_stands_is_where_it_was() -> None:
+    """Slower than rangings err it may well be told the same again, and counts (X1)."""
+    for speed_mm_s, is_again in ((2, True), (1, False), (0, False), (-1, False)):
+        train = Train(contacted(2_000_000, speed_mm_s))
+        assert machine.is_told_again(BOUNDS, train.system.followed, train.ranging()) == is_again
+        for _ in range(0 if is_again else 100):
+            train.cycle(0)
+            assert (train.system.silent_cycles, train.warns()) == (0, False)
 
 
 def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
@@ -434,7 +464,10 @@ def what_nature_does_not_do_does_not_happen() -> None:
     ):
         assert train.step("run_a_cycle", **event) == held
     train.run(2_010_000)
-    held = train.system
+    train.range()
+    train.decide(NOTHING)
+    train.run(2_010_000)
+    held, ranging = train.system, train.ranging()
     for other in (
         Ranging(True, ranging.way_mm + 1, ranging.speed_mm_s, 1),
         Ranging(True, ranging.way_mm, ranging.speed_mm_s - 1, 1),
@@ -474,6 +507,8 @@ WITNESSES = (
     without_rangings_the_worst_is_reckoned_with,
     a_ranging_again_takes_the_place_of_the_worst,
     a_late_ranging_is_shortened_by_its_age,
+    a_radio_that_hangs_is_silent,
+    who_stands_is_where_it_was,
     a_ranging_that_contradicts_the_one_before_warns_now,
     an_older_ranging_is_held_against_the_one_before_as_well,
     what_does_not_count_contradicts_nothing,
