@@ -71,6 +71,14 @@ PROMISE: Mapping[str, tuple[Memory, str]] = {
 }
 """A train's promise to a crossing: it is kept through restarts of the train (`kernel.crossing.promise`)."""
 
+RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
+    "turns": (Memory.LOST, "{}"),
+    "pairs": (Memory.LOST, "0"),
+    "number": (Memory.COUNTED, "number"),
+    "taken_ms": (Memory.LOST, "settings.slot_ms"),
+}
+"""The slots of a radio channel: all that is ordered may still be under way, and its number is not given again."""
+
 TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),
     "opens_ms": (Memory.LOST, "now_ms + limits.coming_ms"),
@@ -100,3 +108,22 @@ ALARM_UNIT: Mapping[str, tuple[Memory, str]] = {
     "is_running": (Memory.LOST, "False"),
 }
 """The unit that sends a train's place to the track worker's alarm: no fix (`kernel.alarm.distance.NO_TRAIN_FIX`)."""
+
+ALARM_SERVER: Mapping[str, tuple[Memory, str]] = {
+    "life_ms": (Memory.LOST, "now_ms"),
+    "count": (Memory.LOST, "0"),
+    "is_whole": (Memory.LOST, "False"),
+    "trains": (Memory.LOST, "{}"),
+    "entries": (Memory.LOST, "{}"),
+}
+"""The display's server: it knows of no train, and says so (`kernel.alarm.train_list.started`)."""
+
+ALARM_HANDSET: Mapping[str, tuple[Memory, str]] = {
+    "worker": (Memory.LOST, "NO_WORKER_FIX"),
+    "server_age_ms": (Memory.LOST, "GREATEST_AGE_MS + 1"),
+    "servers_well": (Memory.LOST, "False"),
+    "battery_well": (Memory.LOST, "False"),
+    "listing": (Memory.LOST, "Listing(life_ms=-1, taken=0, count=0, is_whole=False, named={})"),
+    "trains": (Memory.LOST, "{}"),
+}
+"""A track worker's handset: nothing survives (`kernel.alarm.tone.switched_on`)."""

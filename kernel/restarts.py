@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
+from kernel.crossing.ranging_schedule import ChannelSettings, Schedule
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -62,4 +63,14 @@ def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack]) -> Cr
         unaccounted={track: True for track in tracks},
         warns=True,
         warned_cycles=settings.bell_cycles,
+    )
+
+
+def restart_ranging_schedule(settings: ChannelSettings, number: int) -> Schedule:
+    """Begin, or begin anew: the channel is taken for a slot, and the next one has a new number (X1)."""
+    return Schedule(
+        turns={},
+        pairs=0,
+        number=number,
+        taken_ms=settings.slot_ms,
     )

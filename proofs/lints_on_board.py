@@ -41,6 +41,9 @@ TOLD: Mapping[str, Mapping[str, str]] = {
     },
     "train": {"awaited_mm": "where a list has the tag that the orders told of, and nothing of where it lies"},
     "crossing": {"tracks": "which tracks lead over the road is how the crossing is set up; it says nothing of trains"},
+    "arrival": {
+        "brought": "a history of what the radio brought: what the crossing was told, and nothing else"
+    },
     "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }
@@ -68,6 +71,7 @@ NOTED: Mapping[str, Mapping[str, str]] = {
         "may_proceed": "what is claimed of an order is claimed of what the unit was told",
         "acknowledged": "what is claimed of a release is claimed of what the driver did",
     },
+    "alarm_tone": {"newest_ms": "the clock that the server reads at its start is what it is told"},
     "alarm_distance": {"received_mm": "a receiver that hangs tells again what it told; that is what the unit was told"},
 }
 """Fields of history, by theory, in which an event that the machine is told is noted as it is; why."""

@@ -12,9 +12,12 @@ from pathlib import Path
 
 from kernel import persistence
 from kernel.alarm.distance import TrainFix
+from kernel.alarm.tone import Handset
+from kernel.alarm.train_list import Server
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
+from kernel.crossing.ranging_schedule import Schedule
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
@@ -69,6 +72,12 @@ PROMISE = (
     " noted, and holds the train to the line's speed until it is told anew. A spare unit that holds none is not let go"
     " before a person has told the crossing."
 )
+RANGING_SCHEDULE = (
+    "The number survives: it is written before the order is sent, so that no answer to an order from before the start"
+    " counts. All contact is made anew. What was ordered may still be under way, so the channel is taken for a slot. A"
+    " spare unit goes on from a number that is no lower, once the other is cut off from the radios; a train or a"
+    " crossing that restarts changes nothing of it."
+)
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
     " those to a unit that has been swapped for a spare one, which starts in the same way."
@@ -76,6 +85,16 @@ TRAM_DISPLAY = (
 ALARM_UNIT = (
     "Nothing survives. The receiver may have hung before the start, and nobody knows since when it has told its place:"
     " the first place after a start is no fix until another is told, to the millimetre."
+)
+ALARM_SERVER = (
+    "Nothing survives. Its life is GPS time at the start, so no counter on a disk can be lost; a life that is repeated"
+    " would look like the one before, and is assumed away. The list is not whole until a person has confirmed it for"
+    " this life: a confirmation for an earlier one is none, and an entry or a list from before the start is of another"
+    " life. So it is of a spare server that takes over."
+)
+ALARM_HANDSET = (
+    "Nothing survives: no tone is mild before it has read a whole list from its first entry on, and has a fix of its"
+    " own. So it is of a spare handset."
 )
 
 
@@ -97,9 +116,12 @@ def persistence_page() -> str:
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
+        ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),
+        ("The display's server, which keeps the alarm's list", Server, persistence.ALARM_SERVER, ALARM_SERVER),
+        ("A track worker's handset", Handset, persistence.ALARM_HANDSET, ALARM_HANDSET),
     ):
         said = described(state)
         lines += ["", f"## {title}", "", about, "", "| variable | what it is | at a restart |", "|---|---|---|"]

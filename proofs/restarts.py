@@ -9,6 +9,7 @@ from pathlib import Path
 from kernel import persistence
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
+from kernel.crossing.ranging_schedule import Schedule
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
@@ -19,6 +20,7 @@ from __future__ import annotations
 
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
+from kernel.crossing.ranging_schedule import ChannelSettings, Schedule
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -80,6 +82,14 @@ def source() -> str:
             "settings: Settings, tracks: frozenset[CrossingTrack]",
             "Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5).",
             persistence.CROSSING,
+        ),
+        restart_source(
+            "restart_ranging_schedule",
+            "schedule",
+            Schedule,
+            "settings: ChannelSettings, number: int",
+            "Begin, or begin anew: the channel is taken for a slot, and the next one has a new number (X1).",
+            persistence.RANGING_SCHEDULE,
         ),
     ]
     return "\n\n".join(parts)

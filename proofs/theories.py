@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
-from proofs.crossing import arrival, crossing, due, promise
+from proofs.crossing import arrival, crossing, due, promise, ranging_schedule
 from proofs.onboard import (
     antenna_spacing,
     brake_demand,
@@ -61,6 +61,7 @@ IN_ORDER: tuple[Theory, ...] = (
     cycle.THEORY,
     due.THEORY,
     promise.THEORY,
+    ranging_schedule.THEORY,
     crossing.THEORY,
 )
 """The theories, in the order of the matrix."""

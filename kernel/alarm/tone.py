@@ -40,6 +40,7 @@ from kernel.alarm import distance
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
     NO_TRAIN_FIX,
+    NO_WORKER_FIX,
     UM_A_MM,
     AlarmBounds,
     Direction,
@@ -157,18 +158,47 @@ NOTHING_KNOWN = Known(fix=NO_TRAIN_FIX, display=NO_DISPLAY, jumped=False, newest
 
 
 @dataclass(frozen=True)
+class Listing:
+    """How far the handset has read the list of one life of the server (A1, A2; `kernel.alarm.train_list`).
+
+    ``life_ms``: that life.  ``taken``: entries read.  ``count``, ``is_whole``: what the server said last.
+    ``named``: the trains that these entries have on the list, by the number of the entry.
+    """
+
+    life_ms: int
+    taken: int
+    count: int
+    is_whole: bool
+    named: Map[Train, int]
+
+
+@dataclass(frozen=True)
 class Handset:
     """All that a worker's handset decides from (A1, A8).
 
-    ``worker``: its own fix.  ``server_age_ms``: how old the server's last list is; ``servers_well``: the
-    monitoring server says so.  ``battery_well``: the battery lasts.  ``trains``: every train of the list.
+    ``worker``: its own fix.  ``server_age_ms``: how long ago the server said how its list is; ``servers_well``: the
+    monitoring server says so.  ``battery_well``: the battery lasts.  ``listing``: the server's list, as far as read.
+    ``trains``: every train of it, and those from before a restart of the server, until its list is whole.
     """
 
     worker: WorkerFix
     server_age_ms: int
     servers_well: bool
     battery_well: bool
+    listing: Listing
     trains: Map[Train, Known]
+
+
+def switched_on() -> Handset:
+    """Give a handset that has just started: nothing is known, so no tone is mild (A8)."""
+    return Handset(
+        worker=NO_WORKER_FIX,
+        server_age_ms=GREATEST_AGE_MS + 1,
+        servers_well=False,
+        battery_well=False,
+        listing=Listing(life_ms=-1, taken=0, count=0, is_whole=False, named={}),
+        trains={},
+    )
 
 
 # ---- what becomes of what is known
@@ -192,21 +222,6 @@ def older_known(known: Known, elapsed_ms: int) -> Known:
         display=replace(known.display, age_ms=older_ms(known.display.age_ms, elapsed_ms)),
         newest=distance.older_train(known.newest, elapsed_ms),
     )
-
-
-def note_list(handset: Handset, age_ms: int, servers_well: bool) -> Handset:
-    """Note that the server's list has come, and what the monitoring server says (A1)."""
-    return replace(handset, server_age_ms=age_ms, servers_well=servers_well)
-
-
-def note_named(handset: Handset, train: Train) -> Handset:
-    """Note that the server's list names a train: nothing is known of it yet (A2)."""
-    return replace(handset, trains=handset.trains | {train: NOTHING_KNOWN})
-
-
-def note_gone(handset: Handset, gone: Train) -> Handset:
-    """Note that the server's list has a train no more (A2)."""
-    return replace(handset, trains={train: known for train, known in handset.trains.items() if train != gone})
 
 
 def jumps(bounds: AlarmBounds, before: TrainFix, fix: TrainFix) -> bool:
@@ -406,9 +421,18 @@ def has_worker(register: Register, handset: Handset) -> bool:
     return is_fix(worker.place_mm, worker.age_ms) and worker.age_ms <= register.fresh.worker_ms
 
 
+def has_whole_list(listing: Listing) -> bool:
+    """Tell whether the server says that its list is whole, and no entry of it is missing (A1)."""
+    return listing.is_whole and listing.taken >= listing.count
+
+
 def is_linked(register: Register, handset: Handset) -> bool:
-    """Tell whether the server's list is fresh, and the servers well (A1, A8)."""
-    return 0 <= handset.server_age_ms <= register.fresh.server_ms and handset.servers_well
+    """Tell whether the server's list is fresh and whole, and the servers well (A1, A8)."""
+    return (
+        0 <= handset.server_age_ms <= register.fresh.server_ms
+        and handset.servers_well
+        and has_whole_list(handset.listing)
+    )
 
 
 def is_not_to_be_used(register: Register, worker: WorkerFix) -> bool:

@@ -6,7 +6,9 @@ and not the likely one (X2, ours).
 
 Each ranging is held against the one before (ours).  Both cannot be of this train if it would have had to be
 faster than the line allows, either way, or to gain more than it can, by more than rangings err: then the
-warning begins, whichever of the two was wrong.
+warning begins, whichever of the two was wrong.  Of a train that runs no two are alike to the millimetre: one that
+is the one before again is of a radio that hangs, and counts as none, whatever its age is told to be; if it goes on
+the ranging is lost.
 
 No division: instead of a time of arrival the rule asks whether the way ends within so many cycles.  Ways are
 in µm, and so are paces, which is what speeds are here: the way of one cycle.  mm/s times ms is µm.  All fits
@@ -148,6 +150,15 @@ def contradicts(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> 
     )
 
 
+def is_told_again(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> bool:
+    """Tell whether a ranging is the one before once more, of a train that certainly ran: a radio hangs (X1, ours)."""
+    return (
+        ranging.way_mm == followed.told_way_mm
+        and ranging.speed_mm_s == followed.told_speed_mm_s
+        and ranging.speed_mm_s > bounds.speed_spread_mm_s
+    )
+
+
 def must_warn(bounds: ArrivalBounds, followed: Followed) -> bool:
     """Tell whether the warning must begin now: its ranging is lost, or the next decision might be too late (X2, X3).
 
@@ -174,7 +185,9 @@ def aged(bounds: ArrivalBounds, followed: Followed) -> Followed:
 def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
     """Decide for the cycle that begins (X1, X2, X3); :func:`aged` is what is known at its end.
 
-    A ranging that contradicts the one before is a fault, and warns now.
+    A ranging that contradicts the one before is a fault, and warns now; one that is the same again is none.
     """
+    if is_told_again(bounds, followed, ranging):
+        return replace(followed, warns=must_warn(bounds, followed))
     now = taken(bounds, followed, ranging)
     return replace(now, warns=contradicts(bounds, followed, ranging) or must_warn(bounds, now))

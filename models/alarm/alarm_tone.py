@@ -13,8 +13,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.alarm import tone as machine
+from kernel.alarm import train_list
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import Display, Opening, Train
+from models.alarm.lists import a_train_comes_after_it_was_let_on, lists_after
 from models.alarm.tone_assumptions import (
     a_train_fix_is_within_its_error,
     a_worker_fix_is_within_its_error,
@@ -24,18 +26,14 @@ from models.alarm.tone_assumptions import (
     no_train_is_longer_than_written,
     no_train_turns_as_time_passes,
     no_train_turns_sooner,
-    only_what_has_left_is_off_the_list,
     sources_do_not_fail_together,
     the_display_shows_where_the_train_was,
-    the_list_is_whole,
-    the_list_names_it_before_it_comes,
     the_train_keeps_the_lines_speed,
     the_worker_keeps_a_walking_speed,
     trains_come_by_openings,
     what_is_made_up_is_new_on_the_list,
 )
 from models.alarm.worksite import (
-    NOTHING_TOLD,
     Body,
     Heard,
     Railway,
@@ -59,7 +57,6 @@ from models.alarm.worksite import (
     told_after,
     with_battery,
     with_fix,
-    with_list,
 )
 from models.measures import UM_A_MM
 
@@ -68,7 +65,7 @@ from models.measures import UM_A_MM
 
 def come(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
     """A train is made up on the line, anywhere (A2)."""
-    if not the_list_names_it_before_it_comes(site, system, train) or not no_train_is_longer_than_written(site, body):
+    if not a_train_comes_after_it_was_let_on(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
     if not what_is_made_up_is_new_on_the_list(system, train):
         return system
@@ -77,7 +74,7 @@ def come(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
 
 def come_by(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
     """A train comes onto the line by an opening; whatever was told of it until now was of other figures (A1, A2)."""
-    if not the_list_names_it_before_it_comes(site, system, train) or not no_train_is_longer_than_written(site, body):
+    if not a_train_comes_after_it_was_let_on(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
     if not trains_come_by_openings(site, body):
         return system
@@ -85,8 +82,34 @@ def come_by(site: Railway, system: Worksite, train: Train, body: Body) -> Worksi
 
 
 def leave(site: Railway, system: Worksite, train: Train) -> Worksite:
-    """A train leaves the line."""
-    return replace(system, bodies={other: body for other, body in system.bodies.items() if other != train})
+    """A train leaves the line; its dispatcher knows, whenever the server may."""
+    return replace(
+        system,
+        bodies={other: body for other, body in system.bodies.items() if other != train},
+        lists=replace(system.lists, let_on={other: of for other, of in system.lists.let_on.items() if other != train}),
+    )
+
+
+def renumber(site: Railway, system: Worksite, old: Train, new: Train) -> Worksite:
+    """A train on the line changes its number; that it had the old one was told of it alone (A2)."""
+    if old not in system.bodies or new in system.bodies:
+        return system
+    if not a_train_comes_after_it_was_let_on(site, system, new) or not what_is_made_up_is_new_on_the_list(system, new):
+        return system
+    body = replace(system.bodies[old], fix_is_right=True)
+    others = {other: each for other, each in system.bodies.items() if other != old}
+    let_on = {other: of for other, of in system.lists.let_on.items() if other != old}
+    return replace(system, bodies=others | {new: body}, lists=replace(system.lists, let_on=let_on))
+
+
+def couple_or_part(site: Railway, system: Worksite, train: Train, below_mm: int, above_mm: int) -> Worksite:
+    """A train becomes longer or shorter; the other one leaves, or is made up, under its own number (A2)."""
+    if train not in system.bodies:
+        return system
+    body = replace(system.bodies[train], below_mm=below_mm, above_mm=above_mm)
+    if not no_train_is_longer_than_written(site, body):
+        return system
+    return replace(system, bodies=system.bodies | {train: body})
 
 
 def intend(site: Railway, system: Worksite, train: Train, to_um: int, heading: Direction) -> Worksite:
@@ -117,6 +140,8 @@ def pass_time(site: Railway, system: Worksite, elapsed_ms: int, worker_to_um: in
             )
             for train, body in system.bodies.items()
         },
+        server=train_list.older_server(system.server, elapsed_ms),
+        lists=lists_after(system.lists, elapsed_ms),
         told=told_after(system.told, elapsed_ms),
         handset=machine.older(system.handset, elapsed_ms),
     )
@@ -128,34 +153,6 @@ def pass_time(site: Railway, system: Worksite, elapsed_ms: int, worker_to_um: in
 
 
 # ---- what the handset is told
-
-
-def hear_list(site: Railway, system: Worksite, age_ms: int, servers_well: bool) -> Worksite:
-    """A list of the server arrives, after what it names and what it does not (A1)."""
-    if not the_list_is_whole(site, system):
-        return system
-    return replace(
-        system,
-        told=with_list(system.told, age_ms, servers_well),
-        handset=machine.note_list(system.handset, age_ms, servers_well),
-    )
-
-
-def hear_named(site: Railway, system: Worksite, train: Train) -> Worksite:
-    """The list names a train, on the line or not; what was told of it before is of another run (A2)."""
-    return replace(
-        system,
-        told=replace(system.told, trains=system.told.trains | {train: NOTHING_TOLD}),
-        handset=machine.note_named(system.handset, train),
-    )
-
-
-def hear_gone(site: Railway, system: Worksite, train: Train) -> Worksite:
-    """The list has a train no more (A2)."""
-    if not only_what_has_left_is_off_the_list(site, system, train):
-        return system
-    trains = {other: of for other, of in system.told.trains.items() if other != train}
-    return replace(system, told=replace(system.told, trains=trains), handset=machine.note_gone(system.handset, train))
 
 
 def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um: int, is_right: bool) -> Worksite:

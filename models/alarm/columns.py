@@ -21,8 +21,9 @@ ASSUMPTIONS: Mapping[str, str] = {
     "walk_broken": "`the_worker_keeps_a_walking_speed`",
     "display_broken": "`the_display_shows_where_the_train_was`",
     "turning_broken_s": "`no_train_turns_sooner`: a train that counted by a direction in which it did not run",
-    "list_broken": "`the_list_is_whole`: a list was taken, and a train of the line was not on it",
-    "unnamed_s": "`the_list_names_it_before_it_comes`: the link was fresh, and a train of the line not on the list",
+    "list_broken": "`who_confirms_has_entered_every_train`: a list was whole, and a train of the line not on it, s",
+    "left_broken": "`what_is_reported_left_and_silent_has_left`: a train of the line was taken off the list",
+    "unnamed_s": "`a_train_comes_after_it_was_let_on`: a whole list was fresh, and a train of the line not on it",
     "length_broken": "`no_train_is_longer_than_written`",
 }
 MONITORS: Mapping[str, str] = {
@@ -30,6 +31,8 @@ MONITORS: Mapping[str, str] = {
     "turned": "a report of the other direction within the time of turning",
     "mismatch_s": "a train that was not known as it should be: neither both sources nor one as registered (A2)",
     "unlinked_s": "the list was too old (A8)",
+    "short_s": "the list was short: entries of it had not come (A1)",
+    "not_whole_s": "the server said that its list was not whole (A1)",
     "ill_s": "the monitoring server spoke of ill servers (A1)",
     "no_own_fix_s": "the worker's fix was too old (A8)",
     "battery_s": "the battery did not last (A8)",

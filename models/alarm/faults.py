@@ -23,8 +23,8 @@ FAULTS = (
           "practice: reflections in a cutting", "a_wrong_fix_is_contradicted"),
     Fault("clock", "ages were told too young", 0.0, 600, 3_600, "s", 20, 60, "ours: a unit that lost GPS time",
           "the_train_keeps_the_lines_speed"),
-    Fault("unlisted", "a train was not on the server's list", 0.0, 1_800, 7_200, "-", 0, 0, "ours: a trolley",
-          "the_list_is_whole"),
+    Fault("unlisted", "a train was reported to have left, and neither source told the server of it", 0.0, 1_800, 7_200,
+          "-", 0, 0, "ours: a trolley", "what_is_reported_left_and_silent_has_left"),
     Fault("own_drift", "the worker's fix was off", 0.0, 600, 3_600, "m", 200, 1_500, "practice: a cold start",
           "a_worker_fix_is_within_its_error"),
     Fault("backwards", "a train told the wrong direction", 0.0, 600, 3_600, "-", 0, 0, "ours: a cable swapped",
@@ -38,15 +38,25 @@ FAULTS = (
           "practice: a receiver that loses satellites one by one", "a_wrong_fix_is_contradicted"),
     Fault("gps_parallel", "a train's fixes were put on a line beside, longer or shorter", 0.0, 600, 3_600, "%", 5, 30,
           "ours: the nearer line of two in the conversion", "a_wrong_fix_is_contradicted"),
+    Fault("server_restarts", "the display's server restarted, and so much later a person confirmed its list", 0.1, 10,
+          120, "s", 60, 300, "practice: one restart in ten days"),
+    Fault("list_cut", "lists of the server were cut on their way", 0.2, 600, 3_600, "-", 0, 0,
+          "ours: a connection that breaks off"),
+    Fault("renumbered", "a train changed its number on its way", 0.3, 600, 2_400, "-", 0, 0,
+          "practice: a train that goes on as another"),
+    Fault("handset_restarts", "the handset restarted", 0.2, 1, 1, "-", 0, 0, "practice: its program ends"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
 OF_A_TRAIN = (
     "gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards",
-    "gps_frozen", "gps_creeps", "gps_parallel",
+    "gps_frozen", "gps_creeps", "gps_parallel", "renumbered",
 )  # fmt: skip
 """Those that begin while the train is under way."""
-OF_THEIR_OWN = frozenset({"gps_frozen", "joined", "gps_creeps", "gps_parallel"})
+OF_THEIR_OWN = frozenset({
+    "gps_frozen", "joined", "gps_creeps", "gps_parallel", "server_restarts", "list_cut", "renumbered",
+    "handset_restarts",
+})  # fmt: skip
 """Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}
 WITHIN = tuple(fault for fault in FAULTS if not fault.breaks)

@@ -11,7 +11,6 @@ from models.alarm.worksite import (
     Railway,
     Worksite,
     has_just_come,
-    is_list_fresh,
     is_report,
     is_shown,
     is_told_alike,
@@ -140,16 +139,6 @@ def no_train_turns_as_time_passes(site: Railway, later: Worksite) -> bool:
     )
 
 
-def the_list_is_whole(site: Railway, system: Worksite) -> bool:
-    """A list of the server has every train that is on the line: each is on the display or has GPS (A1, A2)."""
-    return all(train in system.told.trains for train in system.bodies)
-
-
-def the_list_names_it_before_it_comes(site: Railway, system: Worksite, train: Train) -> bool:
-    """No train is on the line before the list has it, unless the list is not fresh (A1, A2)."""
-    return train in system.told.trains or not is_list_fresh(site, system.told)
-
-
 def what_is_made_up_is_new_on_the_list(system: Worksite, train: Train) -> bool:
     """Of a train that is made up on the line nothing was told before, under its name (A2)."""
     return train not in system.told.trains or system.told.trains[train] == NOTHING_TOLD
@@ -159,8 +148,3 @@ def trains_come_by_openings(site: Railway, body: Body) -> bool:
     """A train that is not made up on the line comes onto it where an opening is registered (A1)."""
     openings = site.register.openings
     return body.came_by in openings and body.antenna_um == UM_A_MM * openings[body.came_by]
-
-
-def only_what_has_left_is_off_the_list(site: Railway, system: Worksite, train: Train) -> bool:
-    """The server takes no train off its list that is on the line (A2)."""
-    return train not in system.bodies

@@ -38,6 +38,7 @@ MILD_UNKNOWN, MILD_IN_SECTION, WRONG_FIX_BELIEVED = (
 SPEED_BROKEN, OWN_FIX_BROKEN, WALK_BROKEN = (NUMBER["speed_broken"], NUMBER["own_fix_broken"], NUMBER["walk_broken"])
 TURNING_BROKEN, UNNAMED, LENGTH_BROKEN = (NUMBER["turning_broken_s"], NUMBER["unnamed_s"], NUMBER["length_broken"])
 MISMATCH, UNLINKED, ILL = (NUMBER["mismatch_s"], NUMBER["unlinked_s"], NUMBER["ill_s"])
+SHORT, NOT_WHOLE = NUMBER["short_s"], NUMBER["not_whole_s"]
 NO_OWN_FIX, BATTERY, NEEDLESS_ALARM = (NUMBER["no_own_fix_s"], NUMBER["battery_s"], NUMBER["needless_alarm_s"])
 NEEDLESS_CAUTION, NEEDLESS_FAULT, NO_USE = (
     NUMBER["needless_caution_s"],
@@ -106,13 +107,14 @@ def hold_train(register: Any, trains: Any, train: int, known: Any, out: Any) -> 
 
 
 @compiled(forceinline=True)
-def hold_trains(register: Any, day: Any, trains: Any, handset: Any, second: int, out: Any) -> bool:
-    """Go through all trains; tell whether one on the line is unknown to the handset (A2)."""
+def hold_trains(register: Any, day: Any, trains: Any, now: Any, handset: Any, second: int, out: Any) -> bool:
+    """Go through all trains; tell whether one on the line is unknown to the handset by its number of now (A2)."""
     unknown, named = False, 0
     for number, known in handset.trains:
-        if trains.came_s[number] <= second < trains.left_s[number]:
+        train = number % TRAINS
+        if number == now[train] and trains.came_s[train] <= second < trains.left_s[train]:
             named += 1
-            hold_train(register, trains, number, known, out)
+            hold_train(register, trains, train, known, out)
             if known.jumped or (not is_matched(register, known) and not is_registered(register, number, known)):
                 unknown = True
     there = 0
@@ -141,6 +143,8 @@ def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: An
     if day.walk_m_s * 1_000 > WALK_MM_S:
         out[WALK_BROKEN] += 1
     out[UNLINKED] += not 0 <= handset.server_age_ms <= SERVER_MS
+    out[SHORT] += handset.listing.taken < handset.listing.count
+    out[NOT_WHOLE] += not handset.listing.is_whole
     out[ILL] += not handset.servers_well
     out[NO_OWN_FIX] += not has_worker(register, handset)
     out[BATTERY] += not handset.battery_well
@@ -166,16 +170,16 @@ def price(heard: int, before: int, least_m: float, no_use: bool, out: Any) -> No
 
 @compiled(forceinline=True)
 def hold(
-    register: Any, day: Any, trains: Any, sides: Any, handset: Any, heard: int, before: int,
+    register: Any, day: Any, trains: Any, now: Any, sides: Any, handset: Any, heard: int, before: int,
     worker_m: float, second: int, out: Any, seconds: Any,
 ) -> None:  # fmt: skip
-    """Hold one second against the truth, and write it down."""
+    """Hold one second against the truth, and write it down; ``now``: the number of each train."""
     least_m, which = nearest(day, trains, worker_m, second, False)
     any_m, _which = nearest(day, trains, worker_m, second, True)
     if joint_m(day) >= 0:
         least_m, any_m = min(least_m, stranger_m(day, worker_m, second)), min(any_m, stranger_m(day, worker_m, second))
     no_use = in_section(worker_m)
-    unknown = hold_trains(register, day, trains, handset, second, out)
+    unknown = hold_trains(register, day, trains, now, handset, second, out)
     unknown = hold_handset(register, day, handset, worker_m, out) or unknown
     hold_claims(heard, least_m, any_m, unknown, no_use, out)
     price(heard, before, least_m, no_use, out)

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from kernel.alarm.distance import GREATEST_AGE_MS, NO_WORKER_FIX, Direction
-from kernel.alarm.tone import Handset, Tone
+from kernel.alarm.distance import Direction
+from kernel.alarm.tone import Tone, switched_on
 from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.draws import SECONDS
@@ -30,32 +30,31 @@ from models.alarm.gps import (
     wanders,
 )
 from models.alarm.line import BOUNDS, REGISTER, SHUNTER, TRAINS
-from models.alarm.moving import COMES_AFTER_S, NAMED_AFTER_S, at_the_beginning, move, noise, switch_on
+from models.alarm.moving import COMES_AFTER_S, at_the_beginning, move, noise, switch_on
 from models.alarm.network import FIX, LATEST_S, LISTED, SHOWN, SOON_S, is_late, is_of, is_on, send
+from models.alarm.serving import at_first, change_numbers, confirmed_empty, entries_that_come, serve
 from models.alarm.truth import hold
 from models.compiled import compiled, packed
 
 ALARM_TONE, REGISTERED = MADE.tone.tone, packed(REGISTER)
-NOTHING = packed(Handset(NO_WORKER_FIX, GREATEST_AGE_MS + 1, True, True, {}))
+NOTHING = packed(switched_on())
 """A handset that was just switched on."""
 DOWN, UP, UNKNOWN = (packed(direction) for direction in (Direction.DOWN, Direction.UP, Direction.UNKNOWN))
 FAULTY = packed(Tone.FAULT)
 RING = 16
 """So many seconds of what was told are kept; no message arrives later."""
-older, note_list, note_named, note_gone = (
-    MADE.tone.older,
-    MADE.tone.note_list,
-    MADE.tone.note_named,
-    MADE.tone.note_gone,
-)
+older, begun, has_whole_list = MADE.tone.older, MADE.tone.switched_on, MADE.tone.has_whole_list
+summary, note_summary, note_entry = MADE.train_list.summary, MADE.train_list.note_summary, MADE.train_list.note_entry
 note_fix, note_display = MADE.tone.note_fix, MADE.tone.note_display
 note_worker, note_battery = MADE.tone.note_worker, MADE.tone.note_battery
 TrainFix, WorkerFix, Display = MADE.tone.TrainFix, MADE.tone.WorkerFix, MADE.tone.Display
+Summary = MADE.train_list.Summary
 older_train, fix_of_the_unit = MADE.distance.older_train, MADE.distance.fix_of_the_unit
-CLOCK, UNLISTED, OWN_DRIFT, OWN_OUT = (KIND[name] for name in ("clock", "unlisted", "own_drift", "own_gps_out"))
+CLOCK, OWN_DRIFT, OWN_OUT = (KIND[name] for name in ("clock", "own_drift", "own_gps_out"))
 TRAIN_SILENT, HANDSET_SILENT, DISPLAY_OUT = (KIND[name] for name in ("train_silent", "handset_silent", "display_out"))
-ILL, BATTERY = KIND["servers_ill"], KIND["battery"]
-MESSAGES, JUMPED, TURNED, LIST_BROKEN = (NUMBER[name] for name in ("messages", "jumped", "turned", "list_broken"))
+ILL, BATTERY, RESTARTS = KIND["servers_ill"], KIND["battery"], KIND["handset_restarts"]
+SERVER_RESTARTS = KIND["server_restarts"]
+MESSAGES, JUMPED, TURNED = (NUMBER[name] for name in ("messages", "jumped", "turned"))
 AGE_BROKEN, DISPLAY_BROKEN = NUMBER["age_broken"], NUMBER["display_broken"]
 SPEED_MM_S, ERROR_MM, TURNING_MS = BOUNDS.train_mm_s, BOUNDS.train_error_mm, BOUNDS.turning_ms
 HELD_TO = packed(BOUNDS)
@@ -67,9 +66,10 @@ class Trace(NamedTuple):
 
     ``seconds``: tone, the worker's place in mm, the least distance in mm to a train that has not departed, its number.
     ``places``: every train's place in m, NaN while it is not on the line.
-    ``own``: from ``first_s`` on, the handset's own place in mm and that fix's age, the list's age, servers and battery.
-    ``told``: from ``first_s`` on, for each train on the list 1, then the last fix that fitted, place, age, direction,
-    runs; the display, from, to, age; whether its fix jumped; and the newest one, as the other.
+    ``own``: from ``first_s`` on, the handset's own place in mm and that fix's age, the list's age, servers, battery and
+    whether the list is whole.
+    ``told``: from ``first_s`` on, for each number known 1, then the last fix that fitted, place, age, direction, runs;
+    the display, from, to, age; whether its fix jumped; and the newest one, as the other.
     """
 
     seconds: Any
@@ -85,8 +85,8 @@ def trace(places: bool = False, first_s: int = 0, told_s: int = 0) -> Trace:
         np.zeros((SECONDS, 4), np.int64),
         np.full((SECONDS if places else 0, TRAINS), np.nan),
         first_s,
-        np.zeros((told_s, 5), np.int64),
-        np.zeros((told_s, TRAINS, 13), np.int64),
+        np.zeros((told_s, 6), np.int64),
+        np.zeros((told_s, 2 * TRAINS, 13), np.int64),
     )
 
 
@@ -103,6 +103,7 @@ def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
     worker = handset.worker
     kept.own[row, 0], kept.own[row, 1], kept.own[row, 2] = worker.place_mm, worker.age_ms, handset.server_age_ms
     kept.own[row, 3], kept.own[row, 4] = handset.servers_well, handset.battery_well
+    kept.own[row, 5] = has_whole_list(handset.listing)
     for train, known in handset.trains:
         fix, shown, told = known.fix, known.display, kept.told[row, train]
         told[0], told[1], told[2], told[3], told[4] = 1, fix.place_mm, fix.age_ms, fix.direction, fix.is_running
@@ -116,6 +117,8 @@ class Sent(NamedTuple):
     """What was so at each of the last seconds, a row for each train.
 
     ``age_ms``: how old its unit knew the place to be.
+    ``number``: that it ran under.
+    ``life_ms``, ``count``, ``whole``: what the server said of its list then; -1 in the place of a life: nothing.
     ``fix_s``, ``shown_s``, ``list_s``: in which second arrives what was sent then, first and again; -1 for never.
     """
 
@@ -126,6 +129,10 @@ class Sent(NamedTuple):
     direction: Any
     runs: Any
     error_m: Any
+    number: Any
+    life_ms: Any
+    count: Any
+    whole: Any
     fix_s: Any
     shown_s: Any
     list_s: Any
@@ -142,17 +149,14 @@ def nothing_sent() -> Sent:
         np.zeros((TRAINS, RING), np.int64),
         np.zeros((TRAINS, RING), np.bool_),
         np.zeros(TRAINS),
+        np.zeros((TRAINS, RING), np.int64),
+        np.full(RING, -1),
+        np.zeros(RING, np.int64),
+        np.zeros(RING, np.bool_),
         np.full((TRAINS, RING, 2), -1),
         np.full((TRAINS, RING, 2), -1),
         np.full((RING, 2), -1),
     )
-
-
-@compiled(forceinline=True)
-def is_named(day: Any, trains: Any, train: int, second: int) -> bool:
-    """Tell whether the server's list has a train (A2)."""
-    on_s = trains.came_s[train] - COMES_AFTER_S + NAMED_AFTER_S
-    return on_s <= second < trains.left_s[train] + 10 and not is_of(day, UNLISTED, train, second)
 
 
 @compiled(forceinline=True)
@@ -165,7 +169,7 @@ def note_age(sent: Sent, train: int, second: int) -> None:
 
 
 @compiled(forceinline=True)
-def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
+def observe(day: Any, trains: Any, sent: Sent, numbers: Any, second: int) -> None:
     """Every unit takes a fix; it is sent every 2 s, the display every 3 s, the list every 2 s (A1)."""
     now = second % RING
     if second % 2 == 0:
@@ -174,7 +178,7 @@ def observe(day: Any, trains: Any, sent: Sent, second: int) -> None:
         train = trains.switched_on[index]
         place, speed, heading = trains.place_m[train], trains.speed_m_s[train], trains.heading[train]
         sent.error_m[train] = wanders(sent.error_m[train], day.key, second, train, TRAIN_M, TRAIN_MOST_M)
-        sent.place_m[train, now] = place
+        sent.place_m[train, now], sent.number[train, now] = place, numbers.now[train]
         sent.told_mm[train, now] = told_mm(day, train, place, sent.error_m[train], second)
         sent.has_fix[train, now] = sees(day, train, place, second)
         heading = -heading if is_of(day, BACKWARDS, train, second) else heading
@@ -208,7 +212,7 @@ def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
 def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a record of the display as it arrives: it follows a train within 2 s (A1)."""
     behind_s = noise(day.key, sent_s, 4_000 + train) % 3
-    behind_s = min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S)
+    behind_s = max(0, min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S))
     place = sent.place_m[train, (sent_s - behind_s) % RING]
     from_mm, to_mm = stretch_mm(place)
     return Display(from_mm, to_mm, 1_000 * (second - sent_s))
@@ -219,21 +223,24 @@ def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s
     """A fix reaches the handset (A1)."""
     if not sent.has_fix[train, sent_s % RING] or is_of(day, TRAIN_SILENT, train, sent_s):
         return handset
+    if is_on(day, SERVER_RESTARTS, sent_s):
+        return handset
     fix = fix_of(day, sent, train, sent_s, second)
     out[MESSAGES] += 1
     ran_mm = 1_000 * abs(trains.place_m[train] - sent.place_m[train, sent_s % RING])
     if ran_mm > SPEED_MM_S * fix.age_ms / 1_000 + 1:
         out[AGE_BROKEN] += 1
+    name = sent.number[train, sent_s % RING]
     for number, known in handset.trains:
         before = known.fix
-        if number == train and before.age_ms <= 60_000:
+        if number == name and before.age_ms <= 60_000:
             way_mm, apart_ms = abs(before.place_mm - fix.place_mm), abs(before.age_ms - fix.age_ms)
             if way_mm > SPEED_MM_S * apart_ms // 1_000 + 2 * ERROR_MM:
                 out[JUMPED] += 1
             both = before.is_running and fix.is_running and before.direction != fix.direction
             if both and apart_ms <= TURNING_MS:
                 out[TURNED] += 1
-    return note_fix(HELD_TO, handset, train, fix)
+    return note_fix(HELD_TO, handset, name, fix)
 
 
 @compiled(forceinline=True)
@@ -241,14 +248,14 @@ def take_display(
     day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
 ) -> Any:
     """A record of the display reaches the handset; trains that shunt are not on it (A1, A5)."""
-    if train == SHUNTER or is_on(day, DISPLAY_OUT, sent_s):
+    if train == SHUNTER or is_on(day, DISPLAY_OUT, sent_s) or is_on(day, SERVER_RESTARTS, sent_s):
         return handset
     display = shown_of(day, trains, sent, train, sent_s, second)
     out[MESSAGES] += 1
     at_mm = 1_000 * sent.place_m[train, sent_s % RING]
     if not display.from_mm - SHOWN_OFF_MM <= at_mm <= display.to_mm + SHOWN_OFF_MM:
         out[DISPLAY_BROKEN] += 1
-    return note_display(handset, train, display)
+    return note_display(handset, sent.number[train, sent_s % RING], display)
 
 
 @compiled(forceinline=True)
@@ -261,45 +268,66 @@ def has(handset: Any, train: int) -> bool:
 
 
 @compiled(forceinline=True)
-def take_list(day: Any, trains: Any, handset: Any, sent: Sent, sent_s: int, second: int, out: Any) -> Any:
-    """A list of the server reaches the handset; what it names for the first time comes with its reports (A1, A2)."""
-    named = 0
-    for index in range(trains.switched_on[TRAINS]):
-        train = trains.switched_on[index]
-        there = has(handset, train)
-        if is_named(day, trains, train, sent_s):
-            named += 1
-            if not there:
-                handset = note_named(handset, train)
-                handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
-                handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
-        elif trains.came_s[train] <= second < trains.left_s[train]:
-            out[LIST_BROKEN] += 1
-    if len(handset.trains) > named:
-        for train, _known in handset.trains:
-            if not is_named(day, trains, train, sent_s):
-                handset = note_gone(handset, train)
-    out[MESSAGES] += 1
-    return note_list(handset, 1_000 * (second - sent_s), not is_on(day, ILL, sent_s))
+def say(day: Any, sent: Sent, server: Any, second: int) -> None:
+    """The server says of its list how it is, unless it restarts (A1)."""
+    now, said = second % RING, summary(server)
+    sent.life_ms[now] = -1 if is_on(day, SERVER_RESTARTS, second) else said.life_ms
+    sent.count[now], sent.whole[now] = said.count, said.is_whole
 
 
 @compiled(forceinline=True)
-def hear(day: Any, trains: Any, handset: Any, sent: Sent, last_list_s: int, second: int, out: Any) -> Any:
-    """Take everything that arrives in this second, the oldest first; a list older than the last is let go (A1)."""
+def take_entry(day: Any, trains: Any, handset: Any, sent: Sent, entry: Any, sent_s: int, second: int, out: Any) -> Any:
+    """An entry reaches the handset; what comes onto its list by it comes with its reports (A1, A2)."""
+    was_there, train = has(handset, entry.train), entry.train % TRAINS
+    handset = note_entry(handset, entry)
+    if not was_there and has(handset, entry.train) and sent.number[train, sent_s % RING] == entry.train:
+        handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
+        handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
+    return handset
+
+
+@compiled(forceinline=True)
+def take_list(
+    day: Any, trains: Any, handset: Any, sent: Sent, server: Any, before: Any, sent_s: int, second: int, out: Any
+) -> Any:
+    """A list reaches the handset: what the server said of it, and the entries that the handset has not (A1, A2).
+
+    ``before``: the server's life before this one, whose list may come yet.
+    """
+    at = sent_s % RING
+    life_ms = sent.life_ms[at]
+    if life_ms < 0:
+        return handset
+    out[MESSAGES] += 1
+    said = Summary(life_ms, sent.count[at], sent.whole[at], 1_000 * (second - sent_s))
+    handset = note_summary(handset, said, not is_on(day, ILL, sent_s))
+    written = server if server.life_ms == life_ms else before
+    if handset.listing.life_ms != life_ms or written.life_ms != life_ms:
+        return handset
+    taken = handset.listing.taken
+    for number in range(taken + 1, entries_that_come(day, sent_s, taken, sent.count[at]) + 1):
+        for key, entry in written.entries:
+            if key == number:
+                handset = take_entry(day, trains, handset, sent, entry, sent_s, second, out)
+    return handset
+
+
+@compiled(forceinline=True)
+def hear(day: Any, trains: Any, handset: Any, sent: Sent, server: Any, before: Any, second: int, out: Any) -> Any:
+    """Take everything that arrives in this second, the oldest first (A1)."""
     late = is_late(day, second) or is_late(day, max(0, second - LATEST_S))
     for back in range(min(LATEST_S if late else SOON_S, second), 0, -1):
         sent_s = second - back
         at = sent_s % RING
-        if sent_s > last_list_s and (sent.list_s[at, 0] == second or sent.list_s[at, 1] == second):
-            handset = take_list(day, trains, handset, sent, sent_s, second, out)
-            last_list_s = sent_s
+        if sent.list_s[at, 0] == second or sent.list_s[at, 1] == second:
+            handset = take_list(day, trains, handset, sent, server, before, sent_s, second, out)
         for index in range(trains.switched_on[TRAINS]):
             train = trains.switched_on[index]
             if sent.fix_s[train, at, 0] == second or sent.fix_s[train, at, 1] == second:
                 handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
             if sent.shown_s[train, at, 0] == second or sent.shown_s[train, at, 1] == second:
                 handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
-    return handset, last_list_s
+    return handset
 
 
 @compiled(forceinline=True)
@@ -331,18 +359,26 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
     """
     trains = at_the_beginning(day)
     sent = nothing_sent()
-    last_list_s, error_m, before, sides = -1, 0.0, FAULTY, np.zeros(TRAINS)
+    error_m, before, sides = 0.0, FAULTY, np.zeros(TRAINS)
+    numbers, server = at_first(), confirmed_empty()
+    former = server
     for second in range(SECONDS):
         switch_on(trains, second)
         move(day, trains, second)
         worker_m = walked(day, second)
-        observe(day, trains, sent, second)
-        handset = older(handset, 1_000)
+        change_numbers(day, trains, numbers, second)
+        observe(day, trains, sent, numbers, second)
+        served = serve(day, trains, sent, numbers, server, second, out)
+        if served.life_ms != server.life_ms:
+            former = server
+        server = served
+        say(day, sent, server, second)
+        handset = begun() if is_on(day, RESTARTS, second) else older(handset, 1_000)
         if not is_on(day, HANDSET_SILENT, second):
-            handset, last_list_s = hear(day, trains, handset, sent, last_list_s, second, out)
+            handset = hear(day, trains, handset, sent, server, former, second, out)
         error_m = wanders(error_m, day.key, second, TRAINS, WORKER_M, WORKER_MOST_M)
         handset = own_fix(day, handset, worker_m, error_m, second)
         heard = sounds(register, handset)
-        hold(written, day, trains, sides, handset, heard, before, worker_m, second, out, kept.seconds)
+        hold(written, day, trains, numbers.now, sides, handset, heard, before, worker_m, second, out, kept.seconds)
         before = heard
         write_down(trains, handset, second, kept)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import Display, Handset, NoUse, Opening, Reason, Register, Tone, Train
+from kernel.alarm.train_list import Entry, Server
 from kernel.maps import Map
 from models.measures import UM_A_MM, apart, greater
 
@@ -63,6 +64,17 @@ NOTHING_TOLD = OfTrain(
 
 
 @dataclass(frozen=True)
+class OfList:
+    """What was told of the list of one life of the server: entries read, what it said, and who is on it (A1, A2)."""
+
+    life_ms: int
+    taken: int
+    count: int
+    is_whole: bool
+    named: Map[Train, int]
+
+
+@dataclass(frozen=True)
 class Told:
     """A history: all that was told to the handset, by itself and by the servers, the last of each (A1, A8)."""
 
@@ -70,7 +82,24 @@ class Told:
     list_age_ms: int
     servers_well: bool
     battery_well: bool
+    listing: OfList
     trains: Map[Train, OfTrain]
+
+
+NOTHING_LISTED = OfList(life_ms=-1, taken=0, count=0, is_whole=False, named={})
+"""Before the first word of the server (A8)."""
+
+
+def nothing_told_to_the_handset() -> Told:
+    """Give what was told to a handset that has just started (A8)."""
+    return Told(
+        worker=WorkerFix(place_mm=0, age_ms=3_600_001),
+        list_age_ms=3_600_001,
+        servers_well=False,
+        battery_well=False,
+        listing=NOTHING_LISTED,
+        trains={},
+    )
 
 
 @dataclass(frozen=True)
@@ -101,11 +130,50 @@ class Heard:
 
 
 @dataclass(frozen=True)
+class LetOn:
+    """A train that is on the line or let onto it, as its dispatcher knows (A2).
+
+    ``age_ms``: how long ago its number was entered, and shown by the server.
+    ``is_entered``: it was since the server's last start.
+    """
+
+    age_ms: int
+    is_entered: bool
+
+
+@dataclass(frozen=True)
+class Lists:
+    """A history: the server's lives, who was let onto the line, and what was told to it and sent by it (A1, A2).
+
+    ``let_on``: who is on the line or let onto it.  ``reported``: the trains that were entered or told of in this life
+    and are not accounted for, and how long ago they were first reported to have left since then; more than an hour
+    where they were not.  ``entries``: those sent, by life and number.
+    ``summaries``: those sent that said the list was whole, by life and count, and how long ago the last one was.
+    ``open_since``: which trains each life has on its list, or had at its end and no later one has taken off since, by
+    the number of the entry.
+    ``confirmed``: the lives in which a person has confirmed the list.
+    """
+
+    let_on: Map[Train, LetOn]
+    reported: Map[Train, int]
+    entries: Map[tuple[int, int], Entry]
+    summaries: Map[tuple[int, int], int]
+    open_since: Map[tuple[int, Train], int]
+    confirmed: frozenset[int]
+
+
+@dataclass(frozen=True)
 class Worksite:
-    """One moment: the worker, every train of the line, what was told, what the handset knows, and what was heard."""
+    """One moment: the worker, every train of the line, server and lists, what was told, known and heard.
+
+    ``newest_ms``: a history: the time of the server's last start.
+    """
 
     worker_um: int
     bodies: Map[Train, Body]
+    server: Server
+    newest_ms: int
+    lists: Lists
     told: Told
     handset: Handset
     heard: Heard
@@ -203,11 +271,6 @@ def may_be_within(site: Railway, fix: TrainFix, worker: WorkerFix, limit_mm: int
     return is_report(fix.place_mm, fix.age_ms) and (
         UM_A_MM * apart(fix.place_mm, worker.place_mm) <= UM_A_MM * limit_mm + train_um + worker_um
     )
-
-
-def with_list(told: Told, age_ms: int, servers_well: bool) -> Told:
-    """Give what was told after a list of the server (A1)."""
-    return replace(told, list_age_ms=age_ms, servers_well=servers_well)
 
 
 def with_battery(told: Told, battery_well: bool) -> Told:
@@ -312,9 +375,20 @@ def has_place(site: Railway, told: Told) -> bool:
     return is_report(worker.place_mm, worker.age_ms) and worker.age_ms <= site.register.fresh.worker_ms
 
 
+def is_list_whole(listing: OfList) -> bool:
+    """Tell whether the list was said to be whole, and as many entries were read as it has (A1)."""
+    return listing.is_whole and listing.taken >= listing.count
+
+
 def is_list_fresh(site: Railway, told: Told) -> bool:
-    """Tell whether the list is no older than is written, and the servers said to be well (A1, A8)."""
-    return 0 <= told.list_age_ms <= site.register.fresh.server_ms and told.servers_well
+    """Tell whether the list is whole and no older than is written, and the servers said to be well (A1, A8)."""
+    is_young = 0 <= told.list_age_ms <= site.register.fresh.server_ms
+    return is_young and told.servers_well and is_list_whole(told.listing)
+
+
+def is_accounted_for(left_ms: int) -> bool:
+    """Tell whether a train was reported to have left, and since then neither source told of it for 6 s (ours; A2)."""
+    return 6_000 <= left_ms <= 3_600_000
 
 
 def is_just_beyond(section: NoUse, fix: TrainFix, worker_um: int) -> bool:

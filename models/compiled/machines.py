@@ -5,7 +5,8 @@ What is rewritten, and nothing else:
 - a frozen dataclass is a named tuple (``records.py``), its construction gives every field in order;
 - ``replace(record, field=...)`` is a function made for these fields, resolved by the record's type;
 - a member of an enumeration is its number, and so is a name: whoever calls gives numbers in place of texts;
-- a map is a typed list of pairs, a set one of items (``maps.py``): ``in``, ``[key]``, ``| {key: value}``;
+- a map is a typed list of pairs, a set one of items (``maps.py``): ``in``, ``[key]``, ``| {key: value}``, and ``{}``
+  for a field of a record;
 - ``any``, ``all`` and ``{key: ...}`` over ``some_map.items()`` are loops in functions made for them (``loops.py``);
 - docstrings, asserts (they are proved) and annotations are left out.
 
@@ -36,6 +37,7 @@ from models.compiled.kept import compiled
 from models.compiled.records import (
     LEAST,
     MOST,
+    compiled_type,
     hints_of,
     is_enumeration,
     is_map,
@@ -270,7 +272,7 @@ class Rewriting(ast.NodeTransformer):
                 raise self._refused(node, f"{node.func.id} of what is written nowhere cannot be compiled")
             return self._looped(node, node.args[0].generators, node.func.id, node.args[0].elt)
         called, function = self._called(node)
-        given = {keyword.arg: self.visit(keyword.value) for keyword in node.keywords}
+        given = {keyword.arg: self._given(called, keyword) for keyword in node.keywords}
         if None in given:
             raise self._refused(node, "a call with ** cannot be compiled")
         arguments = [self.visit(argument) for argument in node.args]
@@ -285,6 +287,14 @@ class Rewriting(ast.NodeTransformer):
         else:
             raise self._refused(node, f"{ast.unparse(node.func)} is no function of a machine")
         return ast.copy_location(new, node)
+
+    def _given(self, called: Any, given: ast.keyword) -> ast.expr:
+        hint = hints_of(called).get(str(given.arg)) if is_record(called) else None
+        if not isinstance(given.value, ast.Dict) or given.value.keys or not is_map(hint):
+            return typing.cast(ast.expr, self.visit(given.value))
+        name = f"__empty_{called.__name__}_{given.arg}"
+        self._made[name] = maps.empty_of(compiled_type(hint))
+        return ast.copy_location(ast.Call(ast.Name(name, ast.Load()), [], []), given.value)
 
     def _fields(self, node: ast.Call, cls: Any, arguments: list[Any], given: dict[Any, Any]) -> list[ast.expr]:
         hints = hints_of(cls)

@@ -11,6 +11,7 @@ from typing import Any
 from numba import types as known_types
 from numba.core.errors import TypingError
 from numba.extending import overload
+from numba.typed import List
 
 from models.compiled.kept import compiled
 
@@ -37,6 +38,12 @@ def with_entry(container, key, value):  # type: ignore[no-untyped-def]
             return made
     made.append((key, value))
     return made
+
+
+def empty_of(map_type: Any) -> Any:
+    """Give the function that makes an empty map of a type."""
+    item = map_type.item_type
+    return compiled(lambda: List.empty_list(item))
 
 
 def _is_pair_of(item: Any, key: Any) -> bool:

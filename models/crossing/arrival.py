@@ -34,6 +34,17 @@ class Taken:
 
 
 @dataclass(frozen=True)
+class Brought:
+    """A history: what the last ranging told that counted.
+
+    ``way_mm``: how near the head was at the most; ``towards_mm_s``: how fast it came nearer at the most, or none.
+    """
+
+    way_mm: int
+    towards_mm_s: int
+
+
+@dataclass(frozen=True)
 class Coming:
     """One moment of a train that is in contact.
 
@@ -43,10 +54,11 @@ class Coming:
     ``arrived``: its head has been seen at the crossing, or beyond.
     ``decided``: the crossing has decided for the cycle that begins.
     ``told``: history: the ranging that the radio brought last of those that count, as old as it truly is made to be.
+    ``brought``: history: what it told.
     ``contradicted``: history: two rangings that counted, one after the other, cannot both have been of this train.
     ``worst``: history: what was known at the last decision not to warn; since then the worst that it allows.
     ``left_cycles``: history: within so many cycles it cannot arrive, by that decision.
-    ``silent_cycles``: history: for how many decisions the radio has brought nothing.
+    ``silent_cycles``: history: for how many decisions the radio has brought nothing, or what it had brought before.
     ``warned_cycles``: history: how long the warning has lasted.
     ``followed``: what the crossing knows.
     """
@@ -58,6 +70,7 @@ class Coming:
     arrived: bool
     decided: bool
     told: Ranging
+    brought: Brought
     contradicted: bool
     worst: Followed
     left_cycles: int
@@ -82,6 +95,22 @@ def is_of_this_line(bounds: ArrivalBounds, ranging: Ranging) -> bool:
 def towards_mm_s(ranging: Ranging) -> int:
     """Give how fast a ranging has the train come nearer; one that moves away does not."""
     return greater(0, ranging.speed_mm_s)
+
+
+def is_the_one_before(bounds: ArrivalBounds, brought: Brought, ranging: Ranging) -> bool:
+    """Tell whether a ranging has the train where, and as fast as, the one before; and faster than rangings err."""
+    return (
+        ranging.way_mm == brought.way_mm
+        and ranging.speed_mm_s == brought.towards_mm_s
+        and ranging.speed_mm_s > bounds.speed_spread_mm_s
+    )
+
+
+def brought_by(bounds: ArrivalBounds, brought: Brought, ranging: Ranging) -> Brought:
+    """Give what the last ranging that counted told, after one more."""
+    if not is_of_this_line(bounds, ranging):
+        return brought
+    return Brought(ranging.way_mm, towards_mm_s(ranging))
 
 
 def cannot_both_be(site: Crossing, one: Ranging, other: Ranging) -> bool:
@@ -118,17 +147,25 @@ def the_ranging_bounds_the_train(site: Crossing, system: Coming, ranging: Rangin
     """When it was taken, the head was no nearer and no faster than the ranging says with its errors (X1).
 
     What the radio delivers, if anything, is the ranging that was ordered last.  It may come at any later moment,
-    any number of times, or never.
+    any number of times, or never.  Or the radio hangs, and brings the one before again, of a train that ran.
     """
-    return not ranging.valid or (
-        UM_A_MM * ranging.way_mm <= system.ranged.way_um
-        and system.ranged.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s
+    return (
+        not ranging.valid
+        or is_the_one_before(site.bounds, system.brought, ranging)
+        or (
+            UM_A_MM * ranging.way_mm <= system.ranged.way_um
+            and system.ranged.pace_um <= site.bounds.cycle_ms * ranging.speed_mm_s
+        )
     )
 
 
-def a_ranging_is_no_older_than_it_says(system: Coming, ranging: Ranging) -> bool:
-    """The age that is told of a ranging is not made less than the time since it was taken (X1)."""
-    return not ranging.valid or ranging.age_cycles >= system.ranged.age_cycles
+def a_ranging_is_no_older_than_it_says(site: Crossing, system: Coming, ranging: Ranging) -> bool:
+    """The age that is told is not less than the time since it was taken, but of the one before told again (X1)."""
+    return (
+        not ranging.valid
+        or is_the_one_before(site.bounds, system.brought, ranging)
+        or ranging.age_cycles >= system.ranged.age_cycles
+    )
 
 
 def a_decision_begins_each_cycle(system: Coming) -> bool:
@@ -179,15 +216,17 @@ def take_ranging(site: Crossing, system: Coming) -> Coming:
 
 def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
     """The crossing decides by what the radio delivers, if it delivers anything (X1, X2, X3)."""
-    if not a_decision_begins_each_cycle(system) or not a_ranging_is_no_older_than_it_says(system, ranging):
+    if not a_decision_begins_each_cycle(system) or not a_ranging_is_no_older_than_it_says(site, system, ranging):
         return system
     if not the_ranging_bounds_the_train(site, system, ranging):
         return system
     followed = arrival.follow(site.bounds, system.followed, ranging)
-    silent_cycles = 0 if ranging.valid else system.silent_cycles + 1
-    told = ranging if is_of_this_line(site.bounds, ranging) else system.told
+    is_another = not is_the_one_before(site.bounds, system.brought, ranging)
+    silent_cycles = 0 if ranging.valid and is_another else system.silent_cycles + 1
+    told = ranging if is_another and is_of_this_line(site.bounds, ranging) else system.told
     contradicted = system.contradicted or (
-        is_of_this_line(site.bounds, ranging)
+        is_another
+        and is_of_this_line(site.bounds, ranging)
         and is_of_this_line(site.bounds, system.told)
         and cannot_both_be(site, system.told, ranging)
     )
@@ -196,6 +235,7 @@ def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
             system,
             decided=True,
             told=told,
+            brought=brought_by(site.bounds, system.brought, ranging),
             contradicted=contradicted,
             silent_cycles=silent_cycles,
             followed=followed,
@@ -204,6 +244,7 @@ def decide(site: Crossing, system: Coming, ranging: Ranging) -> Coming:
         system,
         decided=True,
         told=told,
+        brought=brought_by(site.bounds, system.brought, ranging),
         contradicted=contradicted,
         worst=followed,
         left_cycles=site.bounds.warning_cycles + 2,

@@ -11,6 +11,7 @@ from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Due, Settings
+from models.crossing.arrival import Brought, brought_by, is_the_one_before
 from models.crossing.crossing import secured_cycles
 from models.measures import UM_A_MM, greater, lesser
 
@@ -29,6 +30,7 @@ class Answered:
 
     ``way_um``, ``pace_um``: its head's way to the crossing, and how fast it comes nearer.
     ``ceiling_um``: it keeps to this, and raises it by the crossing's acknowledgement alone.
+    ``brought``: history: what the last ranging told that counted, since the crossing started.
     ``followed``: what the crossing knows.
     ``worst``: history: what was known at the answer that is held; since then the worst that it allows.
     ``left_cycles``: within so many cycles it cannot arrive, by that answer.
@@ -38,6 +40,7 @@ class Answered:
     way_um: int
     pace_um: int
     ceiling_um: int
+    brought: Brought
     followed: Followed
     worst: Followed
     left_cycles: int
@@ -62,10 +65,17 @@ def bounds_are_above_zero(site: Way) -> bool:
 
 
 def the_ranging_bounds_the_train(site: Way, system: Answered, ranging: Ranging) -> bool:
-    """By a ranging and its age the head is no nearer and no faster, as ``arrival`` proves of all that it takes (X1)."""
-    return not ranging.valid or (
-        UM_A_MM * ranging.way_mm - ranging.age_cycles * site.bounds.line_um <= system.way_um
-        and system.pace_um <= site.settings.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um
+    """By a ranging and its age the head is no nearer and no faster, as ``arrival`` proves of all that it takes (X1).
+
+    It takes none that is the one before again, of a train that ran.
+    """
+    return (
+        not ranging.valid
+        or is_the_one_before(site.bounds, system.brought, ranging)
+        or (
+            UM_A_MM * ranging.way_mm - ranging.age_cycles * site.bounds.line_um <= system.way_um
+            and system.pace_um <= site.settings.cycle_ms * ranging.speed_mm_s + ranging.age_cycles * site.bounds.gain_um
+        )
     )
 
 
@@ -111,7 +121,11 @@ def take_ranging(site: Way, system: Answered, ranging: Ranging) -> Answered:
         return system
     if not the_ranging_bounds_the_train(site, system, ranging):
         return system
-    return replace(system, followed=arrival.follow(site.bounds, system.followed, ranging))
+    return replace(
+        system,
+        brought=brought_by(site.bounds, system.brought, ranging),
+        followed=arrival.follow(site.bounds, system.followed, ranging),
+    )
 
 
 def keep_to(site: Way, system: Answered, ceiling_um: int) -> Answered:
@@ -151,7 +165,8 @@ def acknowledge(site: Way, system: Answered, asked_um: int) -> Answered:
 def restart(site: Way, system: Answered) -> Answered:
     """The crossing restarts, and has forgotten rangings and ceiling; what was promised is kept all the same (X3)."""
     silence_cycles, line_um = site.bounds.silence_cycles, site.bounds.line_um
-    return replace(system, followed=Followed(0, 0, line_um, silence_cycles + 1, 0, 0, False))
+    known = Followed(0, 0, line_um, silence_cycles + 1, 0, 0, False)
+    return replace(system, brought=Brought(0, 0), followed=known)
 
 
 def answer(site: Way, system: Answered) -> Answered:

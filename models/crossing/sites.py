@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
+from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time, longest_apart_ms
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -29,6 +30,11 @@ SETTINGS = Settings(
 """Bell 5 s and lowering 10 s: 15 s.  Lifting takes 6 s; a road that would be open for less than 20 s stays shut (ours).
 
 The start points are further off than the old crossing's: by what a terminal may be silent, and two cycles.
+"""
+CHANNEL = ChannelSettings(tick_ms=10, slot_ms=100, most_pairs=17)
+"""Ten rangings a second, by radios of 2.4 GHz whose order may pass a few relays (ours; the paper gives no times).
+
+So many pairs may wait for their turn and a ranging that counts for three cycles is not lost.
 """
 EXCESS = 1.05
 """A driver may exceed a limit by so much before the line's train protection brakes (ours, typical)."""
@@ -222,5 +228,19 @@ def lawful() -> bool:
 def is_lawful(trial: Trial) -> bool:
     """Tell whether one trial's are."""
     return are_lawful(trial.settings) and all(
-        have_one_warning_time(trial.bounds(kind), trial.settings) for kind in (trial.express, trial.local)
+        have_one_warning_time(trial.bounds(kind), trial.settings) and not refusal(CHANNEL, trial.bounds(kind))
+        for kind in (trial.express, trial.local)
+    )
+
+
+def refusal(channel: ChannelSettings, bounds: ArrivalBounds) -> str:
+    """Say in one line why a channel is not put into service for a crossing; nothing if it is (X1)."""
+    if are_in_time(channel, bounds):
+        return ""
+    if channel.tick_ms <= 0 or channel.slot_ms <= 0:
+        return f"tick {channel.tick_ms} ms, slot {channel.slot_ms} ms: both must be longer than 0 ms"
+    return (
+        f"{channel.most_pairs} pairs in slots of {channel.slot_ms} ms: rangings up to"
+        f" {longest_apart_ms(channel, bounds)} ms old, but they count for"
+        f" {bounds.silence_cycles * bounds.cycle_ms} ms: write fewer pairs or shorter slots"
     )

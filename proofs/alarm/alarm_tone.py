@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.alarm.distance import train_off_um, worker_off_um
 from kernel.alarm.tone import Tone
 from models.alarm import alarm_tone as world
+from models.alarm import lists as lists_of_trains
 from models.alarm import tone_assumptions as assumed
 from models.alarm.tone_assumptions import (
     a_wrong_fix_is_contradicted,
@@ -12,15 +13,16 @@ from models.alarm.tone_assumptions import (
     no_train_turns_sooner,
 )
 from models.alarm.worksite import (
+    NOTHING_LISTED,
     Railway,
     Worksite,
     is_in_a_stretch,
-    is_list_fresh,
     is_of_the_line,
     is_report,
     is_told_alike,
 )
 from models.measures import UM_A_MM, apart
+from proofs.alarm import train_list
 from proofs.theory import Theory, by_name
 
 # ---- the start
@@ -42,6 +44,13 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
         and system.told.worker == system.handset.worker
         and system.told.servers_well == system.handset.servers_well
         and system.told.battery_well == system.handset.battery_well
+        and system.told.listing == NOTHING_LISTED
+        and not system.handset.listing.is_whole
+        and system.handset.listing.life_ms == -1
+        and system.handset.listing.taken == 0
+        and system.handset.listing.count == 0
+        and all(False for _train in system.handset.listing.named)
+        and train_list.nothing_was_sent(site, system)
         and all(body.fix_is_right and body.came_ms > 3_600_000 for _train, body in system.bodies.items())
         and all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
     )
@@ -126,6 +135,11 @@ def the_handset_has_what_was_told(site: Railway, system: Worksite) -> bool:
         and told.list_age_ms == handset.server_age_ms
         and told.servers_well == handset.servers_well
         and told.battery_well == handset.battery_well
+        and told.listing.life_ms == handset.listing.life_ms
+        and told.listing.taken == handset.listing.taken
+        and told.listing.count == handset.listing.count
+        and told.listing.is_whole == handset.listing.is_whole
+        and told.listing.named == handset.listing.named
         and all(train in told.trains for train in handset.trains)
         and all(
             train in handset.trains
@@ -208,11 +222,6 @@ def no_train_of_the_line_is_longer(site: Railway, system: Worksite) -> bool:
     return all(no_train_is_longer_than_written(site, body) for _train, body in system.bodies.items())
 
 
-def a_fresh_list_has_every_train(site: Railway, system: Worksite) -> bool:
-    """While the list is fresh, every train of the line is on it (A1)."""
-    return not is_list_fresh(site, system.told) or all(train in system.told.trains for train in system.bodies)
-
-
 INITIAL = (nothing_was_told,)
 SAFETY = (
     the_normal_tone_means_no_train_within_3000_m,
@@ -224,6 +233,7 @@ SAFETY = (
     a_train_in_a_tunnel_counts_at_its_outer_end,
     in_a_section_not_to_be_used_no_tone_is_normal,
     agreement_is_worth_the_stretch,
+    *train_list.SAFETY,
 )
 INVARIANTS = (
     *SAFETY,
@@ -235,7 +245,7 @@ INVARIANTS = (
     wrong_fixes_are_contradicted,
     told_directions_still_hold,
     no_train_of_the_line_is_longer,
-    a_fresh_list_has_every_train,
+    *train_list.INVARIANTS,
 )
 PREMISES = (
     assumed.the_alarm_limit_is_within_an_hour,
@@ -248,9 +258,21 @@ STEPS = (
     world.leave,
     world.intend,
     world.pass_time,
-    world.hear_list,
-    world.hear_named,
-    world.hear_gone,
+    world.renumber,
+    world.couple_or_part,
+    lists_of_trains.start_server,
+    lists_of_trains.enter,
+    lists_of_trains.hear_of,
+    lists_of_trains.report_left,
+    lists_of_trains.strike_off,
+    lists_of_trains.withdraw,
+    lists_of_trains.confirm_the_list,
+    lists_of_trains.hear_confirmation,
+    lists_of_trains.send_entry,
+    lists_of_trains.send_summary,
+    lists_of_trains.hear_entry,
+    lists_of_trains.hear_summary,
+    lists_of_trains.restart_handset,
     world.take_fix,
     world.take_display,
     world.take_worker_fix,

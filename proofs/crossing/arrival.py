@@ -52,8 +52,8 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.told.age_cycles == 0
         and UM_A_MM * system.told.way_mm <= system.way_um
         and system.pace_um <= site.bounds.cycle_ms * system.told.speed_mm_s
-        and system.followed.told_way_mm == system.told.way_mm
-        and system.followed.told_speed_mm_s == towards_mm_s(system.told)
+        and system.followed.told_way_mm == system.brought.way_mm == system.told.way_mm
+        and system.followed.told_speed_mm_s == system.brought.towards_mm_s == towards_mm_s(system.told)
         and not system.contradicted
         and system.ranged == Taken(system.way_um, system.pace_um, 0)
     )
@@ -68,7 +68,7 @@ def warned_long_enough_before_the_arrival(site: Crossing, system: Coming) -> boo
 
 
 def lost_ranging_warns(site: Crossing, system: Coming) -> bool:
-    """A train in contact is warned of once the radio has been silent for longer than a ranging counts (X3)."""
+    """A train in contact is warned of once the radio was silent, or hung, for longer than a ranging counts (X3)."""
     return system.followed.warns or system.silent_cycles <= site.bounds.silence_cycles + 1
 
 
@@ -81,14 +81,15 @@ def a_ranging_that_contradicts_the_one_before_warns(site: Crossing, system: Comi
 
 
 def the_ranging_before_is_kept(site: Crossing, system: Coming) -> bool:
-    """While a ranging counts the machine knows what it told, and how old it is (X1)."""
+    """The machine knows what the last one told that counted and, while it counts, how old it is (X1)."""
+    is_kept = (
+        system.followed.told_way_mm == system.brought.way_mm == system.told.way_mm
+        and system.followed.told_speed_mm_s == system.brought.towards_mm_s == towards_mm_s(system.told)
+    )
     if system.told.age_cycles > site.bounds.silence_cycles:
-        return system.followed.age_cycles > site.bounds.silence_cycles
+        return is_kept and system.followed.age_cycles > site.bounds.silence_cycles
     return (
-        is_of_this_line(site.bounds, system.told)
-        and system.followed.age_cycles == system.told.age_cycles
-        and system.followed.told_way_mm == system.told.way_mm
-        and system.followed.told_speed_mm_s == towards_mm_s(system.told)
+        is_kept and is_of_this_line(site.bounds, system.told) and system.followed.age_cycles == system.told.age_cycles
     )
 
 

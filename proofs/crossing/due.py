@@ -32,6 +32,8 @@ def nothing_is_secured(site: Way, system: Answered) -> bool:
         and system.followed.age_cycles > site.bounds.silence_cycles
         and 0 <= system.followed.short_um <= site.bounds.line_um
         and system.followed.ceiling_um == site.bounds.line_um
+        and system.followed.told_way_mm == system.brought.way_mm
+        and system.followed.told_speed_mm_s == system.brought.towards_mm_s >= 0
     )
 
 
@@ -54,6 +56,14 @@ def no_pace_is_beyond_its_ceiling(site: Way, system: Answered) -> bool:
         and system.pace_um <= system.ceiling_um
         and system.ceiling_um <= system.followed.ceiling_um <= site.bounds.line_um
         and system.ceiling_um <= system.worst.ceiling_um <= site.bounds.line_um
+    )
+
+
+def the_ranging_before_is_kept(site: Way, system: Answered) -> bool:
+    """The machine knows what the last one told that counted (X1)."""
+    return (
+        system.followed.told_way_mm == system.brought.way_mm
+        and system.followed.told_speed_mm_s == system.brought.towards_mm_s >= 0
     )
 
 
@@ -80,6 +90,7 @@ SAFETY = (nobody_arrives_before_he_can,)
 INVARIANTS = (
     *SAFETY,
     no_pace_is_beyond_its_ceiling,
+    the_ranging_before_is_kept,
     what_is_followed_bounds_the_train,
     the_worst_bounds_the_train,
     even_the_worst_cannot_arrive_too_early,

@@ -7,6 +7,7 @@ from kernel.alarm.tone import (
     Display,
     Handset,
     Known,
+    Listing,
     NoUse,
     Reason,
     Register,
@@ -93,9 +94,18 @@ def a_display_that_grows_old_comes_nearer(from_mm: int, age_ms: int) -> None:
 def with_no_train_on_the_line_all_must_be_well(age_ms: int, own_ms: int, well: bool, battery: bool) -> None:
     """For the normal tone (A8)."""
     assert isinstance(age_ms, int)
-    heard = tone(REGISTER, Handset(WorkerFix(0, own_ms), age_ms, well, battery, {}))
+    listing = Listing(life_ms=0, taken=0, count=0, is_whole=True, named={})
+    heard = tone(REGISTER, Handset(WorkerFix(0, own_ms), age_ms, well, battery, listing, {}))
     normal = well and battery and 0 <= age_ms <= 8_000 and 0 <= own_ms <= 5_000
     assert heard == (Tone.NORMAL if normal else Tone.FAULT)
+
+
+def a_list_counts_if_it_is_whole_and_all_of_it_was_read(taken: int, count: int, whole: bool) -> None:
+    """Else no tone is mild (A1)."""
+    assert isinstance(taken, int)
+    listing = Listing(life_ms=0, taken=taken, count=count, is_whole=whole, named={})
+    heard = tone(REGISTER, Handset(WorkerFix(0, 0), 0, True, True, listing, {}))
+    assert heard == (Tone.NORMAL if whole and taken >= count else Tone.FAULT)
 
 
 def running_down_zone_b_is_the_last_of_a_section(place_mm: int, zone_mm: int) -> None:

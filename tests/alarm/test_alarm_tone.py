@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import NOTHING_KNOWN, Display, Handset, Known, Tone, Train
+from kernel.alarm.tone import NOTHING_KNOWN, Display, Handset, Known, Listing, Tone, Train
 from models.alarm.worksite import approaches_within
 from proofs.alarm.witnesses.alarm_tone import WITNESSES
 from proofs.alarm.witnesses.worksite import KM, REGISTER, STABLED, Day
@@ -33,6 +33,9 @@ HANDSETS = st.builds(
     server_age_ms=AGES,
     servers_well=st.booleans(),
     battery_well=st.booleans(),
+    listing=st.builds(
+        Listing, st.just(0), st.integers(0, 2), st.integers(0, 2), st.booleans(), st.dictionaries(TRAINS, st.just(1))
+    ),
     trains=st.dictionaries(TRAINS, KNOWN),
 )
 
@@ -60,7 +63,11 @@ def test_what_is_lost_never_makes_a_mild_tone(handset: Handset) -> None:
         replace(handset, server_age_ms=GREATEST_AGE_MS),
         replace(handset, worker=WorkerFix(0, GREATEST_AGE_MS + 1)),
     ]
-    losses += [machine.note_named(handset, train) for train in handset.trains]
+    losses += [replace(handset, listing=replace(handset.listing, is_whole=False))]
+    losses += [replace(handset, listing=replace(handset.listing, count=handset.listing.taken + 1))]
+    losses += [
+        replace(handset, trains={**dict(handset.trains.items()), train: NOTHING_KNOWN}) for train in handset.trains
+    ]
     for lost in losses:
         assert machine.tone(REGISTER, lost) in (Tone.ALARM, Tone.FAULT)
 
@@ -103,19 +110,39 @@ class Drawn:
         for train in self.trains:
             self.day.come(train, self.chance.randrange(24 * KM, 36 * KM), self.ways[train])
 
+    def disturb(self, train: Train) -> None:
+        """The handset restarts, or the server does, or somebody reports wrongly that a train has left."""
+        step = self.chance.choice(("restart_handset", "start_server", "report_left"))
+        match step:
+            case "restart_handset":
+                self.day.step(step)
+                self.day.step("look_at_the_battery", battery_well=True)
+            case "start_server":
+                self.day.step(step, now_ms=self.day.system.newest_ms + 1)
+                for each in self.trains[: self.chance.randrange(4)]:
+                    self.day.step("enter", train=each)
+            case _:
+                self.day.step(step, train=train)
+                self.day.step("strike_off", train=train)
+
     def second(self) -> None:
         """Let a second pass, tell what is told, and listen."""
         self.day.run(1_000, *((train, way) for train, way in self.ways.items() if self.chance.random() < 0.9))
         if self.chance.random() < 0.9:
             self.day.hear()
+        if self.chance.random() < 0.1:
+            for train in self.trains:
+                self.day.step("enter", train=train)
         for train in self.trains:
             drawn = self.chance.random()
+            if train not in self.day.system.handset.trains:
+                continue
             if drawn < 0.6:
                 self.day.tell(train, self.ways[train])
             elif drawn < 0.63:
                 self.day.tell(train, self.ways[train], off_mm=self.chance.choice((-9, 9)) * KM)
             elif drawn < 0.65:
-                self.day.step("hear_named", train=train)
+                self.disturb(train)
         tone, system = self.day.tone(), self.day.system
         near = any(approaches_within(body, system.worker_um, 3 * KM) for _train, body in system.bodies.items())
         assert tone != Tone.NORMAL or not near

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import dataclasses
 import sys
 import typing
 from collections.abc import Callable, Iterator
@@ -18,13 +19,13 @@ import numba
 import pytest
 from numba.core.errors import NumbaError
 
-from kernel.alarm import distance, tone
+from kernel.alarm import distance, tone, train_list
 from models.compiled import NotCompilable, compile_machines, loops, maps, packed, unpacked
 from models.compiled import machines as rewriting
 from models.compiled.records import is_map, is_name, is_set
 from tests.onboard.agree import Draw, functions, types_of
 
-MODULES = (distance, tone)
+MODULES = (distance, tone, train_list)
 FUNCTIONS = {f"{each.__name__}.{name}": (each, name) for each in MODULES for name in functions(each)}
 SAMPLES = 400
 
@@ -241,7 +242,7 @@ def test_maps_sets_and_names_come_back_as_they_went() -> None:
     with pytest.raises(TypeError, match="cannot be handed"):
         packed({1: 2})
     with pytest.raises(TypeError, match="'1D' cannot be handed"):
-        packed(tone.Handset(distance.NO_WORKER_FIX, 0, True, True, {tone.Train("1D"): tone.NOTHING_KNOWN}))
+        packed(dataclasses.replace(tone.switched_on(), trains={tone.Train("1D"): tone.NOTHING_KNOWN}))
 
 
 REFUSED = {

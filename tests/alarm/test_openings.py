@@ -15,7 +15,7 @@ import pytest
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import NO_TRAIN_FIX, AlarmBounds, Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import Display, Freshness, Handset, Known, Opening, Register, Tone, Train
+from kernel.alarm.tone import Display, Freshness, Handset, Known, Listing, Opening, Register, Tone, Train
 
 KM = 1_000_000
 LINE_MM = 12 * KM
@@ -29,6 +29,10 @@ REGISTER = Register(
     stabled=frozenset(),
     openings={},
 )
+
+
+READ = Listing(life_ms=0, taken=0, count=0, is_whole=True, named={})
+"""A list that is whole, and has been read."""
 
 
 class Network:
@@ -91,7 +95,7 @@ def heard(seed: int, with_openings: bool = True) -> tuple[Tone, float]:
     known = {Train("1"): told(chance, figure_mm, age_ms)} if track is None or chance.random() < 0.7 else {}
     joints_mm = network.joints_mm if with_openings else []
     openings = {Opening(f"{number}"): place_mm for number, place_mm in enumerate(joints_mm)}
-    handset = Handset(WorkerFix(worker_mm, 0), 0, servers_well=True, battery_well=True, trains=known)
+    handset = Handset(WorkerFix(worker_mm, 0), 0, servers_well=True, battery_well=True, listing=READ, trains=known)
     return machine.tone(replace(REGISTER, openings=openings), handset), now_mm
 
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Followed, Ranging
-from proofs.crossing.witnesses.arrival import BOUNDS, NOTHING, WITNESSES, Train, contacted
+from proofs.crossing.witnesses.arrival import WITNESSES
+from proofs.crossing.witnesses.contact import BOUNDS, NOTHING, Train, contacted
 
 HUGE = 2**62
 SITES = st.builds(

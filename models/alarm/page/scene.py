@@ -12,7 +12,7 @@ import numpy as np
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix, is_departing, nearest_um
-from kernel.alarm.tone import ALARM_MM, CAUTION_MM, Display, Handset, Known, Reason, Register, Tone
+from kernel.alarm.tone import ALARM_MM, CAUTION_MM, Display, Handset, Known, Listing, Reason, Register, Tone
 from models.alarm.columns import COLUMNS
 from models.alarm.draws import SECONDS, Drawn, drawn, scheduled_s
 from models.alarm.line import (
@@ -57,9 +57,10 @@ def shown(seed: int, day: int, worker_m: float | None, first_s: int, length_s: i
 
 def handset(kept: Trace, row: int) -> Handset:
     """Give the handset of one second as the kernel has it."""
-    own_mm, own_age_ms, server_age_ms, well, battery = (int(each) for each in kept.own[row])
-    trains = {name(train): known(kept.told[row, train]) for train in range(TRAINS) if kept.told[row, train, 0]}
-    return Handset(WorkerFix(own_mm, own_age_ms), server_age_ms, bool(well), bool(battery), trains)
+    own_mm, own_age_ms, server_age_ms, well, battery, whole = (int(each) for each in kept.own[row])
+    trains = {name(train): known(kept.told[row, train]) for train in range(2 * TRAINS) if kept.told[row, train, 0]}
+    listing = Listing(life_ms=0, taken=0, count=0, is_whole=bool(whole), named={})
+    return Handset(WorkerFix(own_mm, own_age_ms), server_age_ms, bool(well), bool(battery), listing, trains)
 
 
 def known(told: Any) -> Known:
@@ -80,7 +81,9 @@ def fix(place_mm: int, age_ms: int, direction: int, runs: int) -> TrainFix:
 
 
 def number(train: int) -> str:
-    """Give a train's number as it is written: odd down, even up."""
+    """Give a train's number as it is written: odd down, even up; one that it took on its way begins with 8."""
+    if train >= TRAINS:
+        return f"8{number(train - TRAINS)}"
     if train >= REGULAR:
         return "S1" if train == SHUNTER else "9D"
     return f"{2 * train + 201}D" if train % 2 == 0 else f"{2 * train + 200}D"
@@ -129,13 +132,14 @@ def placed(told: Known, worker: WorkerFix) -> tuple[int, int | None]:
 
 def train_shown(scene: Shown, second: int, train: int, told: Known, worker: WorkerFix) -> dict[str, Any]:
     """Give one train: number, section, delay, speed, distance (A7)."""
+    written, train = number(train), train % TRAINS
     made_s = max(1, second - told.fix.age_ms // 1_000)
     has_fix = machine.has_fix(REGISTER, told)
     speed_m_s = abs(scene.kept.places[made_s, train] - scene.kept.places[made_s - 1, train]) if has_fix else np.nan
     at_mm, apart_um = placed(told, worker)
     late_s = scene.day.departs_s[train] - scheduled_s()[train] if train < REGULAR else 0
     return {
-        "number": number(train),
+        "number": written,
         "way": next((way for way, direction in WAYS.items() if direction == told.fix.direction), ""),
         "section": place_name(told.display) if machine.has_display(REGISTER, told) else "not on the display",
         "late_min": int(late_s // 60),

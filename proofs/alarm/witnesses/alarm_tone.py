@@ -21,7 +21,7 @@ from kernel.alarm.tone import (
 )
 from models.alarm.line import BOUNDS, FRESH
 from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed, may_be_within
-from proofs.alarm.witnesses import one_decision, openings, what_is_known
+from proofs.alarm.witnesses import lists, one_decision, openings, what_is_known
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     CAUTION,
@@ -72,10 +72,10 @@ def a_train_comes_passes_and_goes_with_another_behind_it() -> None:
         (ALARM, NORMAL),
         (NORMAL, NORMAL),
     ]
-    day.step("leave", train=FIRST)
+    day.go(FIRST)
     assert set(day.system.bodies) == {OTHER}
-    day.step("hear_gone", train=FIRST)
     assert set(day.system.handset.trains) == {OTHER}
+    day.tell(OTHER, DOWN)
     assert day.tone() == NORMAL
 
 
@@ -238,10 +238,13 @@ def a_fix_too_old_is_a_fault() -> None:
 
 
 def a_list_that_is_not_heard_is_the_fault_tone() -> None:
-    """A train may come while the link is silent; the next list has to name it (A1, A8)."""
+    """A train that is entered meanwhile may come when the list is too old; the next one has it (A1, A8)."""
     day = Day()
     day.hear()
+    day.step("enter", train=FIRST)
     day.run(8_000)
+    day.locate()
+    assert day.tone() == NORMAL
     at_um = UM_A_MM * WORKER_MM
     body = Body(
         at_um, DOWN, 58_000, 2_000, at_um, DOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1
@@ -249,16 +252,15 @@ def a_list_that_is_not_heard_is_the_fault_tone() -> None:
     before = day.system
     assert day.step("come", train=FIRST, body=body) == before
     day.run(1)
+    day.locate()
     assert day.tone() == FAULT
     day.step("come", train=FIRST, body=body)
     assert FIRST in day.system.bodies
-    before = day.system
-    assert day.step("hear_list", age_ms=0, servers_well=True) == before
-    day.step("hear_named", train=FIRST)
+    assert FIRST not in day.system.handset.trains
     day.hear()
+    assert FIRST in day.system.handset.trains
     assert day.tone() == FAULT
     day.hear(well=False)
-    day.step("hear_list", age_ms=0, servers_well=True)
     day.step("look_at_the_battery", battery_well=False)
     assert not day.system.handset.battery_well
 
@@ -274,11 +276,12 @@ def what_is_not_on_the_list_stays_unknown() -> None:
     assert day.step("take_fix", train=FIRST, fix=known(0).fix, at_um=0, is_right=True) == before
     assert day.step("take_display", train=FIRST, display=known(0).display, at_um=0) == before
     assert day.step("intend", train=FIRST, to_um=0, heading=DOWN) == before
-    day.step("hear_named", train=FIRST)
+    day.name(FIRST)
     day.step("take_fix", train=FIRST, fix=known(5).fix, at_um=0, is_right=True)
     day.step("take_display", train=FIRST, display=known(5).display, at_um=0)
     assert day.system.handset.trains == {FIRST: replace(known(5), newest=known(5).fix)}
-    day.step("hear_named", train=FIRST)
+    day.go(FIRST)
+    day.name(FIRST)
     assert day.system.handset.trains == {FIRST: NOTHING_KNOWN}
 
 
@@ -329,7 +332,6 @@ def what_nature_does_not_do_does_not_happen() -> None:
     before = day.system
     body, here_mm = before.bodies[FIRST], before.bodies[FIRST].antenna_um // UM_A_MM
     told = before.handset.trains[FIRST]
-    assert day.step("hear_gone", train=FIRST) == before
     assert day.step("come", train=FIRST, body=replace(body, antenna_um=0)) == before
     fix, at_um = told.fix, body.antenna_um
     for bad, really_um in (
@@ -413,7 +415,7 @@ def a_train_runs_as_it_heads() -> None:
 def no_train_longer_than_written_comes() -> None:
     """Nor one whose antenna is outside of it (A1)."""
     day = Day()
-    day.step("hear_named", train=FIRST)
+    day.let_on(FIRST)
     before = day.system
     body = Body(0, UNKNOWN, 60_000, 60_000, 0, UNKNOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1)
     for below_mm, above_mm in ((60_001, 0), (0, 60_001), (-1, 0), (0, -1)):
@@ -463,4 +465,5 @@ WITNESSES = (
     *one_decision.WITNESSES,
     *what_is_known.WITNESSES,
     *openings.WITNESSES,
+    *lists.WITNESSES,
 )

@@ -37,6 +37,7 @@ from proofs.alarm.witnesses.worksite import (
     NORMAL,
     OFF_MM,
     OTHER,
+    READ,
     REGISTER,
     STABLED,
     TUNNEL,
@@ -63,6 +64,9 @@ def limits_and_links_to_the_millisecond() -> None:
         (replace(well, server_age_ms=8_000), NORMAL),
         (replace(well, server_age_ms=8_001), FAULT),
         (replace(well, server_age_ms=-1), FAULT),
+        (replace(well, listing=replace(READ, is_whole=False)), FAULT),
+        (replace(well, listing=replace(READ, count=1)), FAULT),
+        (replace(well, listing=replace(READ, taken=1)), NORMAL),
         (replace(well, worker=WorkerFix(WORKER_MM, 5_000)), NORMAL),
         (replace(well, worker=WorkerFix(WORKER_MM, 5_001)), FAULT),
         (replace(well, worker=WorkerFix(WORKER_MM, -1)), FAULT),
@@ -81,7 +85,7 @@ def limits_and_links_to_the_millisecond() -> None:
     for lost, expected in losses:
         assert machine.tone(REGISTER, lost) == expected
     older = machine.older(handset(known(0)), 700)
-    assert older == Handset(WorkerFix(WORKER_MM, 700), 700, True, True, {FIRST: known(0, age_ms=700)})
+    assert older == Handset(WorkerFix(WORKER_MM, 700), 700, True, True, READ, {FIRST: known(0, age_ms=700)})
 
 
 def the_limits_are_included() -> None:
@@ -291,7 +295,7 @@ def every_number_fits_into_64_bits() -> None:
             jumped=False,
             newest=NO_TRAIN_FIX,
         )
-        given = Handset(WorkerFix(own_mm, age_ms), shown_mm, True, True, {FIRST: told})
+        given = Handset(WorkerFix(own_mm, age_ms), shown_mm, True, True, READ, {FIRST: told})
         for elapsed_ms in numbers:
             older = machine.older(given, elapsed_ms)
             assert machine.tone(register, older) in (ALARM, FAULT)

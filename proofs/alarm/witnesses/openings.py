@@ -69,7 +69,7 @@ def a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew() -> None:
     """It runs on for as long as they are fresh, and the normal tone sounds; then it is 3000 m away yet (A1, A3)."""
     day = Day(worker_mm=JOINT_MM - REACH_MM - 1)
     day.hear()
-    day.step("hear_named", train=FIRST)
+    day.let_on(FIRST)
     day.step("take_fix", train=FIRST, fix=ELSEWHERE, at_um=0, is_right=True)
     day.step("take_display", train=FIRST, display=Display(11 * KM, 13 * KM, 0), at_um=0)
     day.step("come_by", train=FIRST, body=AT_THE_JOINT)
@@ -85,7 +85,8 @@ def a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew() -> None:
     here = TrainFix(at_um // UM_A_MM, 0, UP, is_running=True)
     for age_ms, is_right in ((10_000, True), (10_001, False)):
         fix = replace(here, age_ms=age_ms)
-        day.step("hear_named", train=FIRST)
+        day.step("restart_handset")
+        day.hear()
         day.step("take_fix", train=FIRST, fix=fix, at_um=at_um, is_right=True)
         assert day.system.told.trains[FIRST].fix == fix
         assert day.system.bodies[FIRST].fix_is_right == is_right
@@ -99,7 +100,7 @@ def what_was_told_of_the_branch_may_say_anything() -> None:
     """Of a train that has just come: place, stretch and direction; of one that came before that, nothing wrong (A1)."""
     day = Day(worker_mm=50 * KM)
     day.hear()
-    day.step("hear_named", train=FIRST)
+    day.let_on(FIRST)
     day.step("come_by", train=FIRST, body=AT_THE_JOINT)
     day.step("take_fix", train=FIRST, fix=ELSEWHERE, at_um=0, is_right=True)
     shown = Display(11 * KM, 13 * KM, 0)
@@ -127,7 +128,7 @@ def no_train_comes_but_by_an_opening() -> None:
     day.hear()
     kept = day.system
     assert day.step("come_by", train=FIRST, body=AT_THE_JOINT) == kept
-    day.step("hear_named", train=FIRST)
+    day.let_on(FIRST)
     kept = day.system
     for bad in (
         replace(AT_THE_JOINT, antenna_um=AT_THE_JOINT.antenna_um + 1),
@@ -140,7 +141,10 @@ def no_train_comes_but_by_an_opening() -> None:
     assert day.step("come", train=FIRST, body=AT_THE_JOINT) == kept
     day.step("come_by", train=FIRST, body=AT_THE_JOINT)
     assert set(day.system.bodies) == {FIRST}
-    day.run(FRESH.server_ms + 1)
+    day.step("enter", train=OTHER)
+    day.run(FRESH.server_ms)
+    assert set(day.step("come_by", train=OTHER, body=AT_THE_JOINT).bodies) == {FIRST}
+    day.run(1)
     day.step("come_by", train=OTHER, body=AT_THE_JOINT)
     assert set(day.system.bodies) == {FIRST, OTHER}
 

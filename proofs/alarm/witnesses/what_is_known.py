@@ -12,6 +12,7 @@ from kernel.alarm.tone import NO_DISPLAY, Display, Reason
 from models.alarm.line import FRESH
 from models.alarm.worksite import (
     NOTHING_TOLD,
+    OfList,
     OfTrain,
     Railway,
     Told,
@@ -41,7 +42,8 @@ from proofs.alarm.witnesses.worksite import (
 IN_THE_YARD = TrainFix(40 * KM, 0, UNKNOWN, is_running=False)
 IN_THE_TUNNEL = TrainFix(20 * KM, FRESH.fix_ms + 1, DOWN, is_running=True)
 SHOWN = Display(19 * KM, 24 * KM, 0)
-ALL_TOLD = Told(WorkerFix(WORKER_MM, 0), 0, servers_well=True, battery_well=True, trains={})
+WHOLE = OfList(life_ms=1, taken=0, count=0, is_whole=True, named={})
+ALL_TOLD = Told(WorkerFix(WORKER_MM, 0), 0, servers_well=True, battery_well=True, listing=WHOLE, trains={})
 
 
 def of(fix: TrainFix = NOTHING_TOLD.fix, display: Display = NO_DISPLAY) -> OfTrain:
@@ -100,6 +102,9 @@ def a_list_is_fresh_if_the_servers_are_well_and_it_is_not_old() -> None:
     assert not is_list_fresh(SITE, replace(ALL_TOLD, list_age_ms=FRESH.server_ms + 1))
     assert not is_list_fresh(SITE, replace(ALL_TOLD, list_age_ms=-1))
     assert not is_list_fresh(SITE, replace(ALL_TOLD, servers_well=False))
+    assert not is_list_fresh(SITE, replace(ALL_TOLD, listing=replace(WHOLE, is_whole=False)))
+    assert not is_list_fresh(SITE, replace(ALL_TOLD, listing=replace(WHOLE, count=1)))
+    assert is_list_fresh(SITE, replace(ALL_TOLD, listing=replace(WHOLE, taken=1)))
 
 
 def an_old_list_is_heard_as_unknown() -> None:
@@ -108,7 +113,8 @@ def an_old_list_is_heard_as_unknown() -> None:
     day.hear()
     assert day.tone() == NORMAL
     assert not day.system.heard.unknown
-    day.step("hear_list", age_ms=FRESH.server_ms + 1, servers_well=True)
+    day = Day()
+    day.hear(age_ms=FRESH.server_ms + 1)
     assert day.tone() == FAULT
     assert day.system.heard.unknown
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.alarm import tone as machine
+from kernel.alarm import train_list
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
     NO_TRAIN_FIX,
-    NO_WORKER_FIX,
     UM_A_MM,
     Direction,
     TrainFix,
@@ -16,9 +16,11 @@ from kernel.alarm.distance import (
 )
 from kernel.alarm.tone import (
     NO_DISPLAY,
+    NOTHING_KNOWN,
     Display,
     Handset,
     Known,
+    Listing,
     NoUse,
     Opening,
     Reason,
@@ -28,7 +30,7 @@ from kernel.alarm.tone import (
     Train,
 )
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Body, Heard, Railway, Told, Worksite
+from models.alarm.worksite import Body, Heard, Lists, Railway, Worksite, nothing_told_to_the_handset
 from proofs.alarm.alarm_tone import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -55,6 +57,8 @@ WORKER_MM = 10 * KM
 OFF_MM = 60_000 + 20_000 + 15_000
 """Taken off with new fixes: length and both errors."""
 HUGE = 2**62
+READ = Listing(life_ms=1, taken=0, count=0, is_whole=True, named={})
+"""A list that is whole, and has been read."""
 SILENT = Heard(FAULT, False, False, False, False, False, False, False, False)
 FIRST, OTHER, STABLED = Train("1D"), Train("2U"), Train("9D")
 
@@ -73,7 +77,7 @@ def known(place_mm: int, heading: Direction = UNKNOWN, *, age_ms: int = 0, shown
 def handset(*trains: Known, worker_mm: int = WORKER_MM) -> Handset:
     """All is well."""
     names = (FIRST, OTHER)
-    return Handset(WorkerFix(worker_mm, 0), 0, True, True, dict(zip(names, trains, strict=False)))
+    return Handset(WorkerFix(worker_mm, 0), 0, True, True, READ, dict(zip(names, trains, strict=False)))
 
 
 def tone(*trains: Known, worker_mm: int = WORKER_MM) -> Tone:
@@ -93,11 +97,11 @@ class Day(Play[Railway, Worksite]):
     """A worker who stands at 10 km, and hears the tone after each step."""
 
     def __init__(self, worker_mm: int = WORKER_MM) -> None:
-        """Begin: nothing was told, and no train is there."""
-        lists_ms = GREATEST_AGE_MS + 1
-        nothing = Handset(NO_WORKER_FIX, lists_ms, servers_well=True, battery_well=True, trains={})
-        told = Told(NO_WORKER_FIX, lists_ms, servers_well=True, battery_well=True, trains={})
-        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, told, nothing, SILENT))
+        """Begin: the server and the handset have started, nothing was told, and no train is there."""
+        server, lists = train_list.started(0), Lists({}, {}, {}, {}, {}, frozenset())
+        told, nothing = nothing_told_to_the_handset(), machine.switched_on()
+        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, SILENT))
+        self.step("look_at_the_battery", battery_well=True)
 
     def tone(self) -> Tone:
         """Listen."""
@@ -111,18 +115,69 @@ class Day(Play[Railway, Worksite]):
         return self.system.heard.tone
 
     def hear(self, *, age_ms: int = 0, well: bool = True) -> None:
-        """The server's list comes, and the worker's own fix."""
-        self.step("hear_list", age_ms=age_ms, servers_well=well)
-        self.step("take_worker_fix", fix=WorkerFix(self.system.worker_um // UM_A_MM, 0), at_um=self.system.worker_um)
+        """The server's list comes, confirmed if it can be, and the worker's own fix."""
+        self.step("confirm_the_list")
+        self.step("hear_confirmation", life_ms=self.system.server.life_ms)
+        self.step("send_summary")
+        self.summary(age_ms=age_ms, well=well)
+        self.entries()
+        self.summary(age_ms=age_ms, well=well)
+        self.locate()
         assert (self.system.handset.server_age_ms, self.system.handset.servers_well) == (age_ms, well)
 
+    def locate(self) -> None:
+        """The handset takes a fix of its own."""
+        self.step("take_worker_fix", fix=WorkerFix(self.system.worker_um // UM_A_MM, 0), at_um=self.system.worker_um)
+
+    def summary(self, *, age_ms: int = 0, well: bool = True) -> None:
+        """What the server says of its list comes."""
+        said = train_list.summary(self.system.server)
+        self.step(
+            "hear_summary",
+            life_ms=said.life_ms,
+            count=said.count,
+            is_whole=said.is_whole,
+            age_ms=age_ms,
+            servers_well=well,
+        )
+
+    def entries(self) -> None:
+        """All entries that the server has written are sent, and come."""
+        for number in range(1, self.system.server.count + 1):
+            self.step("send_entry", number=number)
+            self.step("hear_entry", life_ms=self.system.server.life_ms, number=number)
+
+    def name(self, train: Train) -> None:
+        """A number is entered, and the handset has read it."""
+        self.step("enter", train=train)
+        self.step("send_summary")
+        self.summary()
+        self.entries()
+        assert self.system.handset.trains[train] == NOTHING_KNOWN
+
+    def let_on(self, train: Train) -> None:
+        """A train is entered, longer ago than a list stays fresh; all others stand meanwhile."""
+        self.name(train)
+        self.run(REGISTER.fresh.server_ms + 1)
+        self.hear()
+
     def come(self, train: Train, at_mm: int, heading: Direction = DOWN) -> None:
-        """A train comes onto the line, after the list has named it."""
-        self.step("hear_named", train=train)
+        """A train is made up on the line, after it was let on."""
+        self.let_on(train)
         at_um = UM_A_MM * at_mm
         body = Body(at_um, heading, 58_000, 2_000, at_um, heading, fix_is_right=False, came_by=NOWHERE, came_ms=0)
         self.step("come", train=train, body=body)
         assert self.system.bodies[train] == replace(body, fix_is_right=True, came_ms=GREATEST_AGE_MS + 1)
+
+    def go(self, train: Train) -> None:
+        """A train leaves, is reported to have left, and neither source tells of it; others stand meanwhile."""
+        self.step("leave", train=train)
+        self.step("report_left", train=train)
+        self.run(6_000)
+        self.step("strike_off", train=train)
+        self.hear()
+        assert train not in self.system.server.trains
+        assert train not in self.system.handset.trains
 
     def tell(self, train: Train, heading: Direction = UNKNOWN, *, off_mm: int = 0, display: bool = True) -> Known:
         """Both sources tell of a train, or GPS alone; ``off_mm``: how wrong the fix is."""

@@ -6,117 +6,9 @@ from dataclasses import replace
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import Coming, Crossing, Taken, cannot_both_be, is_of_this_line
-from proofs.crossing.arrival import THEORY
-from proofs.onboard.witnesses.play import Play
+from models.crossing.arrival import cannot_both_be, is_of_this_line
+from proofs.crossing.witnesses.contact import BOUNDS, LINE_UM, NOTHING, SITE, Train, brought, contacted
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
-
-BOUNDS = ArrivalBounds(
-    line_um=3_000_000,
-    gain_um=10_000,
-    cycle_ms=100,
-    warning_cycles=350,
-    silence_cycles=20,
-    way_spread_mm=1,
-    speed_spread_mm_s=1,
-)
-"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s and err by rounding alone."""
-SITE = Crossing(BOUNDS)
-LINE_UM = BOUNDS.line_um
-NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
-
-
-def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
-    """A train that has just been ranged, exactly."""
-    way_um, pace_um = UM_A_MM * way_mm, BOUNDS.cycle_ms * speed_mm_s
-    known = Followed(way_um, LINE_UM - max(0, pace_um), LINE_UM, 0, way_mm, max(0, speed_mm_s), False)
-    return Coming(
-        way_um=way_um,
-        pace_um=pace_um,
-        ceiling_um=LINE_UM,
-        ranged=Taken(way_um, pace_um, 0),
-        arrived=False,
-        decided=False,
-        told=Ranging(True, way_mm, speed_mm_s, 0),
-        contradicted=False,
-        worst=known,
-        left_cycles=BOUNDS.warning_cycles + 1,
-        silent_cycles=0,
-        warned_cycles=0,
-        followed=known,
-    )
-
-
-class Train(Play[Crossing, Coming]):
-    """A train in contact; ranged exactly and at once in each cycle, if not told otherwise."""
-
-    def __init__(self, system: Coming | None = None) -> None:
-        """Begin."""
-        super().__init__(THEORY, SITE, contacted() if system is None else system)
-
-    def promise(self, ceiling_um: int) -> None:
-        """Promise a ceiling, which the crossing hears."""
-        self.step("keep_to", ceiling_um=ceiling_um)
-        self.step("take_ceiling", ceiling_um=ceiling_um)
-        assert self.system.ceiling_um == self.system.followed.ceiling_um == ceiling_um
-
-    def range(self) -> None:
-        """Take a ranging."""
-        self.step("take_ranging")
-        assert self.system.ranged == Taken(self.system.way_um, self.system.pace_um, 0)
-
-    def ranging(self) -> Ranging:
-        """What the ranging under way says: exact but for rounding to the safe side."""
-        ranged = self.system.ranged
-        return Ranging(True, ranged.way_um // UM_A_MM, -(-ranged.pace_um // BOUNDS.cycle_ms), ranged.age_cycles)
-
-    def decide(self, ranging: Ranging | None = None) -> None:
-        """The crossing decides, by the ranging under way if not told otherwise."""
-        self.step("decide", ranging=self.ranging() if ranging is None else ranging)
-        assert self.system.decided
-
-    def run(self, pace_um: int) -> None:
-        """Come to a pace within a cycle, as far as can be."""
-        before = self.system
-        to_um = before.way_um - max(before.pace_um, pace_um)
-        self.step("run_a_cycle", to_um=to_um, pace_um=pace_um)
-        assert (self.system.way_um, self.system.pace_um, self.system.decided) == (to_um, pace_um, False)
-
-    def cycle(self, pace_um: int, ranging: Ranging | None = None) -> None:
-        """One ranging, one decision, one cycle."""
-        if ranging is None:
-            self.range()
-        self.decide(ranging)
-        self.run(pace_um)
-
-    def faster(self) -> int:
-        """The pace that it has after gaining all that it can."""
-        return min(self.system.pace_um + BOUNDS.gain_um, self.system.ceiling_um)
-
-    def warns(self) -> bool:
-        """Whether it asks for the warning."""
-        return self.system.followed.warns
-
-    def to_the_crossing(self) -> int:
-        """Run at its worst until it is there; give for how many cycles there was a warning before the last."""
-        while self.system.way_um > 0:
-            self.cycle(self.faster())
-        self.step("arrive")
-        assert self.system.arrived
-        return self.system.warned_cycles - 1
-
-
-def brought(way_mm: int, speed_mm_s: int) -> Train:
-    """A train that was ranged in time, has come near, and has then that speed."""
-    train = Train(contacted(1_060_000, 3_000))
-    while train.system.way_um > UM_A_MM * way_mm:
-        train.cycle(300_000)
-        assert not train.warns()
-    while train.system.pace_um < BOUNDS.cycle_ms * speed_mm_s:
-        train.cycle(train.faster())
-    train.cycle(BOUNDS.cycle_ms * speed_mm_s)
-    return train
-
 
 # ---- the moment
 
@@ -241,7 +133,8 @@ def a_ranging_again_takes_the_place_of_the_worst() -> None:
 
 def a_late_ranging_is_shortened_by_its_age() -> None:
     """By the line's speed, and the train may have gained since; at any age that counts (X2)."""
-    train = Train(contacted(3_000_000, 20_000))
+    train = Train(contacted(3_002_000, 20_000))
+    train.cycle(2_000_000)
     train.range()
     told = train.ranging()
     for _ in range(5):
@@ -253,6 +146,34 @@ def a_late_ranging_is_shortened_by_its_age() -> None:
     for age_cycles, counts in ((20, True), (21, False), (0, True), (-1, False)):
         assert machine.counts(BOUNDS, Ranging(True, 0, 0, age_cycles)) == counts
     assert machine.taken(BOUNDS, held, Ranging(True, 9_000, 29_950, 7)).short_um == 0
+
+
+def a_radio_that_hangs_is_silent() -> None:
+    """At 12 m/s, just out of reach of the warning, it tells one ranging as new for ever: that is lost (X1, X3)."""
+    for way_mm, speed_mm_s in ((1_060_000, 12_000), (9_000_000, 2)):
+        train = Train(contacted(way_mm, speed_mm_s))
+        hung = train.ranging()
+        for silent in range(1, 23):
+            train.cycle(BOUNDS.cycle_ms * speed_mm_s, hung)
+            assert train.system.silent_cycles == silent
+            assert train.warns() or silent < 22
+        assert train.warns()
+        assert not train.system.contradicted
+    train = Train(contacted(9_000_000, 12_000))
+    told = train.ranging()
+    for other in (replace(told, way_mm=8_999_999), replace(told, speed_mm_s=12_001)):
+        assert machine.is_told_again(BOUNDS, train.system.followed, told)
+        assert not machine.is_told_again(BOUNDS, train.system.followed, other)
+
+
+def who_stands_is_where_it_was() -> None:
+    """Slower than rangings err it may well be told the same again, and counts (X1)."""
+    for speed_mm_s, is_again in ((2, True), (1, False), (0, False), (-1, False)):
+        train = Train(contacted(2_000_000, speed_mm_s))
+        assert machine.is_told_again(BOUNDS, train.system.followed, train.ranging()) == is_again
+        for _ in range(0 if is_again else 100):
+            train.cycle(0)
+            assert (train.system.silent_cycles, train.warns()) == (0, False)
 
 
 def a_ranging_that_contradicts_the_one_before_warns_now() -> None:
@@ -434,7 +355,10 @@ def what_nature_does_not_do_does_not_happen() -> None:
     ):
         assert train.step("run_a_cycle", **event) == held
     train.run(2_010_000)
-    held = train.system
+    train.range()
+    train.decide(NOTHING)
+    train.run(2_010_000)
+    held, ranging = train.system, train.ranging()
     for other in (
         Ranging(True, ranging.way_mm + 1, ranging.speed_mm_s, 1),
         Ranging(True, ranging.way_mm, ranging.speed_mm_s - 1, 1),
@@ -474,6 +398,8 @@ WITNESSES = (
     without_rangings_the_worst_is_reckoned_with,
     a_ranging_again_takes_the_place_of_the_worst,
     a_late_ranging_is_shortened_by_its_age,
+    a_radio_that_hangs_is_silent,
+    who_stands_is_where_it_was,
     a_ranging_that_contradicts_the_one_before_warns_now,
     an_older_ranging_is_held_against_the_one_before_as_well,
     what_does_not_count_contradicts_nothing,

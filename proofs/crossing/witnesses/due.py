@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Settings, have_one_warning_time
+from models.crossing.arrival import Brought
 from models.crossing.due import Answered, Way
 from proofs.crossing.due import THEORY
 from proofs.onboard.witnesses.play import Play
@@ -34,7 +35,7 @@ class Train(Play[Way, Answered]):
         """Begin."""
         way_um = 1_000 * way_mm
         worst = Followed(way_um, 0, LINE_UM, 0, 0, 0, False)
-        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, LINE_UM, UNKNOWN, worst, 0, 0))
+        super().__init__(THEORY, SITE, Answered(way_um, 100 * speed_mm_s, LINE_UM, Brought(0, 0), UNKNOWN, worst, 0, 0))
 
     def ranging(self) -> Ranging:
         """A ranging, exact but for rounding to the safe side."""
