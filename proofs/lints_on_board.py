@@ -41,9 +41,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
     },
     "train": {"awaited_mm": "where a list has the tag that the orders told of, and nothing of where it lies"},
     "crossing": {"tracks": "which tracks lead over the road is how the crossing is set up; it says nothing of trains"},
-    "arrival": {
-        "brought": "a history of what the radio brought: what the crossing was told, and nothing else"
-    },
+    "arrival": {"brought": "a history of what the radio brought: what the crossing was told, and nothing else"},
     "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }

@@ -6,26 +6,12 @@ Every one was let pass once, or refused for another reason than its danger, but 
 from __future__ import annotations
 
 import json
-from typing import Any, NamedTuple
-
-import yaml
+from typing import Any
 
 from tests.independent.layouts.crafted import NEAR, RING
+from tests.independent.layouts.danger import UNREAD, danger_of
+from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
 from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
-
-
-class Danger(NamedTuple):
-    """A file; what is wrong with it on the track; the rule, remark or refusal that says so, and of which elements."""
-
-    text: str
-    danger: str
-    said: str
-    elements: frozenset[str]
-
-
-def _of(text: str, danger: str, said: str, *elements: str) -> Danger:
-    return Danger(text, danger, said, frozenset(elements))
-
 
 # ---- RailJSON
 
@@ -120,118 +106,6 @@ two = { from = "a+b", direction = "forward", to = "c" }
 three = { from = "u", direction = "forward", to = "v" }
 """
 
-# ---- tables
-
-
-def table(*rows: dict[str, Any], **more: Any) -> str:
-    """A table of its rows."""
-    return yaml.safe_dump({"interlocking-table": list(rows), **more}, sort_keys=False)
-
-
-def row(name: str, ends: str, way: str, path: str, conflicts: str = "", **more: Any) -> dict[str, Any]:
-    """A row from signal to signal over pieces, each of a section of its own."""
-    source, destination = ends[0], ends[1]
-    pieces = path.split()
-    return {
-        "id": name,
-        "source": source,
-        "destination": destination,
-        "orientation": way,
-        "path": [{"id": f"piece {piece}"} for piece in pieces],
-        "sections": [{"id": f"section {piece}"} for piece in pieces],
-        "points": [],
-        "conflicts": [{"id": other} for other in conflicts.split()],
-        **more,
-    }
-
-
-ROWS = (
-    row("1", "AC", "up", "x y", "2 3 4"),
-    row("2", "CA", "down", "y x", "1 3 4"),
-    row("3", "AB", "up", "x", "1 2"),
-    row("4", "BC", "up", "y", "1 2"),
-)
-SKIPPED = table(
-    row("1", "AD", "up", "x z", "2 3"), row("2", "AB", "up", "x y", "1 3"), row("3", "BD", "up", "z", "1 2")
-)
-
-
-def _beside(name: str, passed: tuple[str, str], **more: Any) -> str:
-    """Two lines of two sections each, routes over both and over each part, which conflict with what they lie in.
-
-    The long routes pass the signals ``passed``, which stand for a way onto another track.
-    """
-    up = row("1", "AB", "up", "x y", "2 3 4"), row("3", "AM", "up", "x", "1"), row("4", "MB", "up", "y", "1")
-    down = row("2", "CD", "up", "u v", "1 5 6"), row("5", "CN", "up", "u", "2"), row("6", "ND", "up", "v", "2")
-    for each, signal in zip((up[0], down[0]), passed, strict=True):
-        each["path"].insert(1, {"id": signal})
-    return table(*up, *down, row("7", "G" + name, "up", "w"), **more)
-
-
-def over_point(name: str, ends: str, way: str, beyond: str, conflicts: str) -> dict[str, Any]:
-    """A row over a loose piece where point P lies to the left, and over one section before or behind it."""
-    told = {"path": [{"id": "loose"}, {"id": f"piece {beyond}"}], "points": [{"id": "P", "position": "left"}]}
-    return {**row(name, ends, way, beyond, conflicts), **told}
-
-
-LEFT_TWICE = table(
-    over_point("1", "BA", "up", "a", "2 4"),
-    over_point("2", "CA", "up", "a", "1 4"),
-    row("4", "ED", "down", "a", "1 2"),
-    row("5", "XB", "up", "b"),
-    row("6", "YC", "up", "c"),
-)
-LEFT_AND_RIGHT = table(
-    over_point("1", "BA", "up", "a", "2 4"),
-    {**over_point("2", "BE", "up", "a", "1 4"), "points": [{"id": "P", "position": "right"}]},
-    row("4", "ED", "down", "a", "1 2"),
-    row("5", "XB", "up", "b"),
-)
-MEET_AT_AN_END = table(
-    row("1", "BD", "up", "a d", "2"),
-    row("2", "CS", "up", "a", "1"),
-    row("5", "XB", "up", "b"),
-    row("6", "YC", "up", "c"),
-)
-MEET_THE_OTHER_WAY = table(
-    row("2", "CS", "up", "a", "7"),
-    row("3", "SD", "up", "d"),
-    row("6", "YC", "up", "c"),
-    row("7", "EF", "down", "a", "2"),
-    row("8", "FG", "down", "b"),
-)
-
-
-def _through(*more: dict[str, Any]) -> str:
-    """A row over three pieces that lists the sections of the first two, one that runs over the second, and others."""
-    three = {"path": [{"id": f"piece {piece}"} for piece in "xyz"]}
-    first = row("R", "AB", "up", "x y", " ".join(("D", *(each["id"] for each in more))))
-    return table({**first, **three}, row("D", "NM", "down", "y", "R"), *more)
-
-
-TABLES_THAT_HOLD = {
-    "table.yml": table(*ROWS),
-    "tracks cross in a section.yml": table(
-        row("1", "AB", "up", "a x b", "2 3"),
-        row("2", "CD", "up", "c x d", "1 4"),
-        row("3", "AM", "up", "a", "1"),
-        row("4", "CN", "up", "c", "2"),
-    ),
-    "starts in a crossing.yml": table(
-        row("1", "AB", "up", "x b", "2 3 4"),
-        row("2", "CD", "up", "x d", "1 3 4"),
-        row("3", "EF", "down", "b x a", "1 2 4"),
-        row("4", "GH", "down", "d x c", "1 2 3"),
-    ),
-    "starts behind a start.yml": table(
-        row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
-    ),
-    "sections foul.yml": table(
-        row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
-    ),
-}
-"""Tables without a danger, one of each thing that can be right: what is wrong looks much like it."""
-
 # ---- railML 3
 
 
@@ -306,26 +180,25 @@ def level(*names: str) -> str:
 
 OFF = '<track id="T0"><state disabled="true"/>'
 
-UNREAD = "not read"
-DANGERS = {
-    "no train.toml": _of(
+DANGERS = DANGEROUS_TABLES | {
+    "no train.toml": danger_of(
         RING.replace("699_999", "1"),
         "the longest train is told to have 1 mm, so every train is longer, and the ring of 700 m lets one meet itself",
         "the longest train is a train",
     ),
-    "clear at once.toml": _of(
+    "clear at once.toml": danger_of(
         NEAR.replace("reverse = 7_000, normal = 6_000", "reverse = 1, normal = 1").replace("S = 7_000", "S = 500"),
         "both legs are told to be clear 1 mm from the point, where no two tracks are: a train behind S is foul",
         "a leg is told to be clear where tracks are apart",
         *("Q", "reverse"),
     ),
-    "stop midway.json": _of(
+    "stop midway.json": danger_of(
         railjson(LINE_OF_FOUR, [("r", "A", "middle")], buffer_stops=STOPS),
         "a buffer stop stands in the middle of a track that goes on with detectors: trains meet at it from both sides",
         "where the file has track go on",
         *("middle", "t"),
     ),
-    "stop at a joint.json": _of(
+    "stop at a joint.json": danger_of(
         railjson(
             {"W": ("w", 300.0), "E": ("e", 300.0), "F": ("e", 600.0)},
             [("r", "W", "stop"), ("s", "E", "F")],
@@ -336,7 +209,7 @@ DANGERS = {
         "no track goes on behind a buffer stop at a joint",
         *("stop", "e", "X"),
     ),
-    "stop on a leg.json": _of(
+    "stop on a leg.json": danger_of(
         railjson(
             {"W": ("w", 800.0), "E": ("e", 100.0), "S": ("s", 100.0), "T": ("s", 600.0)},
             [("r", "S", "T")],
@@ -347,155 +220,50 @@ DANGERS = {
         "boundary 'stop' lies 1,000 mm behind 'X'",
         *("X", "stop"),
     ),
-    "names alike.toml": _of(
+    "names alike.toml": danger_of(
         NAMES_ALIKE,
         "blocks between a and b+c and between a+b and c get one name: the second does not foul what it was meant to",
         "is made of the names of boundaries, and so is that of another block",
     ),
-    "stub.json": _of(
+    "stub.json": danger_of(
         STUB,
         "a leg of a switch is joined in no position: what rolls from there runs onto closed rails",
         "port 'C' is in no group",
     ),
-    "crossing anew.json": _of(
+    "crossing anew.json": danger_of(
         ANEW,
         "the file makes another thing of the type called crossing: what reads as two lines across is two curves",
         "has the id of a type that every file has",
     ),
-    "steep.json": _of(
+    "steep.json": danger_of(
         railjson(LINE_OF_FOUR, [("r", "A", "C")], track_sections=[STEEP]),
         "45 per mille down to the exit, through a curve of 90 m, with a loading gauge limit: nothing knows of it",
         UNREAD,
         "t",
     ),
-    "detector one way.json": _of(
+    "detector one way.json": danger_of(
         railjson(LINE_OF_FOUR, [("r", "A", "B")], detectors=[ONE_WAY, *CD]),
         "a detector counts trains of one direction alone, and bounds blocks for both",
         UNREAD,
         "B",
     ),
-    "level crossing.yml": _of(
-        table({**ROWS[0], "crossings": [{"id": "road"}]}, *ROWS[1:], derailers=[{"id": "trap"}]),
-        "a row names a level crossing, the table a derailer, and nobody asks whether these are closed and off",
-        UNREAD,
-        *("1", "derailers"),
-    ),
-    "three ways.yml": _of(
-        table(*ROWS[:3], {**ROWS[3], "orientation": "Up"}),
-        "'Up' is written once for 'up': the row is taken to run another way than those that it follows",
-        "routes run one way or the other",
-        *("1", "2", "4"),
-    ),
-    "up and Up.yml": _of(
-        table(row("1", "AB", "up", "x"), row("2", "BC", "Up", "y")),
-        "'Up' is written once for 'up' where no row runs the other way",
-        "differ in case",
-        *("up", "Up"),
-    ),
-    "fouling of signals.yml": _of(
-        _beside("S", ("S", "G"), fouling=[["S", "G"]]),
-        "what fouls is told by the names of signals, which are no track: no block fouls another, and both trains run",
-        "no route runs over track 'S'",
-    ),
-    "one signal passed.yml": _of(
-        _beside("S", ("S", "S")),
-        "two routes are declared to conflict, and share the name of a signal alone: nothing keeps their trains apart",
-        "declared conflicts follow",
-        *("1", "2"),
-    ),
-    "left twice.yml": _of(
-        LEFT_TWICE,
-        "a point in one position leads from one track to two: trains are permitted onto the leg that it is not set for",
-        "a point leads one way",
-        *("1", "2", "P", "section a", "section b", "section c"),
-    ),
-    "two before.yml": _of(
-        table(
-            row("1", "AB", "up", "x", "2 3"), row("2", "CD", "down", "x w", "1 3"), row("3", "CE", "down", "x v", "1 2")
-        ),
-        "a route starts in one of two sections, and nobody knows in which",
-        "a route starts in a known block",
-        *("A", "section v", "section w"),
-    ),
-    "starts over a point.yml": _of(
-        table(over_point("1", "AB", "up", "a", "2"), row("2", "CD", "down", "a", "1")),
-        "a route starts over a point, and nothing tells what lies before that",
-        "a route starts in a known block",
-        "A",
-    ),
-    "left and right.yml": _of(
-        LEFT_AND_RIGHT,
-        "two routes run the same way over a point and want it otherwise: one of them is derailed",
-        "a point lies one way between two blocks",
-        *("1", "2", "P"),
-    ),
-    "meet where a route ends.yml": _of(
-        MEET_AT_AN_END,
-        "tracks meet in a section without a point, and the route over one of them ends there",
-        "tracks merge at a point",
-        *("1", "2", "section a", "section b", "section c"),
-    ),
-    "meet the other way.yml": _of(
-        MEET_THE_OTHER_WAY,
-        "the same, and the routes run the two ways",
-        "tracks merge at a point",
-        *("2", "8", "section a", "section b", "section c"),
-    ),
-    "of no section.yml": _of(
-        _through(row("E", "AN", "up", "x", "R")),
-        "the last piece of a path is of no section and of no point: the train in it is detected by nothing",
-        "track lies in a section or at a point",
-        *("R", "piece z"),
-    ),
-    "back into a section.yml": _of(
-        _through(),
-        "a path comes back into a section that it has left: one half of it lies behind the route's end",
-        "a route passes a block once",
-        *("R", "section x"),
-    ),
-    "signal and section.yml": _of(
-        table(*ROWS[:3], {**ROWS[3], "source": "section x"}),
-        "one name is a signal and a section",
-        "'section x' is the name of a signal too",
-    ),
-    "signals alone.yml": _of(
-        table(*ROWS, {**row("5", "AC", "up", "x"), "path": [{"id": "B"}]}),
-        "a path is of signals alone: the route runs over no track",
-        "holds signals alone",
-    ),
-    "no sections.yml": _of(
-        table({**ROWS[0], "sections": []}, *ROWS[1:]),
-        "a route lists no section: nothing detects a train on it",
-        "sections: is empty",
-    ),
-    "block by name.yml": _of(
-        table({**ROWS[0], "path": [{"id": "before A"}, {"id": "piece y"}]}, *ROWS[1:]),
-        "a piece has the name of the block that a route is started in where the table begins",
-        "'before A' is the name of a block at signal 'A' too",
-    ),
-    "skips a piece.yml": _of(
-        SKIPPED,
-        "route 1 runs over y, which it does not list and so does not claim",
-        "tracks merge at a point",
-        *("1", "3", "section x", "section y", "section z"),
-    ),
-    "end joined twice.railml": _of(
+    "end joined twice.railml": danger_of(
         changed(TRACKS, [('id="y-A" ref="y-B"/>', 'id="y-A" ref="y-B"/><connection id="z-A" ref="z-B"/>'), LINE]),
         "two tracks are joined to one end of a third without a switch: they merge unseen",
         "second connection",
     ),
-    "both to the right.railml": _of(
+    "both to the right.railml": danger_of(
         changed(TRACKS, [('<switch id="P"', '<switch id="P" trackContinueCourse="right"')]),
         "track and branch go on to the right at one switch: one of its positions has the other's name",
         "and so does its branch",
     ),
-    "gauge.railml": _of(
+    "gauge.railml": danger_of(
         changed(TRACKS, [("<ocsElements>", GAUGES)]),
         "the gauge changes within a route, and what axles the track carries",
         UNREAD,
         *("gauge", "weight"),
     ),
-    "curve.railml": _of(
+    "curve.railml": danger_of(
         changed(
             TRACKS,
             [("<ocsElements>", '<trackElements><radiusChange id="bend" radius="60"/></trackElements><ocsElements>')],
@@ -504,52 +272,52 @@ DANGERS = {
         UNREAD,
         "bend",
     ),
-    "slip told twice.railml": _of(
+    "slip told twice.railml": danger_of(
         crossing("doubleSwitchCrossing", "y1", "y2", HALF),
         "a double slip is told on both of its tracks: which way round these run, and so which legs meet, is not told",
         "which legs meet is not told",
     ),
-    "disabled.railml": _of(
+    "disabled.railml": danger_of(
         changed(TRACKS, [('<track id="T0">', OFF)]),
         "the track is out of use, and routes run over it",
         "not in use",
         "T0",
     ),
-    "crossing apart.railml": _of(
+    "crossing apart.railml": danger_of(
         railml(BOTH, SPOTS, CROSSES.format('<turningBranch netRelationRef="ns"/>')),
         "two lines cross on the level; a crossing names both, no relation says that they meet: trains collide",
         "two ends of track meet here, and none of another track",
     ),
-    "crossing of one.railml": _of(
+    "crossing of one.railml": danger_of(
         railml(BOTH, SPOTS, CROSSES.format("")),
         "the same, and the crossing names one of the lines alone",
         "two ends of track meet here, and none of another track",
     ),
-    "one way.railml": _of(
+    "one way.railml": danger_of(
         railml(relation("we", "w", "e", "BA") + relation("ns", "n", "s"), SPOTS),
         "track may be run over one way alone, and the route runs the other",
         "navigable one way",
         "we",
     ),
-    "two places.railml": _of(
+    "two places.railml": danger_of(
         railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "0.2", ELSEWHERE))),
         "a signal and its detector lie in two places, 125 m apart: a train stands behind the wrong one",
         "an element lies in one place",
         "B",
     ),
-    "ends apart.railml": _of(
+    "ends apart.railml": danger_of(
         railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "1.0", AT_END.format("w")))),
         "a signal and its detector lie at two ends of track that do not meet, 500 m apart",
         "no junction joins them",
         "B",
     ),
-    "border at a switch.railml": _of(
+    "border at a switch.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + BORDER),
         "a border stands at the switch, with track behind it: a train there is foul of the other leg",
         "no track goes on behind a buffer stop at a joint",
         *("edge", "s", "P"),
     ),
-    "overlap too long.railml": _of(
+    "overlap too long.railml": danger_of(
         railml(
             TURNOUT, ON_LEGS.replace('"e" intrinsicCoord="0.8"', '"e" intrinsicCoord="0.4"'), SWITCHES, SHORT_OF_IT
         ).replace("</functionalInfrastructure>", BUFFER),
@@ -557,12 +325,12 @@ DANGERS = {
         "there is as much track as an overlap is long",
         *("CD", "o", "wall"),
     ),
-    "two networks.railml": _of(
+    "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
         "a relation leads on from known track to an element that no level Micro lists",
         "which is on no level Micro",
     ),
-    "on no level.railml": _of(
+    "on no level.railml": danger_of(
         railml(BOTH, SPOTS, networks=level(*"wens")).replace(
             "<netElements>", '<netElements><netElement id="z" length="5"/>'
         ),
@@ -570,36 +338,36 @@ DANGERS = {
         "not read",
         "z",
     ),
-    "two markers.railml": _of(
+    "two markers.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + MARKERS, MARKED),
         "two markers say of one leg where it is clear: the nearer would let a train stand foul",
         "a leg is clear from one place on",
         *("P", "near"),
     ),
-    "two switches.railml": _of(
+    "two switches.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + AGAIN),
         "two switches are told of one place, with left and right the other way round",
         "is a branch of switchIS 'P' as well",
     ),
-    "coupled.railml": _of(
+    "coupled.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES, COUPLED),
         "a switch moves with another one, and is thrown under a train when that is",
         UNREAD,
         "il",
     ),
-    "gauges and curves.railml": _of(
+    "gauges and curves.railml": danger_of(
         railml(BOTH, SPOTS, CURVED),
         "the gauge of track, and a curve of 60 m",
         UNREAD,
         *("broad", "bend"),
     ),
-    "not yet there.railml": _of(
+    "not yet there.railml": danger_of(
         railml(BOTH, SPOTS, CLOSED.replace('<elementState value="closed"/>', '<isValid from="2999-01-01"/>')),
         "the track that a route runs over is not yet there",
         "from when to when",
         "T",
     ),
-    "closed.railml": _of(
+    "closed.railml": danger_of(
         railml(BOTH, SPOTS, CLOSED),
         "the track that a route runs over is closed",
         "not in use",

@@ -34,7 +34,8 @@ from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
 from tests.independent.layouts import railml_2_pieces, railml_pieces
 from tests.independent.layouts.crafted import CRAFTED
-from tests.independent.layouts.dangerous import DANGERS, TABLES_THAT_HOLD
+from tests.independent.layouts.dangerous import DANGERS
+from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station

@@ -7,7 +7,8 @@ import re
 import pytest
 
 from models.layouts import BadInput, check, load_text
-from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, TABLES_THAT_HOLD, railml
+from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, railml
+from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
 """Files that are no layout; of a train that is none there is no element to name."""

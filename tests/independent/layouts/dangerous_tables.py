@@ -1,0 +1,227 @@
+"""Interlocking tables with a danger each, and some without, which look much like them (:mod:`dangerous`)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+from tests.independent.layouts.danger import UNREAD, danger_of
+
+
+def table(*rows: dict[str, Any], **more: Any) -> str:
+    """A table of its rows."""
+    return yaml.safe_dump({"interlocking-table": list(rows), **more}, sort_keys=False)
+
+
+def row(name: str, ends: str, way: str, path: str, conflicts: str = "", **more: Any) -> dict[str, Any]:
+    """A row from signal to signal over pieces, each of a section of its own."""
+    source, destination = ends[0], ends[1]
+    pieces = path.split()
+    return {
+        "id": name,
+        "source": source,
+        "destination": destination,
+        "orientation": way,
+        "path": [{"id": f"piece {piece}"} for piece in pieces],
+        "sections": [{"id": f"section {piece}"} for piece in pieces],
+        "points": [],
+        "conflicts": [{"id": other} for other in conflicts.split()],
+        **more,
+    }
+
+
+ROWS = (
+    row("1", "AC", "up", "x y", "2 3 4"),
+    row("2", "CA", "down", "y x", "1 3 4"),
+    row("3", "AB", "up", "x", "1 2"),
+    row("4", "BC", "up", "y", "1 2"),
+)
+SKIPPED = table(
+    row("1", "AD", "up", "x z", "2 3"), row("2", "AB", "up", "x y", "1 3"), row("3", "BD", "up", "z", "1 2")
+)
+
+
+def _beside(name: str, passed: tuple[str, str], **more: Any) -> str:
+    """Two lines of two sections each, routes over both and over each part, which conflict with what they lie in.
+
+    The long routes pass the signals ``passed``, which stand for a way onto another track.
+    """
+    up = row("1", "AB", "up", "x y", "2 3 4"), row("3", "AM", "up", "x", "1"), row("4", "MB", "up", "y", "1")
+    down = row("2", "CD", "up", "u v", "1 5 6"), row("5", "CN", "up", "u", "2"), row("6", "ND", "up", "v", "2")
+    for each, signal in zip((up[0], down[0]), passed, strict=True):
+        each["path"].insert(1, {"id": signal})
+    return table(*up, *down, row("7", "G" + name, "up", "w"), **more)
+
+
+def over_point(name: str, ends: str, way: str, beyond: str, conflicts: str) -> dict[str, Any]:
+    """A row over a loose piece where point P lies to the left, and over one section before or behind it."""
+    told = {"path": [{"id": "loose"}, {"id": f"piece {beyond}"}], "points": [{"id": "P", "position": "left"}]}
+    return {**row(name, ends, way, beyond, conflicts), **told}
+
+
+LEFT_TWICE = table(
+    over_point("1", "BA", "up", "a", "2 4"),
+    over_point("2", "CA", "up", "a", "1 4"),
+    row("4", "ED", "down", "a", "1 2"),
+    row("5", "XB", "up", "b"),
+    row("6", "YC", "up", "c"),
+)
+LEFT_AND_RIGHT = table(
+    over_point("1", "BA", "up", "a", "2 4"),
+    {**over_point("2", "BE", "up", "a", "1 4"), "points": [{"id": "P", "position": "right"}]},
+    row("4", "ED", "down", "a", "1 2"),
+    row("5", "XB", "up", "b"),
+)
+MEET_AT_AN_END = table(
+    row("1", "BD", "up", "a d", "2"),
+    row("2", "CS", "up", "a", "1"),
+    row("5", "XB", "up", "b"),
+    row("6", "YC", "up", "c"),
+)
+MEET_THE_OTHER_WAY = table(
+    row("2", "CS", "up", "a", "7"),
+    row("3", "SD", "up", "d"),
+    row("6", "YC", "up", "c"),
+    row("7", "EF", "down", "a", "2"),
+    row("8", "FG", "down", "b"),
+)
+
+
+def _through(*more: dict[str, Any]) -> str:
+    """A row over three pieces that lists the sections of the first two, one that runs over the second, and others."""
+    three = {"path": [{"id": f"piece {piece}"} for piece in "xyz"]}
+    first = row("R", "AB", "up", "x y", " ".join(("D", *(each["id"] for each in more))))
+    return table({**first, **three}, row("D", "NM", "down", "y", "R"), *more)
+
+
+TABLES_THAT_HOLD = {
+    "table.yml": table(*ROWS),
+    "tracks cross in a section.yml": table(
+        row("1", "AB", "up", "a x b", "2 3"),
+        row("2", "CD", "up", "c x d", "1 4"),
+        row("3", "AM", "up", "a", "1"),
+        row("4", "CN", "up", "c", "2"),
+    ),
+    "starts in a crossing.yml": table(
+        row("1", "AB", "up", "x b", "2 3 4"),
+        row("2", "CD", "up", "x d", "1 3 4"),
+        row("3", "EF", "down", "b x a", "1 2 4"),
+        row("4", "GH", "down", "d x c", "1 2 3"),
+    ),
+    "starts behind a start.yml": table(
+        row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
+    ),
+    "sections foul.yml": table(
+        row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
+    ),
+}
+"""Tables without a danger, one of each thing that can be right: what is wrong looks much like it."""
+DANGEROUS_TABLES = {
+    "level crossing.yml": danger_of(
+        table({**ROWS[0], "crossings": [{"id": "road"}]}, *ROWS[1:], derailers=[{"id": "trap"}]),
+        "a row names a level crossing, the table a derailer, and nobody asks whether these are closed and off",
+        UNREAD,
+        *("1", "derailers"),
+    ),
+    "three ways.yml": danger_of(
+        table(*ROWS[:3], {**ROWS[3], "orientation": "Up"}),
+        "'Up' is written once for 'up': the row is taken to run another way than those that it follows",
+        "routes run one way or the other",
+        *("1", "2", "4"),
+    ),
+    "up and Up.yml": danger_of(
+        table(row("1", "AB", "up", "x"), row("2", "BC", "Up", "y")),
+        "'Up' is written once for 'up' where no row runs the other way",
+        "differ in case",
+        *("up", "Up"),
+    ),
+    "fouling of signals.yml": danger_of(
+        _beside("S", ("S", "G"), fouling=[["S", "G"]]),
+        "what fouls is told by the names of signals, which are no track: no block fouls another, and both trains run",
+        "no route runs over track 'S'",
+    ),
+    "one signal passed.yml": danger_of(
+        _beside("S", ("S", "S")),
+        "two routes are declared to conflict, and share the name of a signal alone: nothing keeps their trains apart",
+        "declared conflicts follow",
+        *("1", "2"),
+    ),
+    "left twice.yml": danger_of(
+        LEFT_TWICE,
+        "a point in one position leads from one track to two: trains are permitted onto the leg that it is not set for",
+        "a point leads one way",
+        *("1", "2", "P", "section a", "section b", "section c"),
+    ),
+    "two before.yml": danger_of(
+        table(
+            row("1", "AB", "up", "x", "2 3"), row("2", "CD", "down", "x w", "1 3"), row("3", "CE", "down", "x v", "1 2")
+        ),
+        "a route starts in one of two sections, and nobody knows in which",
+        "a route starts in a known block",
+        *("A", "section v", "section w"),
+    ),
+    "starts over a point.yml": danger_of(
+        table(over_point("1", "AB", "up", "a", "2"), row("2", "CD", "down", "a", "1")),
+        "a route starts over a point, and nothing tells what lies before that",
+        "a route starts in a known block",
+        "A",
+    ),
+    "left and right.yml": danger_of(
+        LEFT_AND_RIGHT,
+        "two routes run the same way over a point and want it otherwise: one of them is derailed",
+        "a point lies one way between two blocks",
+        *("1", "2", "P"),
+    ),
+    "meet where a route ends.yml": danger_of(
+        MEET_AT_AN_END,
+        "tracks meet in a section without a point, and the route over one of them ends there",
+        "tracks merge at a point",
+        *("1", "2", "section a", "section b", "section c"),
+    ),
+    "meet the other way.yml": danger_of(
+        MEET_THE_OTHER_WAY,
+        "the same, and the routes run the two ways",
+        "tracks merge at a point",
+        *("2", "8", "section a", "section b", "section c"),
+    ),
+    "of no section.yml": danger_of(
+        _through(row("E", "AN", "up", "x", "R")),
+        "the last piece of a path is of no section and of no point: the train in it is detected by nothing",
+        "track lies in a section or at a point",
+        *("R", "piece z"),
+    ),
+    "back into a section.yml": danger_of(
+        _through(),
+        "a path comes back into a section that it has left: one half of it lies behind the route's end",
+        "a route passes a block once",
+        *("R", "section x"),
+    ),
+    "signal and section.yml": danger_of(
+        table(*ROWS[:3], {**ROWS[3], "source": "section x"}),
+        "one name is a signal and a section",
+        "'section x' is the name of a signal too",
+    ),
+    "signals alone.yml": danger_of(
+        table(*ROWS, {**row("5", "AC", "up", "x"), "path": [{"id": "B"}]}),
+        "a path is of signals alone: the route runs over no track",
+        "holds signals alone",
+    ),
+    "no sections.yml": danger_of(
+        table({**ROWS[0], "sections": []}, *ROWS[1:]),
+        "a route lists no section: nothing detects a train on it",
+        "sections: is empty",
+    ),
+    "block by name.yml": danger_of(
+        table({**ROWS[0], "path": [{"id": "before A"}, {"id": "piece y"}]}, *ROWS[1:]),
+        "a piece has the name of the block that a route is started in where the table begins",
+        "'before A' is the name of a block at signal 'A' too",
+    ),
+    "skips a piece.yml": danger_of(
+        SKIPPED,
+        "route 1 runs over y, which it does not list and so does not claim",
+        "tracks merge at a point",
+        *("1", "3", "section x", "section y", "section z"),
+    ),
+}
+"""Every table with what must be said of it."""
