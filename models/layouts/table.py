@@ -25,7 +25,7 @@ from models.layouts.conflicts import compare_conflicts
 from models.layouts.findings import Findings
 from models.layouts.reading import by_name, identifier, validate
 from models.layouts.results import BadInput, Imported
-from models.layouts.table_layout import assemble_table
+from models.layouts.table_layout import assemble_table, homes
 
 _NAMED = {"type": "array", "items": {"type": "object", "required": ["id"], "properties": {"id": {"type": "string"}}}}
 _POSITIONED = {
@@ -92,6 +92,7 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     findings = Findings("point")
     _say_what_is_not_read(data, findings)
     _say_which_ways(routes.values(), findings)
+    _say_how_points_lie(routes.values(), findings)
     fouls = _fouling(file, data.get("fouling", ()), routes.values())
     compare_conflicts(list(routes.values()), fouls, findings)
     for what, each in (
@@ -134,15 +135,33 @@ def _say_which_ways(routes: Iterable[TableRoute], findings: Findings) -> None:
         )
 
 
+def _say_how_points_lie(routes: Iterable[TableRoute], findings: Findings) -> None:
+    """A point lies one way or the other: a third word is one of these, and so is one that differs by case or spaces."""
+    first: dict[str, dict[str, str]] = {}
+    for route in routes:
+        for point, position in route.points.items():
+            first.setdefault(point, {}).setdefault(position, route.name)
+    for point, found in first.items():
+        if len(found) > 2 or len({word.strip().casefold() for word in found}) < len(found):
+            words = ", ".join(f"'{word}' (route '{name}')" for word, name in found.items())
+            text = f"point '{point}' is told to lie {words}: give one word for each of its two positions"
+            findings.violation("a point lies one way or the other", (point, *found.values()), text)
+
+
 def _fouling(file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute]) -> dict[str, frozenset[str]]:
     """The sections and pieces that a train in each also obstructs, both ways: what a table does not draw."""
     known = {name for route in routes for name in (*route.path, *route.sections)}
+    home = homes(list(routes))
+    sections = {name for route in routes for name in route.sections}
     found: dict[str, frozenset[str]] = {}
     for index, pair in enumerate(pairs):
         for name, other in (pair, reversed(pair)):
             if name not in known:
                 what = f"no route runs over track '{name}'"
                 raise BadInput(file, f"fouling[{index}]", what, "correct the name: a section, or a piece of path")
+            if name in sections and home.get(name, name) != name:
+                what = f"'{name}' is a section, and a piece of section '{home[name]}'"
+                raise BadInput(file, f"fouling[{index}]", what, "give one of the two another name")
             found[name] = found.get(name, frozenset()) | {other}
     return found
 

@@ -128,6 +128,7 @@ def _start(rows: Sequence[Row], findings: Findings) -> None:
     told: set[str] = set()
     met, sections = _met_by_track(rows), {section for row in rows for section in row.route.sections}
     for row in rows:
+        _say_where_signals_stand(row, ends, findings)
         source, found = row.route.source, ends.get((row.route.source, row.route.orientation))
         if not found:
             _start_by_track(row, met[source], sections, findings, source not in told)
@@ -139,23 +140,43 @@ def _start(rows: Sequence[Row], findings: Findings) -> None:
         told.add(source)
 
 
-def _met_by_track(rows: Sequence[Row]) -> dict[str, set[Block]]:
-    """For each source signal, the blocks behind the first of its routes on rows that run over it the other way.
+def _say_where_signals_stand(row: Row, ends: Mapping[tuple[str, str], Iterable[Block]], findings: Findings) -> None:
+    """Where routes the other way end at a route's source signal, they end in the block that it begins with."""
+    source, first = row.route.source, row.covers[0]
+    other = sorted(
+        {
+            block
+            for (signal, way), blocks in ends.items()
+            for block in blocks
+            if signal == source and way != row.route.orientation
+        }
+    )
+    if other and first not in other:
+        text = (
+            f"route '{row.route.name}' runs {row.route.orientation} from signal '{source}' into '{first}'; routes the"
+        )
+        text = f"{text} other way end there in {named(other)}: one of them has the wrong signal, or runs the other way"
+        findings.violation("a signal stands at one place", (source, row.route.name, first, *other), text)
 
-    A row the other way counts if it comes from the route's second block, where there is one, and wants the first
-    point of the route in the same position.
+
+def _met_by_track(rows: Sequence[Row]) -> dict[str, set[Block]]:
+    """For each source signal, the blocks that other rows have next to the first of its routes' blocks, away from them.
+
+    A row counts if it has the route's second block on the other side, where there is one, and wants the first point of
+    the route in the same position: it runs the other way, or the same way and comes from farther back.
     """
-    behind: dict[Block, list[tuple[Row, Block | None, Block]]] = defaultdict(list)
+    over: dict[Block, list[tuple[Row, Block | None, Block | None]]] = defaultdict(list)
     for row in rows:
-        for before, block, onward in zip([None, *row.covers], row.covers, row.covers[1:], strict=False):
-            behind[block].append((row, before, onward))
+        for before, block, onward in zip([None, *row.covers], row.covers, [*row.covers[1:], None], strict=False):
+            over[block].append((row, before, onward))
     found: dict[str, set[Block]] = defaultdict(set)
     for row in rows:
-        for other, before, onward in behind[row.covers[0]]:
+        for other, *sides in over[row.covers[0]]:
+            beyond, back = sides if other.route.orientation != row.route.orientation else reversed(sides)
             same = all(other.needs.get(point, at) == at for point, at in list(row.needs.items())[:1])
-            comes = before is None or row.covers[1:2] in ([], [before])
-            if same and comes and other.route.orientation != row.route.orientation:
-                found[row.route.source] |= {onward} - set(row.covers)
+            comes = beyond is None or row.covers[1:2] in ([], [beyond])
+            if same and comes and back is not None:
+                found[row.route.source] |= {back} - set(row.covers)
     return found
 
 
@@ -167,11 +188,11 @@ def _start_by_track(row: Row, met: set[Block], sections: Set[str], findings: Fin
     """
     source = row.route.source
     row.start = min(met) if met else Block(f"before {source}")
-    if len(met) == 1 or not tell:
+    if not tell:
         return
-    if not met and row.covers[0] in sections:
-        text = f"no route ends at signal '{source}': routes from it start in a block of their own"
-        findings.remark((source,), text, "derived")
+    if len(met) == 1 or (not met and row.covers[0] in sections):
+        where = f"in '{row.start}', which other routes have before them" if met else "in a block of their own"
+        findings.remark((source,), f"no route ends at signal '{source}': routes from it start {where}", "derived")
         return
     found = f"{named(sorted(met))} may lie before it" if met else "no route the other way shows what lies before it"
     text = f"no route ends at signal '{source}' and {found}: it is not known where its routes start"
@@ -197,7 +218,7 @@ def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
         text = f"'{block}' belongs to no section, and no point stands there: nothing tells of a train in it"
         findings.violation("track lies in a section or at a point", (block, *over), text)
     for row in rows:
-        on_path = {point for point, block in stands_in.items() if block in row.covers}
+        on_path = {point for point, block in stands_in.items() if block in row.chain}
         for point in sorted(on_path - set(row.needs)):
             text = f"route '{row.route.name}' runs over point '{point}' and gives no position for it"
             findings.violation("a route is led over its points", (row.route.name, point), text)

@@ -6,7 +6,7 @@ joins, and what lies at either end of plain track, is the same for every row.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -38,10 +38,13 @@ def named(names: Iterable[str]) -> str:
 
 def _over_points(
     rows: Sequence[Row], stands_in: Mapping[Point, Block]
-) -> Iterator[tuple[str, Block, Block, Lie, Block]]:
-    """Each row through a block with points: its name, the block before, that block, how its points lie, and behind."""
+) -> Iterator[tuple[str, Block | None, Block, Lie, Block | None]]:
+    """Each row in a block with points: its name, the block before, that block, how its points lie, and behind.
+
+    None: the row starts or ends there.
+    """
     for row in rows:
-        for before, block, behind in zip(row.chain, row.covers, row.covers[1:], strict=False):
+        for before, block, behind in zip([None, *row.chain[:-1]], row.chain, [*row.covers, None], strict=True):
             lie = frozenset(need for need in row.needs.items() if stands_in[need[0]] == block)
             if lie:
                 yield row.route.name, before, block, lie, behind
@@ -51,8 +54,8 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
     """A point joins two blocks in the same position on every route; where rows differ, the fewest are wrong."""
     lies: dict[tuple[Point, frozenset[Block]], dict[Position, list[str]]] = defaultdict(lambda: defaultdict(list))
     for name, before, _, lie, behind in _over_points(rows, stands_in):
-        for point, position in lie:
-            lies[point, frozenset((before, behind))][position].append(name)
+        for point, position in lie if before is not None and behind is not None else ():
+            lies[point, frozenset(filter(None, (before, behind)))][position].append(name)
     for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
         most = max(map(len, by_position.values()))
         doubted = [at for at in by_position if len(by_position[at]) < most] or list(by_position)
@@ -64,18 +67,25 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
 
 
 def _lead_one_way(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
-    """From one side, the points of a block in the same positions lead to one other side."""
-    leads: dict[tuple[Block, Lie, Block], dict[Block, set[str]]] = defaultdict(lambda: defaultdict(set))
+    """From one side, the points of a block in the same positions lead to one other side.
+
+    A route that starts or ends there has but one side, which is that of a route through, or one of two in all.
+    """
+    leads: dict[tuple[Block, Lie], dict[tuple[Block | None, Block | None], set[str]]] = defaultdict(
+        lambda: defaultdict(set)
+    )
     for name, before, block, lie, behind in _over_points(rows, stands_in):
-        leads[block, lie, before][behind].add(name)
-        leads[block, lie, behind][before].add(name)
-    for (_, lie, side), found in sorted(leads.items(), key=lambda item: (item[0][0], sorted(item[0][1]), item[0][2])):
-        if len(found) > 1:
-            routes, points = sorted(set().union(*found.values())), sorted(lie)
-            at = ", ".join(f"'{point}' in '{position}'" for point, position in points)
-            text = f"point {at} joins '{side}' to {named(sorted(found))} (routes {named(routes)}): it leads one way"
-            elements = (*routes, *(point for point, _ in points), side, *sorted(found))
-            findings.violation("a point leads one way", elements, text)
+        leads[block, lie][before, behind].add(name)
+    for (_, lie), found in sorted(leads.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
+        through = {frozenset(pair) for pair in found if None not in pair}
+        sides = sorted({side for pair in found for side in pair if side is not None})
+        met = Counter(side for pair in through for side in pair)
+        if (through and max(met.values()) < 2 and set(sides) == set(met)) or len(sides) < 3:
+            continue
+        routes, points = sorted(set().union(*found.values())), sorted(lie)
+        at = ", ".join(f"'{point}' in '{position}'" for point, position in points)
+        text = f"point {at} joins {named(sides)} (routes {named(routes)}): it leads one way"
+        findings.violation("a point leads one way", (*routes, *(point for point, _ in points), *sides), text)
 
 
 def _merge(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Findings) -> None:
@@ -99,7 +109,7 @@ def _meet_at(end: int, block: Block, ways: Mapping[Way, set[str]], findings: Fin
     """
     beside = {way[end] for way in ways} - {None}
     others = {way[1 - end] for way in ways}
-    apart = None not in others and len(others) == len(ways) == len(beside)
+    apart = None not in others and len(others) == len(ways) == len(beside) and not others & beside
     if len(beside) < 2 or apart:
         return
     routes = sorted({route for way, over in ways.items() if way[end] is not None for route in over})

@@ -106,8 +106,10 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     bare = [segment for segment in listed if block_of[segment] == segment]
     stands_in: dict[str, str] = {}
     for point, by in of_point.items():
-        under = [segment for segment in bare if by <= listed[segment]]
-        stands_in[point] = min(under, key=lambda segment: len(listed[segment]))
+        under = {
+            segment: (-len(by & listed[segment]), len(listed[segment])) for segment in bare if by & listed[segment]
+        }
+        stands_in[point] = min(under, key=lambda segment: under[segment], default=f"at {point}")
     found = Enumerated(rows, block_of, stands_in, fouling=[(str(a), str(b)) for a, b in data.get("fouling", [])])
     for row in rows.values():
         _follow(found, row)
@@ -116,6 +118,7 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     first = {row.orientation: row.name for row in reversed(rows.values())}
     if len(first) > 2:
         found.violations.append(Finding("routes run one way or the other", tuple(first.values())))
+    _compare_words(found)
     _compare_positions(found)
     _look_where_nothing_detects(found)
     _look_at_ends(found)
@@ -157,13 +160,15 @@ def _start(found: Enumerated, row: Row) -> str:
 
 
 def _facing(found: Enumerated, row: Row) -> set[str]:
-    """What rows of the other orientation run into that come back along the beginning of rows from this source."""
+    """What rows run into that come back along the beginning of rows from this source, or come from on their way."""
     known: set[str] = set()
     for mine in (each for each in found.rows.values() if each.source == row.source):
         way = _blocks(found, mine)
         for other in found.rows.values():
             back = _blocks(found, other)
-            if other.orientation == mine.orientation or way[0] not in back[:-1]:
+            if other.orientation == mine.orientation:
+                back = back[::-1]
+            if way[0] not in back[:-1]:
                 continue
             place = back.index(way[0])
             if place and len(way) > 1 and back[place - 1] != way[1]:
@@ -187,10 +192,12 @@ def _follow(found: Enumerated, row: Row) -> None:
         found.violations.append(Finding("a_route_claims_start_covers_and_overlap", (row.name, start)))
     released = {start: start, blocks[-1]: blocks[-1]} | dict.fromkeys(blocks[:-1], blocks[-2] if blocks[1:] else "")
     found.routes[row.name] = TableRoute(row.name, start, blocks, dict(row.points), released)
-    standing = {point for point, block in found.stands_in.items() if block in blocks}
+    standing = {point for point, block in found.stands_in.items() if block in (start, *blocks)}
     for point in sorted(standing - set(row.points)):
         found.violations.append(Finding("a route is led over its points", (row.name, point)))
-        found.violations.append(Finding("every_point_in_a_route_is_needed", (row.name, point, found.stands_in[point])))
+        if found.stands_in[point] in blocks:
+            place = row.name, point, found.stands_in[point]
+            found.violations.append(Finding("every_point_in_a_route_is_needed", place))
     for point in sorted(set(row.points) - standing):
         found.violations.append(Finding("a route's positions are of its points", (row.name, point)))
 
@@ -219,6 +226,19 @@ def _look_astray(found: Enumerated, row: Row) -> None:
             wanted = {point: at for point, at in rows[0][1].items() if all(here.get(point) == at for _, here in rows)}
             if astray and not any(route.needs.get(point, at) != at for point, at in wanted.items()):
                 found.violations.append(Finding("track_leads_along_the_way_or_is_turned", (row.name, block, into)))
+
+
+def _compare_words(found: Enumerated) -> None:
+    """Routes that meet at one signal and not in one block, and a point with more words than positions."""
+    for row in found.rows.values():
+        first, against = _blocks(found, row)[0], [r for r in found.rows.values() if r.destination == row.source]
+        ends = {_blocks(found, other)[-1] for other in against if other.orientation != row.orientation}
+        if ends and first not in ends:
+            found.violations.append(Finding("a signal stands at one place", (row.source, row.name, first, *ends)))
+    for point in found.stands_in:
+        rows = {row.points[point]: row.name for row in reversed(found.rows.values()) if point in row.points}
+        if len(rows) > 2 or len({word.strip().lower() for word in rows}) < len(rows):
+            found.violations.append(Finding("a point lies one way or the other", (point, *rows.values())))
 
 
 def _compare_positions(found: Enumerated) -> None:
@@ -265,18 +285,21 @@ def _look_at_ends(found: Enumerated) -> None:
     for (block, lying), told in ways.items():
         standing = [point for point, under in found.stands_in.items() if under == block]
         if lying:
-            _lie_one_way(found, standing, {(left, right, name) for left, right, name in told if left and right})
+            _lie_one_way(found, standing, told)
         else:
             _adjoin(found, block, told)
 
 
 def _lie_one_way(found: Enumerated, points: list[str], told: set[tuple[str, str, str]]) -> None:
-    """Two rows over points that lie the same, which share the block on one side, share that on the other."""
-    for side in sorted({end for left, right, _ in told for end in (left, right)}):
-        here = {(right if left == side else left, name) for left, right, name in told if side in (left, right)}
-        if len(beyond := {other for other, _ in here}) > 1:
-            named = sorted({name for _, name in here})
-            found.violations.append(Finding("a point leads one way", (*named, *points, side, *sorted(beyond))))
+    """Points that lie the same join two blocks, or pairs of blocks of which none has one that another has."""
+    beyond: dict[str, set[str]] = {}
+    for left, right, _ in told:
+        for one, other in ((left, right), (right, left)):
+            if one:
+                beyond.setdefault(one, set()).update({other} - {""})
+    if len(beyond) > 2 and any(len(others) != 1 for others in beyond.values()):
+        named = sorted({name for *_, name in told})
+        found.violations.append(Finding("a point leads one way", (*named, *points, *sorted(beyond))))
 
 
 def _adjoin(found: Enumerated, block: str, told: set[tuple[str, str, str]]) -> None:
@@ -285,7 +308,8 @@ def _adjoin(found: Enumerated, block: str, told: set[tuple[str, str, str]]) -> N
         beside = sorted({ends[end] for ends in told} - {""})
         ways = {(left, right) for left, right, _ in told}
         beyond = [right if end == 0 else left for left, right in ways]
-        if len(beside) > 1 and ("" in beyond or len(set(beyond)) < len(beyond) or len(beside) < len(beyond)):
+        twice = {left for left, _ in ways} & {right for _, right in ways} - {""}
+        if len(beside) > 1 and (twice or "" in beyond or len(set(beyond)) < len(beyond) or len(beside) < len(beyond)):
             named = sorted({ends[2] for ends in told if ends[end]})
             found.violations.append(Finding("tracks merge at a point", (*named, *beside, block)))
 

@@ -95,6 +95,23 @@ def _through(*more: dict[str, Any]) -> str:
     return table({**first, **three}, row("D", "NM", "down", "y", "R"), *more)
 
 
+def _lying(beyond: str, at_start: str = "") -> str:
+    """A route that ends on a point, one that starts there, and those that show both ways over it."""
+    first = {"path": [{"id": "piece a"}, {"id": "loose"}], "points": [{"id": "P", "position": "left"}]}
+    others = {"": "8", "left": "5 8", "right": "1 4 8"}[at_start]
+    third = row("3", "SC", "up", "c", others, points=[{"id": "P", "position": at_start}] if at_start else [])
+    against = {each: " 3" if at_start and (each == "5") == (at_start == "left") else "" for each in "145"}
+    return table(
+        {**row("1", "AS", "up", "a", "4 5 7" + against["1"]), **first},
+        third,
+        over_point("4", "DE", "down", "a", "1 5 7" + against["4"]),
+        {**over_point("5", "FE", "down", "a", "1 4 7" + against["5"]), "points": [{"id": "P", "position": beyond}]},
+        row("6", "GD", "down", "b"),
+        row("7", "AM", "up", "a", "1 4 5"),
+        row("8", "KF", "down", "c", "3"),
+    )
+
+
 TABLES_THAT_HOLD = {
     "table.yml": table(*ROWS),
     "tracks cross in a section.yml": table(
@@ -112,12 +129,64 @@ TABLES_THAT_HOLD = {
     "starts behind a start.yml": table(
         row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
     ),
+    "starts on a point.yml": _lying("right", "right"),
+    "starts where others run on.yml": table(row("1", "ZB", "up", "w x", "2"), row("2", "AB", "up", "x", "1")),
     "sections foul.yml": table(
         row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
     ),
 }
 """Tables without a danger, one of each thing that can be right: what is wrong looks much like it."""
+
+
+FOULED = [row("1", "AB", "up", "x", "4"), row("2", "BC", "up", "y", "4"), row("4", "GH", "up", "z", "1 2")]
+FOULED[0] |= {"path": [{"id": "section y"}]}
 DANGEROUS_TABLES = {
+    "starts on a point.yml": danger_of(
+        _lying("right"),
+        "a route starts on a point that lies as the train came over it, and leads the other way",
+        "a route is led over its points",
+        *("3", "P"),
+    ),
+    "left twice at a start.yml": danger_of(
+        _lying("right", "left"),
+        "a route starts on a point, and is told to leave by the leg that the point does not lie for",
+        "a point leads one way",
+        *("1", "3", "4", "P", "section a", "section b", "section c"),
+    ),
+    "left and Left.yml": danger_of(
+        _lying("Left"),
+        "a position is told by two words, and two legs of a point are taken to lie for one train",
+        "a point lies one way or the other",
+        *("P", "1", "5"),
+    ),
+    "a third position.yml": danger_of(
+        table(
+            over_point("1", "AB", "up", "b", "2 3"),
+            {**over_point("2", "AC", "up", "c", "1 3"), "points": [{"id": "P", "position": "right"}]},
+            {**over_point("3", "AD", "up", "d", "1 2"), "points": [{"id": "P", "position": "straight on"}]},
+            row("0", "ZA", "up", "a"),
+        ),
+        "a point has three positions by name",
+        "a point lies one way or the other",
+        *("P", "1", "2", "3"),
+    ),
+    "piece and section.yml": danger_of(
+        table(*FOULED, fouling=[["section y", "section z"]]),
+        "what fouls is told by a name that is one section's, and a piece of another: one of them fouls nothing",
+        "'section y' is a section, and a piece of section 'section x'",
+    ),
+    "faces both ways.yml": danger_of(
+        table(
+            row("0", "ZA", "up", "w"),
+            row("1", "AB", "up", "x"),
+            row("2", "BC", "down", "y", "5"),
+            row("5", "BD", "up", "y z", "2"),
+            row("6", "DE", "up", "u"),
+        ),
+        "a row says down for up: its route is started at the other end of the track, and led into the train there",
+        "a signal stands at one place",
+        *("B", "2", "section x", "section y"),
+    ),
     "level crossing.yml": danger_of(
         table({**ROWS[0], "crossings": [{"id": "road"}]}, *ROWS[1:], derailers=[{"id": "trap"}]),
         "a row names a level crossing, the table a derailer, and nobody asks whether these are closed and off",
