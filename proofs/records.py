@@ -9,7 +9,6 @@ import base64
 import hashlib
 import json
 import platform
-import subprocess
 import sys
 import sysconfig
 from collections.abc import Mapping, Sequence
@@ -23,6 +22,7 @@ from typing import Literal, NotRequired, TypedDict
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED
 from models.shipped import is_installed
 from models.streams import STANDARD_OUTPUT, write_whole
+from proofs.repository import head
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
@@ -235,15 +235,7 @@ def commit() -> str | None:
     """
     if is_installed():
         return None
-    here = Path(__file__).resolve().parent
-    try:
-        head, changes = (
-            subprocess.run(["git", "-C", str(here), *words], capture_output=True, text=True, check=True, timeout=20)
-            for words in (["rev-parse", "HEAD"], ["status", "--porcelain"])
-        )
-    except (OSError, subprocess.SubprocessError):
-        return None
-    return head.stdout.strip() + ("+" if changes.stdout.strip() else "")
+    return head(Path(__file__).resolve().parent)
 
 
 def write_json(path: Path, record: Mapping[str, object]) -> None:

@@ -87,8 +87,14 @@ def test_the_installed_program_says_its_version_and_checks_what_it_ships(install
     assert checked.stdout.splitlines()[-1].startswith("1 layouts, ")
 
 
-@pytest.mark.parametrize("tool", ["bin/heisoku", "heisoku.py"])
-@pytest.mark.parametrize("name", ["models", "evidence"])
+@pytest.mark.parametrize(
+    ("name", "tool"),
+    [
+        *((name, tool) for name in ("models", "evidence") for tool in ("bin/heisoku", "heisoku.py")),
+        ("z3", "bin/heisoku"),
+        ("cvc5", "bin/heisoku"),
+    ],
+)
 def test_another_package_of_the_same_name_is_refused_by_name(
     name: str, tool: str, installed: Path, tmp_path: Path
 ) -> None:
@@ -111,7 +117,9 @@ def test_a_folder_called_tests_or_models_without_code_is_no_matter(installed: Pa
     assert run(installed, "--version", before=str(tmp_path), cwd=tmp_path).returncode == 0
 
 
-@pytest.mark.parametrize("text", ["raise ImportError('two\\nlines')", "1 / 0", "import no_such_module"])
+@pytest.mark.parametrize(
+    "text", ["raise ImportError('two\\nlines')", "1 / 0", "import no_such_module", "raise SystemExit(0)"]
+)
 def test_what_cannot_be_imported_decides_nothing(text: str, installed: Path, tmp_path: Path) -> None:
     (tmp_path / "rich").mkdir()
     (tmp_path / "rich" / "__init__.py").write_text(text, "utf-8")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
 from pathlib import Path
 from typing import get_args
 
@@ -16,6 +17,7 @@ from rich.console import Console
 from proofs.junit import clean, junit_xml, write_junit
 from proofs.matrix import print_matrix
 from proofs.records import Obligation, Report, Verdict, overall, write_json
+from proofs.repository import head
 
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
@@ -136,3 +138,51 @@ def test_one_seed_that_fails_marks_the_whole_cell() -> None:
     assert "1 obligations, 0 proved, 0 refuted, 1 undecided" in text
     assert "1 obligations on which solvers or seeds differ" in text
     assert "2 answers from z3 5.4.0 at 2 seeds" in text
+
+
+# ---- the commit on record
+
+
+def told_by_git(root: Path, *words: str) -> None:
+    name = ("-c", "user.name=nobody", "-c", "user.email=nobody@example.invalid")
+    subprocess.run(["git", "-C", str(root), *name, *words], check=True, capture_output=True)
+
+
+@pytest.fixture
+def committed(tmp_path: Path) -> Path:
+    """A repository with one file."""
+    root = tmp_path / "source"
+    root.mkdir()
+    told_by_git(root, "init", "-q")
+    (root / "kernel.py").write_text("GUARD = True\n")
+    told_by_git(root, "add", ".")
+    told_by_git(root, "commit", "-q", "-m", "one")
+    return root
+
+
+def test_a_commit_is_told_as_it_is(committed: Path) -> None:
+    commit = head(committed)
+    assert commit is not None
+    assert len(commit) == 40
+
+
+def test_another_repository_in_the_environment_is_not_asked(
+    committed: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    commit = head(committed)
+    told_by_git(tmp_path, "init", "-q", "other")
+    told_by_git(tmp_path / "other", "commit", "-q", "--allow-empty", "-m", "other")
+    monkeypatch.setenv("GIT_DIR", str(tmp_path / "other" / ".git"))
+    assert head(committed) == commit
+
+
+@pytest.mark.parametrize("how", ["changed", "told unchanged", "skipped", "new", "new and not shown"])
+def test_a_source_that_differs_is_marked(how: str, committed: Path) -> None:
+    if how == "told unchanged":
+        told_by_git(committed, "update-index", "--assume-unchanged", "kernel.py")
+    if how == "skipped":
+        told_by_git(committed, "update-index", "--skip-worktree", "kernel.py")
+    if how == "new and not shown":
+        told_by_git(committed, "config", "status.showUntrackedFiles", "no")
+    (committed / ("other.py" if how.startswith("new") else "kernel.py")).write_text("GUARD = False\n")
+    assert str(head(committed)).endswith("+")

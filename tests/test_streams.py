@@ -45,6 +45,23 @@ def test_a_closed_pipe_takes_the_rest_and_the_verdict_is_the_one_reached(closed:
     assert b"Traceback" not in (ended.stdout or b"") + (ended.stderr or b"")
 
 
+@pytest.mark.parametrize(("closed", "code"), [(">&-", 3), ("2>&-", 0), ("<&-", 0), (">&- 2>&- <&-", 3)])
+def test_a_stream_that_is_closed_from_the_start_makes_no_verdict(closed: str, code: int, tmp_path: Path) -> None:
+    record = tmp_path / "check.json"
+    words = " ".join(f"'{word}'" for word in (*PROGRAM, "check", LAYOUT, "--json", str(record)))
+    ended = subprocess.run(["sh", "-c", f"{words} {closed}"], capture_output=True, check=False)
+    assert ended.returncode == code
+    assert json.loads(record.read_text("utf-8"))["verdict"] == "holds"
+    assert b"Traceback" not in ended.stderr
+    assert (b"standard output is closed" in ended.stderr) == (closed == ">&-")
+
+
+@pytest.mark.parametrize("words", [("-O",), ("-OO",)])
+def test_without_assertions_nothing_is_said(words: tuple[str, ...]) -> None:
+    ended = subprocess.run([PROGRAM[0], *words, PROGRAM[1], "check", LAYOUT], capture_output=True, check=False)
+    assert (ended.returncode, ended.stdout, len(ended.stderr.splitlines())) == (3, b"", 1)
+
+
 @pytest.mark.skipif(not FULL.exists(), reason="no device here that is always full")
 def test_a_full_disk_under_standard_output_decides_nothing() -> None:
     with FULL.open("wb") as full:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import subprocess
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from models.shipped import is_installed
 from proofs.records import commit, versions
+from proofs.repository import git
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 ROOMS = ("kernel", "models", "proofs", "fuzz", "evidence")
@@ -80,11 +80,8 @@ def sources(root: Path = ROOT) -> str:
 
 def _named_by_git(root: Path) -> list[str]:
     words = ("ls-files", "-z", "--cached", "--others", "--exclude-standard", "--deduplicate")
-    try:
-        told = subprocess.run(["git", "-C", str(root), *words], capture_output=True, check=True, timeout=60)
-    except (OSError, subprocess.SubprocessError):
-        return []
-    return [name for name in told.stdout.decode("utf-8", "surrogateescape").split("\0") if (root / name).is_file()]
+    told = git(root, *words) or b""
+    return [name for name in told.decode("utf-8", "surrogateescape").split("\0") if (root / name).is_file()]
 
 
 def _found(root: Path) -> list[str]:
