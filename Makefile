@@ -64,6 +64,7 @@ record:
 	$(MAKE) ride RIDES=112000
 	$(MAKE) beyond BEYOND=1024
 	$(MAKE) days DAYS=10000
+	rm -f out/mutants.json
 	$(MAKE) papers mutants joints
 	$(MAKE) fuzz BATCHES=1000
 	$(MAKE) crosshair test slow

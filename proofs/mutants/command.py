@@ -67,12 +67,16 @@ def mutate(
             write_json(json, {**tried, **given})
         between.print_record(console(), tried)
         raise typer.Exit(between.exit_code(tried))
+    trials = Trials()
+    kept = len(trials.before.intersection(names))
     with progress("tried") as step:
-        verdicts = try_all(names, jobs, Trials(), telling(step))
+        verdicts = try_all(names, jobs, trials, telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, **given})
     print_record(console(), found)
+    if kept:
+        print_line(console(), f"{kept:,} of them as an earlier run kept them in {trials.file}: no evidence of today")
     raise typer.Exit(exit_code(found))
 
 

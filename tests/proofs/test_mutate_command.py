@@ -53,6 +53,22 @@ def test_a_mutant_that_is_killed_is_told_with_what_kills_it(
     assert LATCH in json.loads(trials.read_text("utf-8"))["mutants"]
 
 
+@pytest.mark.parametrize("forged", ["finding", "sources", "seal", ""])
+def test_what_is_kept_of_an_earlier_run_is_believed_only_as_it_was_kept(
+    forged: str, trials: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    only = ("--only", f"^{LATCH}$".replace(".", r"\."))
+    assert run(*only) == 0
+    assert "earlier run" not in capsys.readouterr().out
+    if forged:
+        kept = json.loads(trials.read_text("utf-8"))
+        kept["mutants"][LATCH][forged] = "made by hand"
+        trials.write_text(json.dumps(kept), "utf-8")
+    assert run(*only) == 0
+    assert ("1 of them as an earlier run kept them" in capsys.readouterr().out) == (not forged)
+    assert "made by hand" not in trials.read_text("utf-8")
+
+
 def test_a_mutant_that_nobody_notices_is_a_hole(
     trials: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
