@@ -63,6 +63,7 @@ record:
 	$(MAKE) certificates cores check
 	$(MAKE) ride RIDES=112000
 	$(MAKE) beyond BEYOND=1024
+	rm -f $(SYSTEMS:%=out/%.days)
 	$(MAKE) days DAYS=10000
 	rm -f out/mutants.json
 	$(MAKE) papers mutants joints

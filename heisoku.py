@@ -349,6 +349,8 @@ def days(
         write_json(json, {**record(seed, found, came), **about()})
     holds = found.holds and all(one.unexplained == 0 for one in came.values())
     verdict = HOLDS if holds else DOES_NOT_HOLD
+    if kept is not None and (before := kept.before(days)):
+        print_line(out, f"{before:,} of them were not simulated now: an earlier run kept them in {keep}")
     print_line(out, f"{found.days:,} days of {system.value} with seed {seed}: {WORDS[verdict]}")
     raise typer.Exit(verdict)
 

@@ -1,7 +1,8 @@
 """Batches of days kept as they finish: a campaign that is broken off goes on where it stood.
 
 A line of JSON each; the first says whose days they are, and by which code.  A last line that is not whole was
-being written when the power went: its days are simulated again.
+being written when the power went: its days are simulated again.  Each line has a digest, so that one that was altered
+is noticed; whoever writes a digest too is not, so that it is told how many days were taken from here.
 """
 
 from __future__ import annotations
@@ -9,6 +10,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import sys
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -48,12 +51,21 @@ class KeptDays:
             if number == 1:
                 self._is_ours(found)
                 continue
-            first, rows = found["first"], found["rows"]
+            first, rows = self._rows_of(number, found)
             self._rows |= {first + offset: row for offset, row in enumerate(rows)}
         if not whole:
             raise self._bad("the file", "holds no days", "name another, or one that is not there yet")
         if whole != text:
             os.truncate(self._path, len(whole.encode()))
+
+    def _rows_of(self, number: int, found: object) -> tuple[int, list[list[int]]]:
+        if isinstance(found, dict) and found.get("digest") == self._sealed(found.get("first"), found.get("rows")):
+            return found["first"], found["rows"]
+        raise self._bad(f"line {number}", "is not as it was kept", "name another file: these days are no evidence")
+
+    def _sealed(self, first: object, rows: object) -> str:
+        """A digest of whose days these are, and of what came of them."""
+        return hashlib.sha256(json.dumps([self._head, first, rows], sort_keys=True).encode()).hexdigest()
 
     def _is_ours(self, head: object) -> None:
         for key, ours in self._head.items():
@@ -71,6 +83,10 @@ class KeptDays:
             kept.flush()
             os.fsync(kept.fileno())
 
+    def before(self, days: int) -> int:
+        """How many of so many days the file held when it was read."""
+        return sum(day < days for day in self._rows)
+
     def rows(self, days: range) -> Numbers | None:
         """The rows of some days, None unless each of them is kept."""
         if any(day not in self._rows for day in days):
@@ -79,14 +95,16 @@ class KeptDays:
 
     def keep(self, days: range, rows: Numbers) -> None:
         """Keep the rows of some days; when it returns they are on the disk."""
-        self._append({"first": days.start, "rows": rows.tolist()})
+        told = rows.tolist()
+        self._append({"first": days.start, "rows": told, "digest": self._sealed(days.start, told)})
 
 
 def code() -> str:
-    """What the days are simulated by: the hash of every source of the kernel and the models."""
-    digest = hashlib.sha256()
+    """What the days are simulated by: the hash of every source of the kernel and the models, with what they run on."""
+    runs_on = [sys.version, *(f"{name} {version(name)}" for name in ("numpy", "numba", "llvmlite"))]
+    digest = hashlib.sha256("\n".join(runs_on).encode())
     for package in (kernel, models):
         root = Path(package.__path__[0])
-        for source in sorted(root.rglob("*.py")):
+        for source in sorted(each for kind in ("*.py", "*.toml") for each in root.rglob(kind)):
             digest.update(f"{source.relative_to(root.parent)}\n".encode() + source.read_bytes())
     return digest.hexdigest()

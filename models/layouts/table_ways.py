@@ -6,7 +6,7 @@ joins, and what lies at either end of plain track, is the same for every row.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -54,8 +54,9 @@ def _agree(rows: Sequence[Row], stands_in: Mapping[Point, Block], findings: Find
     """A point joins two blocks in the same position on every route; where rows differ, the fewest are wrong."""
     lies: dict[tuple[Point, frozenset[Block]], dict[Position, list[str]]] = defaultdict(lambda: defaultdict(list))
     for name, before, _, lie, behind in _over_points(rows, stands_in):
-        for point, position in lie if before is not None and behind is not None else ():
-            lies[point, frozenset(filter(None, (before, behind)))][position].append(name)
+        pair = frozenset(filter(None, (before, behind)))
+        for point, position in lie if len(pair) == 2 else ():
+            lies[point, pair][position].append(name)
     for (point, pair), by_position in sorted(lies.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
         most = max(map(len, by_position.values()))
         doubted = [at for at in by_position if len(by_position[at]) < most] or list(by_position)
@@ -71,18 +72,17 @@ def _lead_one_way(rows: Sequence[Row], stands_in: Mapping[Point, Block], finding
 
     A route that starts or ends there has but one side, which is that of a route through, or one of two in all.
     """
-    leads: dict[tuple[Block, Lie], dict[tuple[Block | None, Block | None], set[str]]] = defaultdict(
-        lambda: defaultdict(set)
-    )
+    beyond: dict[tuple[Block, Lie], dict[Block, set[Block]]] = defaultdict(lambda: defaultdict(set))
+    over: dict[tuple[Block, Lie], set[str]] = defaultdict(set)
     for name, before, block, lie, behind in _over_points(rows, stands_in):
-        leads[block, lie][before, behind].add(name)
-    for (_, lie), found in sorted(leads.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
-        through = {frozenset(pair) for pair in found if None not in pair}
-        sides = sorted({side for pair in found for side in pair if side is not None})
-        met = Counter(side for pair in through for side in pair)
-        if (through and max(met.values()) < 2 and set(sides) == set(met)) or len(sides) < 3:
+        over[block, lie].add(name)
+        for one, other in ((before, behind), (behind, before)):
+            if one is not None:
+                beyond[block, lie][one] |= set() if other is None else {other}
+    for (block, lie), found in sorted(beyond.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
+        if len(found) < 3 or all(len(others) == 1 for others in found.values()):
             continue
-        routes, points = sorted(set().union(*found.values())), sorted(lie)
+        sides, routes, points = sorted(found), sorted(over[block, lie]), sorted(lie)
         at = ", ".join(f"'{point}' in '{position}'" for point, position in points)
         text = f"point {at} joins {named(sides)} (routes {named(routes)}): it leads one way"
         findings.violation("a point leads one way", (*routes, *(point for point, _ in points), *sides), text)

@@ -67,6 +67,26 @@ def test_days_of_another_seed_or_by_other_code_are_refused(tmp_path: Path, monke
         lived(kept, 25)
 
 
+def test_a_day_that_was_altered_is_refused_by_its_line(tmp_path: Path) -> None:
+    kept = tmp_path / "kept.days"
+    lived(kept, 75)
+    lines = kept.read_text("utf-8").splitlines(keepends=True)
+    for altered in (lines[2].replace("30", "31", 1), lines[2].replace('"first": 25', '"first": 100')):
+        kept.write_text("".join((*lines[:2], altered, *lines[3:])), "utf-8")
+        with pytest.raises(BadInput, match="line 3: is not as it was kept"):
+            KeptDays(kept, SYSTEM, 3)
+
+
+def test_it_is_said_how_many_days_were_kept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
+    words = ["days", "tram", "--days", "1", "--jobs", "1", "--seed", "3", "--keep", str(tmp_path / "kept.days")]
+    for told in (False, True):
+        assert run(words) == 0
+        assert ("1 of them were not simulated now" in capsys.readouterr().out) == told
+
+
 @pytest.mark.parametrize("content", [b"", b"no days\n", b"[1]\n", b"\xff\xfe\n", b"half a line"])
 def test_a_file_that_holds_no_days_is_refused_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], content: bytes

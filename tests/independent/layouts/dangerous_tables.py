@@ -153,6 +153,17 @@ DANGEROUS_TABLES = {
         "a point leads one way",
         *("1", "3", "4", "P", "section a", "section b", "section c"),
     ),
+    "back and forth.yml": danger_of(
+        table(
+            row("1", "AB", "up", "a x b", "2 3 4"),
+            row("2", "CD", "up", "b x a", "1 3 4"),
+            row("3", "AM", "up", "a", "1 2"),
+            row("4", "CN", "up", "b", "1 2"),
+        ),
+        "two sections lie at both ends of a third: routes that run the same way meet head-on",
+        "tracks merge at a point",
+        *("1", "2", "section a", "section b", "section x"),
+    ),
     "left and Left.yml": danger_of(
         _lying("Left"),
         "a position is told by two words, and two legs of a point are taken to lie for one train",
