@@ -28,10 +28,18 @@ DOTTED_KEY = re.compile(rf"""(?<![\w"'-])(?:(?>[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*
 """A key of so many parts; Python's parser takes time with the square of them."""
 
 
+LARGEST_FILE = 1 << 30
+"""In bytes, forty times what a network of 100,000 routes takes; a device has no end."""
+
+
 def read_text(file: Path) -> str:
-    """The file's text, which must be UTF-8 and not empty."""
+    """The file's text, which must be UTF-8, not empty, and of a size that layouts have."""
     try:
-        content = file.read_bytes()
+        with file.open("rb") as opened:
+            content = opened.read(LARGEST_FILE + 1)
+        if len(content) > LARGEST_FILE:
+            what = f"holds more than {LARGEST_FILE:,} bytes"
+            raise BadInput(str(file), "file", what, "give the path of a layout file")
     except OSError as error:
         what = error.strerror or "cannot be read"
         raise BadInput(str(file), "file", what, "give the path of a layout file") from error

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from models.layouts import BadInput, load, load_text
+from models.layouts import BadInput, load, load_text, reading
 from models.layouts.generate import as_toml
 from tests.layouts.stations import SHARED, needs_shared, plain_station, railjson_of
 
@@ -261,3 +261,9 @@ points = { "joint n" = "normal" }
 """
     with pytest.raises(BadInput, match="a node where two tracks join has the name 'joint n'"):
         load_text("joint.toml", text)
+
+
+def test_a_file_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reading, "LARGEST_FILE", 10_000)
+    with pytest.raises(BadInput, match="holds more than 10,000 bytes"):
+        load(Path("/dev/zero"))
