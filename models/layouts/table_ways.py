@@ -78,7 +78,7 @@ def _lead_one_way(rows: Sequence[Row], stands_in: Mapping[Point, Block], finding
         over[block, lie].add(name)
         for one, other in ((before, behind), (behind, before)):
             if one is not None:
-                beyond[block, lie][one] |= set() if other is None else {other}
+                beyond[block, lie][one].update(filter(None, (other,)))
     for (block, lie), found in sorted(beyond.items(), key=lambda item: (item[0][0], sorted(item[0][1]))):
         if len(found) < 3 or all(len(others) == 1 for others in found.values()):
             continue

@@ -130,6 +130,16 @@ TABLES_THAT_HOLD = {
         row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
     ),
     "starts on a point.yml": _lying("right", "right"),
+    "ends on a point.yml": table(
+        {
+            **row("1", "AS", "up", "a", "5 7"),
+            "path": [{"id": "piece a"}, {"id": "loose"}],
+            "points": [{"id": "P", "position": "left"}],
+        },
+        {**over_point("5", "FE", "down", "a", "1 7"), "points": [{"id": "P", "position": "right"}]},
+        row("7", "AM", "up", "a", "1 5"),
+        row("8", "KF", "down", "c"),
+    ),
     "starts where others run on.yml": table(row("1", "ZB", "up", "w x", "2"), row("2", "AB", "up", "x", "1")),
     "sections foul.yml": table(
         row("1", "AB", "up", "x", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece x", "section u"]]
@@ -159,6 +169,8 @@ DANGEROUS_TABLES = {
             row("2", "CD", "up", "b x a", "1 3 4"),
             row("3", "AM", "up", "a", "1 2"),
             row("4", "CN", "up", "b", "1 2"),
+            row("5", "ZA", "up", "z"),
+            row("6", "WC", "up", "w"),
         ),
         "two sections lie at both ends of a third: routes that run the same way meet head-on",
         "tracks merge at a point",
