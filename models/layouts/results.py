@@ -81,6 +81,8 @@ class Leg:
 
     ``boundary``: the nearest behind which a train stands that keeps nobody off the point, and ``at_mm`` from it;
     none where there is no such.  ``clear_mm``: from the point to where the leg is clear of the other, as far as told.
+    ``passed``: the boundaries nearer than that one, by distance, each with the block behind it: the point's own block
+    or one that this fouls.
     """
 
     point: str
@@ -88,6 +90,7 @@ class Leg:
     boundary: str | None
     at_mm: int
     clear_mm: int | None
+    passed: tuple[tuple[int, str, Block], ...] = ()
 
 
 @dataclass(frozen=True)
