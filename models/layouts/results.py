@@ -95,10 +95,10 @@ class Leg:
 
 @dataclass(frozen=True)
 class Loop:
-    """The shortest way out of a block and back into it that no point bars: a train as long as that is in it twice.
+    """The shortest way on which a train comes back to its rear, or foul of it, that no point bars.
 
-    ``blocks``: those that it leads out of and back into, all if there are several of one length.  Without one it was
-    looked for up to ``long_mm``, and not found.
+    ``blocks``: those that the rear stands in, all if there are several of one length.  Without one it was looked for
+    up to ``long_mm``, and not found.
     """
 
     long_mm: int
