@@ -36,6 +36,7 @@ def measured(
             for far_mm, cut, _ in ways:
                 if far_mm < (LAST_MM if cut is None else ROOM_MM):
                     yield "a block has room for its tags", tuple(network.ends(block))
+    yield from _tags_in_points(network)
     for point, leg, cuts in legs(network, fouls):
         if cuts[0][0] < told_mm.get((point, leg), CLEAR_MM):
             yield "a train behind a boundary is clear of the point", tuple(sorted((point, cuts[0][1])))
@@ -59,6 +60,31 @@ def legs(network: Network, fouls: Mapping[str, Collection[str]]) -> Iterator[tup
             cuts = sorted((far_mm, cut) for far_mm, cut, _ in found if cut is not None)
             if cuts:
                 yield point, leg, cuts
+
+
+def _tags_in_points(network: Network) -> Iterator[Measured]:
+    """Boundaries with a point or crossing on either side before the place of the tag there."""
+    for track, on_track in network.cuts.items():
+        for at, name in on_track:
+            points = {_point_within(network, Place(track, at, heading), LAST_MM) for heading in (1, -1)}
+            for point in points - {""}:
+                yield "a boundary's tags lie clear of points and crossings", tuple(sorted({name, point}))
+
+
+def _point_within(network: Network, place: Place, most_mm: int) -> str:
+    """The first thing with three legs or four that is nearer than that, no other boundary between; "" if none is."""
+    left_mm = most_mm
+    while True:
+        far = place._replace(mm=network.lengths[place.track] if place.heading > 0 else 0)
+        between = any((mm - place.mm) * place.heading > 0 for mm, _ in network.cuts.get(place.track, []))
+        left_mm -= abs(far.mm - place.mm)
+        met, leg = network.leg_at.get((far.track, 1 if far.heading > 0 else 0), ("", ""))
+        if between or left_mm <= 0 or not met:
+            return ""
+        if len(network.junctions[met].legs) > 2:
+            return met
+        (other,) = network.junctions[met].ways_from(leg).values()
+        place = _inward(network, network.junctions[met].legs[other])
 
 
 def _side_by_side(

@@ -1,4 +1,4 @@
-"""Tracks with a danger each: trains side by side at a point, a train that meets its own rear."""
+"""Tracks with a danger each: trains side by side at a point, a train that meets its own rear, tags in points."""
 
 from __future__ import annotations
 
@@ -91,7 +91,29 @@ under = { track = "t", at_mm = 1_250_000 }
 [routes]
 in = { from = "A", direction = "forward", to = "F" }
 """
+AT_THE_TIPS = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = ["mid"]
+[tracks]
+line = { from = "west", to = "mid", length_mm = 899_000, boundaries = { W = 300_000, V = 898_288 } }
+more = { from = "mid", to = "P.tip", length_mm = 2_000 }
+a = { from = "P.normal", to = "stop a", length_mm = 300_000, boundaries = { A = 100_000 } }
+b = { from = "P.reverse", to = "stop b", length_mm = 300_000, boundaries = { B = 100_000 } }
+[points]
+P = { clear_mm = { normal = 45_000, reverse = 45_000 } }
+[routes]
+"to a" = { from = "W", direction = "forward", to = "A", points = { P = "normal" } }
+"to b" = { from = "W", direction = "forward", to = "B", points = { P = "reverse" } }
+"""
+
 DANGEROUS_TRACKS = {
+    "at the tips.toml": danger_of(
+        AT_THE_TIPS,
+        "a boundary lies 2.712 m before the tips: its tag, a millimetre farther on, lies on one leg alone",
+        "a boundary's tags lie clear of points and crossings",
+        *("V", "P"),
+    ),
     "pretzel in a block.toml": danger_of(
         PRETZEL,
         "a line crosses itself within one block: a train of 125 m has its rear on one leg, its front by another",
@@ -126,6 +148,7 @@ DANGEROUS_TRACKS = {
 """Every file with what must be said of it."""
 
 TRACKS_THAT_HOLD = {
+    "at the tips.toml": AT_THE_TIPS.replace("898_288", "898_287"),
     "side by side.toml": SIDE_BY_SIDE.replace("fouling = [", 'fouling = [["M block", "N block"], '),
     "pretzel in a block.toml": PRETZEL.replace("125_000", "124_999"),
     "ring in a block.toml": RING_IN_A_BLOCK.replace("mm = 600_000\n[", "mm = 599_999\n["),
