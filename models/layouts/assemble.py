@@ -51,7 +51,7 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
     say_what_is_too_short(paths, findings)
     say_what_hangs_on_nothing(blocks, paths, findings)
     say_what_looks_alike(blocks, told, findings)
-    loop = shortest_loop(blocks)
+    loop = shortest_loop(blocks, told)
     say_what_is_too_long(loop, told.longest_train_mm, blocks.bounds, findings)
     layout = _layout(blocks, granted, told, tags)
     ground = _ground(blocks, granted, told, tags, neighbours, opens)

@@ -14,7 +14,7 @@ from typing import Any
 import models.axioms
 from kernel.names import Block, Point, Position, Tag
 from models.layouts.axiom_code import Bindings, CompiledAxiom, Failure, axioms_of, compile_axiom
-from models.layouts.clearance import foul_legs
+from models.layouts.clearance import foul_legs, trains_side_by_side
 from models.layouts.measures import CLEARANCE_MM
 from models.layouts.rests import rests_of
 from models.layouts.results import CheckResult, Imported, Rest, Verdict, Violation
@@ -40,6 +40,7 @@ def check(
     """
     rests = rests_of(imported)
     violations = [*imported.violations, *foul_legs(imported.legs, clearance_mm)]
+    violations += trains_side_by_side(imported.legs, imported.station, imported.layout.fouls, clearance_mm)
     checked: dict[str, int] = {}
     for axiom in compiled_axioms() if axioms is None else axioms:
         failures, checked[axiom.name] = axiom.failures(imported.layout, imported.ground)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from heapq import heappop, heappush
+from itertools import combinations
 
+from kernel.names import Block
 from models.layouts.blocks import Blocks
 from models.layouts.measures import LEAST_CLEARANCE_MM
 from models.layouts.results import Leg, Violation
 from models.layouts.told import Told
-from models.layouts.track import Cut, Heading, Joint, Junction, Stop
+from models.layouts.track import Cut, Heading, Joint, Junction, Station, Stop
 
 
 def legs_of(blocks: Blocks, told: Told) -> tuple[Leg, ...]:
@@ -23,16 +25,23 @@ def _legs(blocks: Blocks, told: Told) -> Iterator[Leg]:
             continue
         for port, end in junction.ports.items():
             if any(port not in way for ways in junction.kind.positions.values() for way in ways):
-                at_mm, boundary = _nearest(blocks, told, junction, blocks.segments.leaving[end])
-                yield Leg(junction.name, port, boundary, at_mm, told.clear_mm.get((junction.name, port)))
+                at_mm, boundary, passed = _nearest(blocks, told, junction, blocks.segments.leaving[end])
+                yield Leg(junction.name, port, boundary, at_mm, told.clear_mm.get((junction.name, port)), passed)
 
 
-def _nearest(blocks: Blocks, told: Told, junction: Junction, start: Heading) -> tuple[int, str | None]:
-    """How far it is to the nearest boundary behind which a train keeps nobody off the point, and its name.
+Passed = tuple[int, str, Block]
+"""How far a boundary lies from a point, its name, and the block behind it."""
+
+
+def _nearest(
+    blocks: Blocks, told: Told, junction: Junction, start: Heading
+) -> tuple[int, str | None, tuple[Passed, ...]]:
+    """How far it is to the nearest boundary behind which a train keeps nobody off the point, its name; those before it.
 
     A train in the point's own block keeps others off, and so does one in a block that the point's block is told to
     foul: the way goes on through these.
     """
+    passed: list[Passed] = []
     own = blocks.of[start[0]]
     closed = told.fouls.get(own, frozenset()) | {own}
     met: set[Heading] = set()
@@ -46,13 +55,15 @@ def _nearest(blocks: Blocks, told: Told, junction: Junction, start: Heading) -> 
         if not isinstance(end, Joint):
             behind = _behind(blocks, heading)
             if behind is not None and blocks.of[behind[0]] not in closed:
-                return end_mm, end.mark
+                return end_mm, end.mark, tuple(passed)
+            if behind is not None:
+                passed.append((end_mm, str(end.mark), blocks.of[behind[0]]))
             onward = [behind] if behind is not None else []
         elif end.junction != junction.name:
             onward = [beyond for _, _, beyond in blocks.segments.onward(end)]
         for beyond in onward:
             heappush(todo, (end_mm + _long_mm(blocks, beyond), beyond))
-    return 0, None
+    return 0, None, tuple(passed)
 
 
 def _behind(blocks: Blocks, heading: Heading) -> Heading | None:
@@ -88,5 +99,38 @@ def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:
             yield Violation(RULE, (leg.point, leg.boundary), text)
 
 
+def trains_side_by_side(
+    legs: tuple[Leg, ...], station: Station | None, fouls: Mapping[Block, frozenset[Block]], clearance_mm: int
+) -> Iterator[Violation]:
+    """The boundaries on two legs that no position joins, passed over where these are not apart, with trains at both.
+
+    That the point's block fouls each of the blocks behind them keeps neither off the other.
+    """
+    at: dict[str, list[Leg]] = {}
+    for leg in legs:
+        at.setdefault(leg.point, []).append(leg)
+    for point, its in at.items():
+        for one, other in combinations(its, 2) if station is not None else ():
+            if station is None or station.junctions[point].kind.joined(one.leg, other.leg):
+                continue
+            for near_mm, near, block in _not_apart(one, clearance_mm):
+                for far_mm, far, beside in _not_apart(other, clearance_mm):
+                    if block != beside and beside not in fouls.get(block, ()):
+                        text = (
+                            f"boundary '{near}' lies {near_mm:,} mm behind '{point}' on its leg '{one.leg}' and "
+                            f"'{far}' {far_mm:,} mm on its leg '{other.leg}', where neither is clear of the other: "
+                            f"trains behind both stand side by side; tell blocks '{block}' and '{beside}' to foul "
+                            "each other"
+                        )
+                        yield Violation(BESIDE, (point, near, far), text)
+
+
+def _not_apart(leg: Leg, clearance_mm: int) -> list[Passed]:
+    """The boundaries of a leg behind which a train stands that is not clear of the other leg."""
+    least_mm = clearance_mm if leg.clear_mm is None else leg.clear_mm
+    return [passed for passed in leg.passed if passed[0] < least_mm]
+
+
+BESIDE = "trains behind two legs of a point are clear of each other"
 APART = "a leg is told to be clear where tracks are apart"
 RULE = "a train behind a boundary is clear of the point"

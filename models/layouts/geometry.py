@@ -21,11 +21,12 @@ from models.layouts.measures import (
 )
 from models.layouts.numbers import LONGEST_DISTANCE_MM
 from models.layouts.told import Told
-from models.layouts.track import HIGH, LOW
+from models.layouts.track import HIGH, LOW, Heading, Joint
 
 ROOM = "a block has room for its tags"
 HOLDS = "a distance fits its tag"
 ENDS = "no track goes on behind a buffer stop at a joint"
+BLADES = "a boundary's tags lie clear of points and crossings"
 OVERLAP = "an overlap is longer than a train slips"
 
 
@@ -52,6 +53,7 @@ def say_what_is_no_railway(
         text = f"block '{block}' is {long_mm / 1_000_000:,.0f} km long: is the unit right, a boundary missing?"
         findings.remark(blocks.bounds[block], text)
     _say_what_ends_no_track(blocks, findings)
+    _say_what_has_tags_in_points(blocks, findings)
     for block, (long_mm, least_mm, between) in short.items():
         text = f"block '{block}' is {long_mm:,} mm {between}: its tags need {least_mm:,}"
         findings.violation(ROOM, blocks.bounds[block], text)
@@ -60,6 +62,37 @@ def say_what_is_no_railway(
     if ways and longest_mm < SHORTEST_VEHICLE_MM:
         text = f"no track is longer than {longest_mm:,} mm, less than one vehicle: were kilometres given for metres?"
         findings.violation("a track is as long as a vehicle", list(station.tracks), text)
+
+
+def _say_what_has_tags_in_points(blocks: Blocks, findings: Findings) -> None:
+    """Boundaries so near before a point or crossing that the tag on that side comes to lie at it, or behind it."""
+    for mark in blocks.segments.station.marks.values():
+        for side in sorted(blocks.segments.beside[mark.name]) if mark.cuts else ():
+            near = _nearest_point(blocks, blocks.segments.beside[mark.name][side])
+            if near is not None and near[0] < TAG_MM:
+                text = (
+                    f"boundary '{mark.name}' lies {near[0]:,} mm from '{near[1]}', and its tag at least {TAG_MM:,} mm "
+                    "behind it, past the tips or where tracks meet: move the boundary away"
+                )
+                findings.violation(BLADES, (mark.name, near[1]), text)
+
+
+def _nearest_point(blocks: Blocks, start: Heading) -> tuple[int, str] | None:
+    """The first point or crossing that one comes to, and how far it is; none where something else ends the track."""
+    segments, long_mm, met = blocks.segments, 0, set[Heading]()
+    heading = start
+    while heading not in met:
+        met.add(heading)
+        segment = segments.segments[heading[0]]
+        long_mm += segment.to_mm - segment.from_mm
+        end = segments.at[heading]
+        if not isinstance(end, Joint):
+            return None
+        if len(segments.station.junctions[end.junction].ports) > 2:
+            return long_mm, end.junction
+        onward = segments.onward(end)
+        heading = onward[0][2] if onward else heading
+    return None
 
 
 def _say_what_ends_no_track(blocks: Blocks, findings: Findings) -> None:

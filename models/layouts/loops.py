@@ -1,4 +1,6 @@
-"""Loops: how long a train must be to come back into a block that it has not left, over points as they lie (T2, ours).
+"""Loops: how long a train must be to come back to where it has not left, over points as they lie (T2, ours).
+
+It comes back into a block, or into one that fouls it, or over a junction within the block that it stands on.
 
 What a train holds bars none of its own routes.  One that is as long as a ring, or as the lobe of a figure of eight,
 may be let run into its own tail; a point that it would need in another position, and stands upon, is locked and bars
@@ -14,9 +16,10 @@ from itertools import count, islice
 from kernel.names import Block, Point, Position
 from models.layouts.blocks import Blocks, opposite
 from models.layouts.findings import Findings
-from models.layouts.measures import SHORTEST_TRAIN_MM
+from models.layouts.measures import CLEARANCE_MM, SHORTEST_TRAIN_MM
 from models.layouts.results import Loop
-from models.layouts.track import Cut, Heading, Joint
+from models.layouts.told import Told
+from models.layouts.track import Cut, Heading, Joint, Junction
 
 Lies = frozenset[tuple[Point, Position]]
 """Points passed, and how they lay: one that is passed again lies the same."""
@@ -28,8 +31,20 @@ SHORTEST = "the longest train is a train"
 LOOPS = "a train is shorter than its loop"
 
 
-def shortest_loop(blocks: Blocks) -> Loop | None:
-    """The shortest way out of a block and back into it that no point bars; none where track has no such way.
+def shortest_loop(blocks: Blocks, told: Told) -> Loop | None:
+    """The shortest way on which a train comes back to its own rear that no point bars; none where track has no such.
+
+    It leads out of a block and back into it, or into one that it fouls, or over a junction twice within one block.
+    """
+    loops = (_out_and_back(blocks, told.fouls), _over_itself(blocks, told.clear_mm))
+    found = [loop for loop in loops if loop is not None]
+    long_mm = min((loop.long_mm for loop in found), default=0)
+    names = {block for loop in found if loop.long_mm == long_mm for block in loop.blocks}
+    return Loop(long_mm, tuple(sorted(names))) if found else None
+
+
+def _out_and_back(blocks: Blocks, fouls: Mapping[Block, frozenset[Block]]) -> Loop | None:
+    """The shortest way out of a block and back into it, or into one that it fouls.
 
     Every block's ways are followed at once, nearest first, so that the first way back is the shortest.
     """
@@ -54,12 +69,81 @@ def shortest_loop(blocks: Blocks) -> Loop | None:
             if _is_open(blocks, out, end.beyond):
                 found_mm = so_far_mm
                 found.add(block)
+        elif isinstance(end, Cut) and _comes_foul(blocks, fouls.get(block, frozenset()) | {block}, heading, lies):
+            found_mm = so_far_mm
+            found.add(block)
         elif isinstance(end, Cut) and blocks.of[end.beyond[0]] != blocks.of[heading[0]]:
             onward.append((end.beyond, lies))
         for ahead, lie in onward:
-            long_mm = segments.segments[ahead[0]].to_mm - segments.segments[ahead[0]].from_mm
-            heappush(todo, (so_far_mm + long_mm, next(turn), block, out, ahead, lie))
+            heappush(todo, (so_far_mm + _long_mm(blocks, ahead), next(turn), block, out, ahead, lie))
     return Loop(found_mm, tuple(sorted(found))) if found else None
+
+
+def _comes_foul(blocks: Blocks, closed: frozenset[Block], heading: Heading, lies: Lies) -> bool:
+    """Whether a train comes foul of its own rear behind a boundary, from a block that is not foul of it.
+
+    From one that is it comes in line: a point's block fouls those behind boundaries that lie near on its legs.
+    """
+    end = blocks.segments.at[heading]
+    if not isinstance(end, Cut) or blocks.of[heading[0]] in closed or blocks.of[end.beyond[0]] not in closed:
+        return False
+    ways = list(islice(_through(blocks, end.beyond), MOST_TRACKS))
+    return len(ways) == MOST_TRACKS or any(len(way | lies) == len(dict(way | lies)) for way in ways)
+
+
+def _over_itself(blocks: Blocks, clear_mm: Mapping[tuple[str, str], int]) -> Loop | None:
+    """The shortest way from a junction back to it within one block, from where its legs are clear of each other.
+
+    Between legs that a position joins, as round a ring, it is as long as it is from the junction to the junction.
+    """
+    turn = count()
+    todo = [
+        (_long_mm(blocks, ahead), next(turn), junction, port, ahead, lies)
+        for junction in blocks.segments.station.junctions.values()
+        if len(junction.ports) > 2
+        for port, end in junction.ports.items()
+        for ahead in [blocks.segments.leaving[end]]
+        for lies in _leaving(junction, port)
+    ]
+    heapify(todo)
+    known: dict[tuple[str, str, Heading], list[Lies]] = {}
+    left, found = LOOKS + LOOKS_A_BLOCK * len(blocks.pieces), dict[Block, int]()
+    less_mm = 2 * max([CLEARANCE_MM, *clear_mm.values()])
+    while todo and not (found and todo[0][0] > min(found.values()) + less_mm):
+        so_far_mm, _, junction, port, heading, lies = heappop(todo)
+        before = known.setdefault((junction.name, port, heading), [])
+        if any(fewer <= lies for fewer in before):
+            continue
+        if left <= 0 and not found:
+            return Loop(max(so_far_mm - less_mm, 0), ())
+        left -= 1
+        before.append(lies)
+        end = blocks.segments.at[heading]
+        onward = list(_over(blocks, end, lies)) if isinstance(end, Joint) else []
+        if isinstance(end, Joint) and end.junction == junction.name:
+            legs = () if junction.kind.joined(port, end.port) else (port, end.port)
+            long_mm = so_far_mm - sum(clear_mm.get((junction.name, leg), CLEARANCE_MM) for leg in legs)
+            block = blocks.of[heading[0]]
+            if onward:
+                found[block] = min(found.get(block, so_far_mm), max(long_mm, 0))
+            continue
+        for ahead, lie in onward:
+            heappush(todo, (so_far_mm + _long_mm(blocks, ahead), next(turn), junction, port, ahead, lie))
+    least_mm = min(found.values(), default=0)
+    return Loop(least_mm, tuple(block for block in found if found[block] == least_mm)) if found else None
+
+
+def _leaving(junction: Junction, port: str) -> list[Lies]:
+    """How a junction may lie under a train that has left it by a port."""
+    if not junction.is_point:
+        return [Lies()]
+    positions = {position for ways in junction.kind.ways(port).values() for position in ways}
+    return [Lies({(Point(junction.name), Position(position))}) for position in sorted(positions)]
+
+
+def _long_mm(blocks: Blocks, heading: Heading) -> int:
+    segment = blocks.segments.segments[heading[0]]
+    return segment.to_mm - segment.from_mm
 
 
 def _over(blocks: Blocks, joint: Joint, lies: Lies) -> Iterator[tuple[Heading, Lies]]:
@@ -104,6 +188,6 @@ def say_what_is_too_long(
         findings.violation(SHORTEST, (), text)
     if loop is None or longest_train_mm is None or longest_train_mm < loop.long_mm:
         return
-    of = f"block '{loop.blocks[0]}' and back into it is" if loop.blocks else "a block and back is looked for up to"
-    text = f"the longest train has {longest_train_mm:,} mm, and the way out of {of} {loop.long_mm:,} mm long"
+    of = f"from block '{loop.blocks[0]}' back to it, or foul of it, is" if loop.blocks else "back is looked for up to"
+    text = f"the longest train has {longest_train_mm:,} mm, and the way {of} {loop.long_mm:,} mm long"
     findings.violation(LOOPS, bounds[loop.blocks[0]] if loop.blocks else (), f"{text}: it may come upon its own tail")

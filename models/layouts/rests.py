@@ -100,9 +100,9 @@ def _loop(imported: Imported) -> Iterator[Rest]:
         return
     longest_mm = told.longest_train_mm if told is not None else None
     declared = longest_mm is not None and longest_mm < loop.long_mm
-    way = "the shortest way out of a block and back into it that no point bars"
+    way = "the shortest way of a train back to its rear, or foul of it, that no point bars"
     if not loop.blocks:
-        way = "beyond which no way out of a block and back into it was looked for"
+        way = "beyond which no way of a train back to its rear was looked for"
     text = f"trains shorter than {loop.long_mm / 1_000:,.3f} m, {way}{', as the file declares' if declared else ''}"
     yield Rest("loop", declared, ((*loop.blocks, f"{loop.long_mm} mm"),), text)
 

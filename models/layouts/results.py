@@ -81,6 +81,8 @@ class Leg:
 
     ``boundary``: the nearest behind which a train stands that keeps nobody off the point, and ``at_mm`` from it;
     none where there is no such.  ``clear_mm``: from the point to where the leg is clear of the other, as far as told.
+    ``passed``: the boundaries nearer than that one, by distance, each with the block behind it: the point's own block
+    or one that this fouls.
     """
 
     point: str
@@ -88,14 +90,15 @@ class Leg:
     boundary: str | None
     at_mm: int
     clear_mm: int | None
+    passed: tuple[tuple[int, str, Block], ...] = ()
 
 
 @dataclass(frozen=True)
 class Loop:
-    """The shortest way out of a block and back into it that no point bars: a train as long as that is in it twice.
+    """The shortest way on which a train comes back to its rear, or foul of it, that no point bars.
 
-    ``blocks``: those that it leads out of and back into, all if there are several of one length.  Without one it was
-    looked for up to ``long_mm``, and not found.
+    ``blocks``: those that the rear stands in, all if there are several of one length.  Without one it was looked for
+    up to ``long_mm``, and not found.
     """
 
     long_mm: int

@@ -38,6 +38,10 @@ class Kind:
                     found[other] = (*found.get(other, ()), position)
         return found
 
+    def joined(self, port: str, other: str) -> bool:
+        """Whether some position joins these two."""
+        return other in self.ways(port)
+
 
 @dataclass(frozen=True)
 class Junction:

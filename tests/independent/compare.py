@@ -10,6 +10,7 @@ from kernel.layout import Layout
 from kernel.names import Block
 from kernel.names import Route as RouteName
 from models.layouts import CheckResult, Imported
+from models.layouts.told import Told
 from tests.independent import raw_table
 from tests.independent.files import Enumerated, facts_of, network_of
 from tests.independent.raw_graph import Network, leads
@@ -17,7 +18,7 @@ from tests.independent.raw_graph import Route as Walked
 from tests.independent.raw_measures import measured
 from tests.independent.raw_names import drawn_alike
 from tests.independent.raw_records import differing_records
-from tests.independent.raw_rests import rests_again, shortest_loops
+from tests.independent.raw_rests import Loops, rests_again, shortest_loops
 
 
 def imported_facts(layout: Layout, route: str) -> dict[str, Any]:
@@ -115,7 +116,7 @@ def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:
         fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
         ours |= {(rule, tuple(sorted(set(elements)))) for rule, elements in measured(network, told.clear_mm, fouls)}
     longest_mm = None if told is None else told.longest_train_mm
-    loop = None if network is None or longest_mm is None else shortest_loops(network)
+    loop = None if network is None or told is None or longest_mm is None else _loops(network, told)
     if network is not None and isinstance(loop, tuple) and longest_mm is not None and longest_mm >= loop[0]:
         ours.add(("a train is shorter than its loop", tuple(sorted(set(network.ends(min(loop[1])))))))
     if longest_mm is not None and longest_mm < TRAIN_MM:
@@ -123,6 +124,12 @@ def enumerated_violations(imported: Imported, found: Enumerated) -> set[Listed]:
     for names in names_of(imported, found):
         ours |= {("no two names look the same", alike) for alike in drawn_alike(names)}
     return ours
+
+
+def _loops(network: Network, told: Told) -> Loops:
+    """The shortest loops; of clearances and fouling it believes what the file tells."""
+    fouls = {str(block): {str(other) for other in others} for block, others in told.fouls.items()}
+    return shortest_loops(network, told.clear_mm, fouls)
 
 
 def names_of(imported: Imported, found: Enumerated) -> Iterator[Iterable[str]]:
@@ -161,7 +168,7 @@ def differing_rests(imported: Imported, result: CheckResult, found: Enumerated) 
         if ours.get(kind) != theirs.get(kind)
     ]
     loop = None if imported.loop is None else (imported.loop.long_mm, frozenset(map(str, imported.loop.blocks)))
-    again = shortest_loops(found.network)
+    again = _loops(found.network, imported.told)
     longest_mm = imported.told.longest_train_mm
     declared = again is not None and longest_mm is not None and not isinstance(again, str) and longest_mm < again[0]
     told = {(*sorted(again[1]), f"{again[0]} mm")} if isinstance(again, tuple) else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from itertools import combinations, product
 
 from tests.independent.raw_graph import End, Network, Place
 
@@ -35,9 +36,11 @@ def measured(
             for far_mm, cut, _ in ways:
                 if far_mm < (LAST_MM if cut is None else ROOM_MM):
                     yield "a block has room for its tags", tuple(network.ends(block))
+    yield from _tags_in_points(network)
     for point, leg, cuts in legs(network, fouls):
         if cuts[0][0] < told_mm.get((point, leg), CLEAR_MM):
             yield "a train behind a boundary is clear of the point", tuple(sorted((point, cuts[0][1])))
+    yield from _side_by_side(network, told_mm, fouls)
     for (point, leg), clear_mm in told_mm.items():
         if point in network.junctions and clear_mm < CROSSED_MM and _is_left_out(network, point, leg):
             yield "a leg is told to be clear where tracks are apart", tuple(sorted({point, leg}))
@@ -57,6 +60,70 @@ def legs(network: Network, fouls: Mapping[str, Collection[str]]) -> Iterator[tup
             cuts = sorted((far_mm, cut) for far_mm, cut, _ in found if cut is not None)
             if cuts:
                 yield point, leg, cuts
+
+
+def _tags_in_points(network: Network) -> Iterator[Measured]:
+    """Boundaries with a point or crossing on either side before the place of the tag there."""
+    for track, on_track in network.cuts.items():
+        for at, name in on_track:
+            points = {_point_within(network, Place(track, at, heading), LAST_MM) for heading in (1, -1)}
+            for point in points - {""}:
+                yield "a boundary's tags lie clear of points and crossings", tuple(sorted({name, point}))
+
+
+def _point_within(network: Network, place: Place, most_mm: int) -> str:
+    """The first thing with three legs or four that is nearer than that, no other boundary between; "" if none is."""
+    left_mm = most_mm
+    while True:
+        far = place._replace(mm=network.lengths[place.track] if place.heading > 0 else 0)
+        between = any((mm - place.mm) * place.heading > 0 for mm, _ in network.cuts.get(place.track, []))
+        left_mm -= abs(far.mm - place.mm)
+        met, leg = network.leg_at.get((far.track, 1 if far.heading > 0 else 0), ("", ""))
+        if between or left_mm <= 0 or not met:
+            return ""
+        if len(network.junctions[met].legs) > 2:
+            return met
+        (other,) = network.junctions[met].ways_from(leg).values()
+        place = _inward(network, network.junctions[met].legs[other])
+
+
+def _side_by_side(
+    network: Network, told_mm: Mapping[tuple[str, str], int], fouls: Mapping[str, Collection[str]]
+) -> Iterator[Measured]:
+    """Boundaries on two legs, no way leading from one leg to the other, so near that trains behind both touch.
+
+    What lies behind the first boundary at which nothing bars the point is told of elsewhere.
+    """
+    first_mm = {(point, leg): cuts[0][0] for point, leg, cuts in legs(network, fouls)}
+    for point, junction in network.junctions.items():
+        joined = {frozenset(pair) for pairs in junction.joins.values() for pair in pairs}
+        near: dict[str, list[tuple[str, str]]] = {}
+        for leg, end in junction.legs.items() if len(junction.legs) > 2 else ():
+            own = network.block_of[network.last_piece(end)]
+            mm = min(told_mm.get((point, leg), CLEAR_MM), first_mm.get((point, leg), LONGEST_MM))
+            found = _cuts_within(network, _inward(network, end), point, mm)
+            near[leg] = [(cut, block) for cut, block in found if block == own or block in fouls.get(own, ())]
+        for one, other in combinations(near, 2):
+            for (cut, block), (far, beside) in product(near[one], near[other]):
+                if frozenset((one, other)) not in joined and block != beside and beside not in fouls.get(block, ()):
+                    yield "trains behind two legs of a point are clear of each other", tuple(sorted((point, cut, far)))
+
+
+def _cuts_within(network: Network, start: Place, point: str, most_mm: int) -> Iterator[tuple[str, str]]:
+    """Each boundary nearer than that, and the block behind it, on every way that does not pass the point again."""
+    todo = [(0, start)]
+    while todo:
+        so_far_mm, place = todo.pop()
+        for at, name in network.cuts.get(place.track, []):
+            if (at - place.mm) * place.heading > 0 and so_far_mm + abs(at - place.mm) < most_mm:
+                yield name, network.block_of[network.piece_ahead(Place(place.track, at, place.heading))]
+        end = (place.track, 1 if place.heading > 0 else 0)
+        far_mm = so_far_mm + abs((network.lengths[place.track] if place.heading > 0 else 0) - place.mm)
+        name, leg = network.leg_at.get(end, ("", ""))
+        if far_mm < most_mm and name not in ("", point):
+            junction = network.junctions[name]
+            onward = set(junction.ways_from(leg).values())
+            todo += [(far_mm, _inward(network, junction.legs[other])) for other in onward]
 
 
 def _is_left_out(network: Network, point: str, leg: str) -> bool:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Collection, Iterator, Mapping, Set
 from heapq import heapify, heappop, heappush
 from itertools import count
 
 from models.layouts.told import Told, Wanted
-from tests.independent.raw_graph import Network, Place, Route, Way
-from tests.independent.raw_measures import legs
+from tests.independent.raw_graph import End, Network, Place, Route, Way
+from tests.independent.raw_measures import CLEAR_MM, legs
 from tests.independent.raw_points import closing_positions, far_end
 
 Rests = dict[tuple[str, bool], set[tuple[str, ...]]]
@@ -111,8 +111,24 @@ def _held(network: Network, route: Route, stated: Wanted) -> Set[tuple[str, str]
     return open_.keys() - shut
 
 
-def shortest_loops(network: Network) -> tuple[int, frozenset[str]] | str | None:
-    """The shortest ways out of a block and back into it, way by way through whole blocks; a text if it is given up."""
+Loops = tuple[int, frozenset[str]] | str | None
+"""How long the shortest are, and the blocks that they begin in; a text if it is given up."""
+
+
+def shortest_loops(
+    network: Network, told_mm: Mapping[tuple[str, str], int], fouls: Mapping[str, Collection[str]]
+) -> Loops:
+    """The shortest ways back to where a train has not left: between blocks, or over a junction within one."""
+    both = _between_blocks(network, fouls), _over_a_junction(network, told_mm)
+    if "given up" in both:
+        return "given up"
+    found = [each for each in both if isinstance(each, tuple)]
+    least_mm = min((mm for mm, _ in found), default=0)
+    return (least_mm, frozenset().union(*(blocks for mm, blocks in found if mm == least_mm))) if found else None
+
+
+def _between_blocks(network: Network, fouls: Mapping[str, Collection[str]]) -> Loops:
+    """The shortest ways out of a block and back into it or one that it fouls, way by way through whole blocks."""
     ways = {block: list(network.ways(block)) for block in network.blocks}
     ends: dict[Place, list[Way]] = {}
     for each in ways.values():
@@ -134,10 +150,14 @@ def shortest_loops(network: Network) -> tuple[int, frozenset[str]] | str | None:
         if len(seen) > MOST_STEPS:
             return "given up"
         into = [way for way in ways[here] if way.mouth == place]
+        lays = [moved(network, left) for left in ends[out]] if here == block else [dict(lies)]
+        own = {block, *fouls.get(block, ())}
+        in_line = here != block and (here not in own or network.block_of[network.piece_behind(place)] in own)
+        if not in_line and any(_agree(lay, moved(network, way)) for lay in lays for way in into):
+            found_mm = mm
+            found.add(block)
+            continue
         if here == block:
-            if any(_agree(moved(network, left), moved(network, way)) for left in ends[out] for way in into):
-                found_mm = mm
-                found.add(block)
             continue
         for way in into:
             passed = moved(network, way)
@@ -145,6 +165,40 @@ def shortest_loops(network: Network) -> tuple[int, frozenset[str]] | str | None:
                 beyond = (far_end(network, way), way.into, lies | set(passed.items()))
                 heappush(todo, (mm + network.way_mm(way), next(turn), block, out, *beyond))
     return None if found_mm is None else (found_mm, frozenset(found))
+
+
+def _over_a_junction(network: Network, told_mm: Mapping[tuple[str, str], int]) -> Loops:
+    """The shortest ways from a junction back to it that meet no boundary, less what two legs are not apart on."""
+    found: dict[str, int] = {}
+    steps = 0
+    for name, junction in network.junctions.items():
+        for leg, end in junction.legs.items() if len(junction.legs) > 2 else ():
+            lies = [{name: at} if junction.moves else {} for at in junction.ways_from(leg)]
+            todo = [(0, end, lay, frozenset[End]()) for lay in lies]
+            while todo:
+                mm, (track, which), lay, seen = todo.pop()
+                steps += 1
+                if steps > MOST_STEPS:
+                    return "given up"
+                far = (track, 1 - which)
+                if network.cuts.get(track) or far not in network.leg_at or (track, which) in seen:
+                    continue
+                mm += network.lengths[track]
+                met, by = network.leg_at[far]
+                over = network.junctions[met]
+                onward = [
+                    (at, other) for at, other in over.ways_from(by).items() if not over.moves or lay.get(met, at) == at
+                ]
+                if met != name:
+                    lays = [(lay | ({met: at} if over.moves else {}), over.legs[other]) for at, other in onward]
+                    todo += [(mm, after, then, seen | {(track, which)}) for then, after in lays]
+                elif onward:
+                    apart = by not in junction.ways_from(leg).values()
+                    less_mm = sum(told_mm.get((name, each), CLEAR_MM) for each in (leg, by)) if apart else 0
+                    block = network.block_of[network.last_piece(end)]
+                    found[block] = min(found.get(block, mm), max(mm - less_mm, 0))
+    least_mm = min(found.values(), default=None)
+    return None if least_mm is None else (least_mm, frozenset(block for block in found if found[block] == least_mm))
 
 
 def moved(network: Network, way: Way) -> dict[str, str]:

@@ -127,6 +127,14 @@ def test_a_clearance_marker_on_no_leg_is_told() -> None:
     assert all(leg.clear_mm is None for leg in imported.legs)
 
 
+def test_the_blocks_behind_detectors_that_foul_one_switch_on_both_legs_foul_each_other() -> None:
+    both = "".join(f'<hasFoulingTrainDetectors ref="{detector}"/>' for detector in "ceb")
+    fouls = told("", switch_il("t1", "t2", both)).layout.fouls
+    assert fouls[Block("B:c+d")] == {Block("B:b+c+e"), Block("B:e+f")}
+    assert fouls[Block("B:e+f")] == {Block("B:b+c+e"), Block("B:c+d")}
+    assert fouls[Block("B:a+b")] == {Block("B:b+c+e")}
+
+
 def test_a_detector_that_fouls_a_switch_makes_the_blocks_beside_it_foul_each_other() -> None:
     near = RAILML.replace('netElementRef="t1" intrinsicCoord="0.100000000"', 'netElementRef="t1" intrinsicCoord="0.01"')
     assert elements_of(told(text=near), CLEAR) == [("P", "c")]

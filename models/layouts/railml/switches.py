@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import combinations, product
 
 from kernel.names import Block, Point
 from models.layouts.blocks import Blocks
@@ -11,7 +12,7 @@ from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
 from models.layouts.railml.marks import Marks, placed, signal_of
 from models.layouts.railml.topology import Topology
-from models.layouts.track import HIGH, Junction
+from models.layouts.track import HIGH, Cut, Heading, Joint, Junction
 
 BRANCHES = {"left": "branchLeft", "right": "branchRight"}
 AGREE = "a switch has one left and one right branch"
@@ -98,9 +99,12 @@ def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: B
                 findings.remark([point.name, name], text, "unread")
             else:
                 _note_clear(clear_mm, point.name, found, source.attribute(marker, "id"), findings)
+        fouling: list[str] = []
         for item in source.all("hasFoulingTrainDetectors", switch):
             detector = source.attribute(signal_of(source, source.referred(item)), "id")
             _foul(point.name, detector, marks, blocks, fouls, findings)
+            fouling.append(marks.of.get(detector, detector))
+        _foul_beside(point, fouling, blocks, fouls)
     return Clearance(clear_mm, fouls)
 
 
@@ -147,5 +151,38 @@ def _foul(
         text = f"detector '{detector}' is said to foul switch '{point}', and does not bound its block"
         findings.violation(FOULS, (point, detector), text)
     for other in beside - {own} if own in beside else ():
-        fouls[own] = fouls.get(own, frozenset()) | {other}
-        fouls[other] = fouls.get(other, frozenset()) | {own}
+        _bar(fouls, own, other)
+
+
+def _bar(fouls: dict[Block, frozenset[Block]], one: Block, other: Block) -> None:
+    """Two blocks foul each other."""
+    fouls[one] = fouls.get(one, frozenset()) | {other}
+    fouls[other] = fouls.get(other, frozenset()) | {one}
+
+
+def _foul_beside(point: Junction, detectors: list[str], blocks: Blocks, fouls: dict[Block, frozenset[Block]]) -> None:
+    """The blocks behind two detectors that foul one point, on legs that no position joins, foul each other."""
+    own = blocks.stands_in[Point(point.name)]
+    behind = {leg: _behind(blocks, point, leg, detectors) - {own} for leg in point.ports}
+    for leg, other in combinations(point.ports, 2):
+        if not point.kind.joined(leg, other):
+            for one, beside in product(behind[leg], behind[other]):
+                if one != beside:
+                    _bar(fouls, one, beside)
+
+
+def _behind(blocks: Blocks, point: Junction, leg: str, detectors: list[str]) -> set[Block]:
+    """The blocks behind the detectors, of these, that a movement from a point along a leg comes to in its block."""
+    segments, met, found = blocks.segments, set[Heading](), set[Block]()
+    todo = [segments.leaving[point.ports[leg]]]
+    while todo:
+        heading = todo.pop()
+        if heading in met:
+            continue
+        met.add(heading)
+        end = segments.at[heading]
+        if isinstance(end, Joint):
+            todo += [onward for _, _, onward in segments.onward(end) if end.junction != point.name]
+        elif isinstance(end, Cut) and end.mark in detectors:
+            found.add(blocks.of[end.beyond[0]])
+    return found

@@ -11,6 +11,7 @@ from typing import Any
 from tests.independent.layouts.crafted import NEAR, RING
 from tests.independent.layouts.danger import UNREAD, danger_of
 from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
+from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS
 from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
 
 # ---- RailJSON
@@ -180,7 +181,8 @@ def level(*names: str) -> str:
 
 OFF = '<track id="T0"><state disabled="true"/>'
 
-DANGERS = DANGEROUS_TABLES | {
+ELSEWHERE_WRITTEN = DANGEROUS_TABLES | DANGEROUS_TRACKS
+DANGERS = ELSEWHERE_WRITTEN | {
     "no train.toml": danger_of(
         RING.replace("699_999", "1"),
         "the longest train is told to have 1 mm, so every train is longer, and the ring of 700 m lets one meet itself",

@@ -63,6 +63,8 @@ def pieces(following: list[tuple[str, str]], apart: list[tuple[str, str]]) -> It
         yield f"marker {track} {share} {point}", _with(_marker(track, share), _switch("", marked, point))
     for detector in "chb":
         yield f"fouling {detector}", _with("", _switch("", f'<hasFoulingTrainDetectors ref="{detector}"/>'), NEAR)
+    both = "".join(f'<hasFoulingTrainDetectors ref="{each}"/>' for each in "ce")
+    yield "fouling both legs", _with("", _switch("", both), NEAR)
     for length in ("5", "150", "200", "200.001", "99000"):
         yield f"overlap {length}", _with("", OVERLAP.format(f'length="{length}"', ""))
     for share in ("0.00499", "0.004989"):
@@ -101,20 +103,25 @@ def routes_of(imported: Imported) -> tuple[list[tuple[str, str]], list[tuple[str
 
 
 def differing(imported: Imported, result: CheckResult, text: str) -> list[str]:
-    """What the importer sees otherwise than the plain tree; of conflicts those that follow are the kernel's."""
+    """What the importer sees otherwise than the plain tree; of conflicts those that follow are the kernel's.
+
+    No file has a detector before the tips that fouls its point with one on a leg.
+    """
     ours, theirs = judged(text), _of(imported, result)
     layout = imported.layout
     following = {(str(one), str(other)) for one, other in Conflicts(layout).pairs()} if ours.conflicts else set()
     bounds = imported.places.blocks
     fouling = {frozenset((bounds[own], bounds[other])) for own, others in layout.fouls.items() for other in others}
-    again = set()
+    again, behind = set(), dict[str, tuple[tuple[str, ...], ...]]()
     for point, detector in ours.fouling:
         own = next(block for block, points in layout.points_in.items() if point in points)
         sides = {layout.tag_in[tag] for tag, (mark, *_) in imported.places.tags.items() if mark == detector}
         if own in sides:
             again |= {frozenset((bounds[own], bounds[other])) for other in sides - {own}}
+            behind[point] = behind.get(point, ()) + tuple(bounds[other] for other in sides - {own})
         else:
             ours.wrong.add((point, detector))
+    again |= {frozenset(pair) for beside in behind.values() for pair in combinations(set(beside), 2)}
     ours.wrong |= ours.conflicts - following
     ends = {} if imported.station is None else {n: j.ports for n, j in imported.station.junctions.items()}
     legs = {(leg.point, ends[leg.point][leg.leg][0]): leg.clear_mm for leg in imported.legs if leg.clear_mm is not None}

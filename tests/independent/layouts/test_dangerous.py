@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
+import tomllib
 
 import pytest
 
 from models.layouts import BadInput, check, load_text
+from tests.independent.compare import disagreements
 from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, railml
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
+from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS, TRACKS_THAT_HOLD
+from tests.independent.raw_native import enumerate_data
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
 """Files that are no layout; of a train that is none there is no element to name."""
@@ -36,8 +40,23 @@ def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
     assert refused >= DANGERS[name].elements
 
 
-@pytest.mark.parametrize(("name", "text"), [*TABLES_THAT_HOLD.items(), ("two lines.railml", railml(BOTH, SPOTS))])
+WITHOUT = [*TABLES_THAT_HOLD.items(), *TRACKS_THAT_HOLD.items(), ("two lines.railml", railml(BOTH, SPOTS))]
+
+
+@pytest.mark.parametrize(("name", "text"), WITHOUT)
 def test_without_its_danger_nothing_of_the_kind_is_said(name: str, text: str) -> None:
     result = check(load_text(name, text))
     assert result.verdict == "holds"
     assert not any(danger.said in each.text for danger in DANGERS.values() for each in result.remarks)
+
+
+ROUND = "0 mm to the next tag, and not 500000"
+"""Where a way goes round as well as on, the importer writes no distance; the walk goes round no ring."""
+TRACK_FILES = [*((name, danger.text) for name, danger in DANGEROUS_TRACKS.items()), *TRACKS_THAT_HOLD.items()]
+
+
+@pytest.mark.parametrize(("name", "text"), TRACK_FILES)
+def test_a_plain_walk_finds_the_same_of_tracks(name: str, text: str) -> None:
+    imported = load_text(name, text)
+    found = disagreements(imported, check(imported), enumerate_data(tomllib.loads(text)))
+    assert [each for each in found if not (name == "ring in a block.toml" and each.endswith(ROUND))] == []
