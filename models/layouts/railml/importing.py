@@ -32,7 +32,7 @@ def import_railml(file: str, text: str, trains: tuple[str, ...]) -> Imported:
     note_parts(source, marks, findings)
     segments = cut_into_segments(Station(topology.lengths_mm, topology.junctions, marks.marks))
     followed = with_groups(source, marks, follow(source, segments, marks, routes, findings))
-    followed = with_overlaps(source, segments, marks, routes, followed, findings)
+    followed = with_overlaps(source, segments, marks, followed, findings)
     compare_sections(source, segments, marks, followed, findings)
     blocks = find_blocks(segments, {})
     follower = Follower(blocks, file, findings)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from models.layouts.findings import Findings
-from models.layouts.railml.document import Document, Element
+from models.layouts.railml.document import Document, Element, kind_of
 from models.layouts.railml.marks import Marks, signal_of
 from models.layouts.told import Wanted
 from models.layouts.track import Cut, Heading, Joint, Segments, Stop
@@ -17,6 +17,7 @@ MOST_WAYS = 64
 MOST_STEPS = 20_000
 POSITIONS = ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition", "requiresSwitchInPosition")
 DEPARTURE = ("switchPositionInDepartureTrack",)
+POSITIONS_FIT = "a route's positions are of its points"
 
 Ends = tuple[Element, Element, Element]
 """A route, and the elements on the track that it begins and ends at."""
@@ -80,7 +81,8 @@ def follow(
 
 def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, findings: Findings) -> Followed:
     route, (first, last) = ends[0], (source.attribute(each, "id") for each in ends[1:])
-    name, given = source.attribute(route, "id"), dict(given_positions(source, route, segments))
+    name = source.attribute(route, "id")
+    given = positions_told(source, route, name, segments, findings)
     side = _side(source, segments, marks, ends[1])
     goal = marks.of.get(last)
     if goal is None:
@@ -101,12 +103,12 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
         text = f"route '{name}' ends at '{last}', which speaks to trains the other way"
         findings.remark([name, last], text, "derived")
     parts = tuple(mark for mark in way.passed if mark in marks.parts)
-    departing = dict(given_positions(source, route, segments, DEPARTURE))
+    departing = positions_told(source, route, name, segments, findings, DEPARTURE)
     positions, flank = {**departing, **way.positions}, {p: at for p, at in given.items() if p not in way.positions}
     against = {p: at for p, at in departing.items() if positions[p] != at or given.get(p, at) != at}
     for point, at in against.items():
         text = f"route '{name}' wants switch '{point}' in '{at}' in its departure track, and otherwise as well"
-        findings.violation("a route's positions are of its points", [name, point], text)
+        findings.violation(POSITIONS_FIT, [name, point], text)
     wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, positions, parts, flank=flank)
     return Followed(wanted, way)
 
@@ -124,14 +126,35 @@ def _side(source: Document, segments: Segments, marks: Marks, entry: Element) ->
     return sides[0]
 
 
-def given_positions(
-    source: Document, told: Element, segments: Segments, kinds: Sequence[str] = POSITIONS
-) -> Iterator[tuple[str, str]]:
+def positions_told(
+    source: Document,
+    told: Element,
+    name: str,
+    segments: Segments,
+    findings: Findings,
+    kinds: Sequence[str] = POSITIONS,
+) -> dict[str, str]:
     """The positions that a route or an overlap names for points; those of its departure track are of another kind.
+
+    A point that is named in two positions is a violation, and taken as not named.
 
     Raises:
         BadInput: it is no point, or has no such position.
     """
+    found: dict[str, list[str]] = {}
+    for point, at in _given_positions(source, told, segments, kinds):
+        found.setdefault(point, []).append(at)
+    for point, positions in found.items():
+        if len(set(positions)) > 1:
+            both = " and in ".join(f"'{at}'" for at in dict.fromkeys(positions))
+            text = f"{kind_of(told)} '{name}' wants switch '{point}' in {both}: leave one of them"
+            findings.violation(POSITIONS_FIT, [name, point], text)
+    return {point: positions[0] for point, positions in found.items() if len(set(positions)) == 1}
+
+
+def _given_positions(
+    source: Document, told: Element, segments: Segments, kinds: Sequence[str]
+) -> Iterator[tuple[str, str]]:
     for kind in kinds:
         for item in source.all(kind, told):
             refers = source.first("refersToSwitch", item)

@@ -170,6 +170,11 @@ MARKED = """<switchIL id="il"><refersTo ref="P"/><hasGaugeClearanceMarker ref="f
 <hasGaugeClearanceMarker ref="near"/></switchIL>"""
 CURVED = '<trackGauge id="broad" value="1524"/><horizontalCurve id="bend" radius="60"/>'
 SHORT_OF_IT = '<overlap id="o" length="300.001"><activeForApproachRoute ref="CD"/></overlap>'
+OVERLAP = '<overlap id="o" length="{}">{}</overlap>'
+OF_AB = '<activeForApproachRoute ref="AB"/><isLimitedBy ref="C"/>'
+TURNS = '<{0} inPosition="{1}"><refersToSwitch ref="P"/></{0}>'
+OVER_P = spot("A", "w", "0.8") + spot("B", "e", "0.2") + spot("C", "e", "0.6") + spot("D", "e", "0.8")
+LIMITS_P = OVERLAP.format("1", OF_AB + TURNS.format("requiresSwitchInPosition", "right"))
 
 
 def level(*names: str) -> str:
@@ -324,6 +329,49 @@ DANGERS = DANGEROUS_TABLES | {
         "an overlap is told to be longer than the track behind the exit: a train slips through the buffer stop",
         "there is as much track as an overlap is long",
         *("CD", "o", "wall"),
+    ),
+    "overlap of nothing.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES, OVERLAP.format("30", "")),
+        "an overlap names no route, and is claimed by none",
+        "an overlap belongs to a route",
+        "o",
+    ),
+    "overlap of no exit.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES, OVERLAP.format("30", '<relatedToTrackAsset ref="C tags"/>')),
+        "an overlap is told for a place where no route ends, and is claimed by none",
+        "an overlap belongs to a route",
+        *("o", "C tags"),
+    ),
+    "overlap of a detector.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES, OVERLAP.format("150", '<relatedToTrackAsset ref="D tags"/>')).replace(
+            "</functionalInfrastructure>", BUFFER
+        ),
+        "an overlap is told for the detector in the exit's place, and is longer than the track behind it",
+        "there is as much track as an overlap is long",
+        *("CD", "o", "wall"),
+    ),
+    "overlap beyond its limit.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES, OVERLAP.format("300", OF_AB)),
+        "an overlap of 300 m is limited 200 m behind the exit: a train slips 100 m beyond what is claimed",
+        "there is as much track as an overlap is long",
+        *("AB", "o", "C tags"),
+    ),
+    "overlap against its route.railml": danger_of(
+        railml(TURNOUT, OVER_P, SWITCHES, LIMITS_P),
+        "an overlap wants a point right that its route runs over to the left",
+        "overlap 'o' wants switch 'P' in 'right'",
+        *("AB", "o", "P"),
+    ),
+    "two positions.railml": danger_of(
+        railml(TURNOUT, OVER_P, SWITCHES).replace(
+            '<routeEntry id="Ae">',
+            TURNS.format("facingSwitchInPosition", "right")
+            + TURNS.format("switchInPosition", "left")
+            + '<routeEntry id="Ae">',
+        ),
+        "a route wants one point right and left",
+        "in 'right' and in 'left'",
+        *("AB", "P"),
     ),
     "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
