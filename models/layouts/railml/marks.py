@@ -62,17 +62,15 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
             name = element.get("id")
             if name is None or (kind == "signalIS" and name not in signals):
                 continue
-            spots = list(source.all("spotLocation", element))
-            finest = [each for each in spots if each.get("netElementRef") in topology.lengths_mm]
-            spot = next(iter([*finest, *spots]), None)
-            if spot is None:
+            spots = spots_of(source, topology, element)
+            if not spots:
                 if name in signals:
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
+            spot = spots[0]
             found.put(source, element, Mark(name, *placed(source, topology, name, spot), cuts))
-            _compare_places(source, found.of[name], name, spot, topology, findings)
-            _compare_spots(source, name, finest, topology, findings)
+            compare_places(source, found.of[name], name, spots, topology, findings)
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
@@ -83,32 +81,48 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
     return found
 
 
-def _compare_places(
-    source: Document, mark: str, name: str, spot: Element, topology: Topology, findings: Findings
-) -> None:
-    """Where a place is told twice, by share of the net element and by metres, the two must be one place."""
-    if spot.get("intrinsicCoord") is None or spot.get("pos") is None:
-        return
-    length_m = topology.lengths_mm[source.attribute(spot, "netElementRef")] / 1_000
-    pos_m = source.number(spot, "pos", -LONGEST_M, LONGEST_M)
-    share_m = source.number(spot, "intrinsicCoord", 0.0, 1.0) * length_m
-    if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
-        text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
-        findings.violation("an element lies in one place", list(dict.fromkeys((name, mark))), text)
+def spots_of(source: Document, topology: Topology, element: Element) -> list[Element]:
+    """Where an element lies: on net elements of the finest level, or, if on none of them, on the others."""
+    spots = list(source.all("spotLocation", element))
+    return [each for each in spots if each.get("netElementRef") in topology.lengths_mm] or spots
 
 
-def _compare_spots(
-    source: Document, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
+def compare_places(
+    source: Document, mark: str, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
 ) -> None:
-    """Of an element with several places, all are one, or ends of track that meet at one junction."""
+    """A place that is told twice is one place; ``mark``: the mark that stands there.
+
+    By share of the net element and by metres; and of an element with several places, all are one, or ends of track
+    that meet at one junction.
+
+    Raises:
+        BadInput: it lies nowhere.
+    """
+    for spot in spots:
+        _compare_metres(source, mark, name, spot, topology, findings)
     places = {placed(source, topology, name, spot) for spot in spots}
     junctions = {topology.joined_at.get(place) for place in places}
     if len(places) > 1 and (len(junctions) > 1 or None in junctions):
         told = ", ".join(f"'{track}' at {at_mm:,} mm" for track, at_mm in sorted(places))
         text = f"'{name}' lies in {len(places)} places: {told}; no junction joins them: correct its spotLocations"
-        findings.violation("an element lies in one place", (name,), text)
+        findings.violation(ONE_PLACE, (name,), text)
 
 
+def _compare_metres(
+    source: Document, mark: str, name: str, spot: Element, topology: Topology, findings: Findings
+) -> None:
+    """Where a place is told by share of the net element and by metres, the two must be one place."""
+    if spot.get("intrinsicCoord") is None or spot.get("pos") is None:
+        return
+    length_m = topology.lengths_mm[placed(source, topology, name, spot)[0]] / 1_000
+    pos_m = source.number(spot, "pos", -LONGEST_M, LONGEST_M)
+    share_m = source.number(spot, "intrinsicCoord", 0.0, 1.0) * length_m
+    if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
+        text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
+        findings.violation(ONE_PLACE, list(dict.fromkeys((name, mark))), f"{text}: correct one of the two")
+
+
+ONE_PLACE = "an element lies in one place"
 SAME_PLACE_M = 1.0
 SAME_SHARE = 0.0001
 """So far the two may be apart: as a share is written with four digits."""

@@ -9,7 +9,7 @@ from kernel.names import Block, Point
 from models.layouts.blocks import Blocks
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
-from models.layouts.railml.marks import Marks, placed, signal_of
+from models.layouts.railml.marks import Marks, compare_places, placed, signal_of, spots_of
 from models.layouts.railml.topology import Topology
 from models.layouts.track import HIGH, Junction
 
@@ -88,16 +88,20 @@ def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: B
     """
     clear_mm: dict[tuple[str, str], int] = {}
     fouls: dict[Block, frozenset[Block]] = {}
+    compared: set[str] = set()
     for switch, point in _switches(source, topology):
         for item in source.all("hasGaugeClearanceMarker", switch):
             marker = signal_of(source, source.referred(item))
+            name = source.attribute(marker, "id")
+            if name not in marks.of and name not in compared:
+                compare_places(source, name, name, spots_of(source, topology, marker), topology, findings)
+            compared.add(name)
             found = _along(source, topology, point, marker)
             if found is None:
-                name = source.attribute(marker, "id")
                 text = f"clearance marker '{name}' does not lie on a leg of switch '{point.name}': it is not read"
                 findings.remark([point.name, name], text, "unread")
             else:
-                _note_clear(clear_mm, point.name, found, source.attribute(marker, "id"), findings)
+                _note_clear(clear_mm, point.name, found, name, findings)
         for item in source.all("hasFoulingTrainDetectors", switch):
             detector = source.attribute(signal_of(source, source.referred(item)), "id")
             _foul(point.name, detector, marks, blocks, fouls, findings)
@@ -121,10 +125,10 @@ def _note_clear(
 
 def _along(source: Document, topology: Topology, point: Junction, marker: Element) -> tuple[str, int] | None:
     """The leg that a marker lies on, and how far from the point."""
-    spot = source.first("spotLocation", marker)
-    if spot is None:
+    spots = spots_of(source, topology, marker)
+    if not spots:
         raise source.bad(marker, "has no place on the track", "add its spotLocation")
-    track, at_mm = placed(source, topology, source.attribute(marker, "id"), spot)
+    track, at_mm = placed(source, topology, source.attribute(marker, "id"), spots[0])
     for port, (element, side) in point.ports.items():
         if element == track:
             return port, topology.lengths_mm[track] - at_mm if side == HIGH else at_mm

@@ -175,6 +175,11 @@ OF_AB = '<activeForApproachRoute ref="AB"/><isLimitedBy ref="C"/>'
 TURNS = '<{0} inPosition="{1}"><refersToSwitch ref="P"/></{0}>'
 OVER_P = spot("A", "w", "0.8") + spot("B", "e", "0.2") + spot("C", "e", "0.6") + spot("D", "e", "0.8")
 LIMITS_P = OVERLAP.format("1", OF_AB + TURNS.format("requiresSwitchInPosition", "right"))
+MARKER = '<signalIS id="mark">{}</signalIS>'
+ONE_MARKER = '<switchIL id="il"><refersTo ref="P"/><hasGaugeClearanceMarker ref="mark"/></switchIL>'
+ON_E = '<spotLocation netElementRef="e" intrinsicCoord="0.06"{}/>'
+LONG_TRACK = """<track id="T"><linearLocation><associatedNetElement netElementRef="e"{}/></linearLocation>
+<length value="{}" type="{}"/></track>"""
 
 
 def level(*names: str) -> str:
@@ -372,6 +377,32 @@ DANGERS = DANGEROUS_TABLES | {
         "a route wants one point right and left",
         "in 'right' and in 'left'",
         *("AB", "P"),
+    ),
+    "marker told twice.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES + MARKER.format(ON_E.format(' pos="90"')), ONE_MARKER),
+        "a leg is told to be clear from 30 m on and from 90 m on: a train would stand foul",
+        "an element lies in one place",
+        "mark",
+    ),
+    "marker in two places.railml": danger_of(
+        railml(
+            TURNOUT, ON_LEGS, SWITCHES + MARKER.format(ON_E.format("") + ON_E.format("").replace("6", "8")), ONE_MARKER
+        ),
+        "a clearance marker lies in two places on one leg",
+        "an element lies in one place",
+        "mark",
+    ),
+    "track shorter.railml": danger_of(
+        railml(BOTH, SPOTS, LONG_TRACK.format("", "50", "physical")),
+        "a net element is told to be 500 m long, and its track 50 m",
+        "a net element has one length",
+        *("e", "T"),
+    ),
+    "track of a part.railml": danger_of(
+        railml(BOTH, SPOTS, LONG_TRACK.format(' posBegin="0" posEnd="50"', "50", "physical")),
+        "the only track over a net element of 500 m runs over 50 m of it",
+        "the only one there, runs over 50 m of it",
+        *("e", "T"),
     ),
     "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
