@@ -7,7 +7,8 @@ import re
 import pytest
 
 from models.layouts import BadInput, check, load_text
-from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, railml
+from tests.independent.layouts.dangerous import DANGERS
+from tests.independent.layouts.dangerous_railml import BOTH, SPOTS, railml
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
