@@ -10,6 +10,7 @@ from models.layouts import BadInput, Imported, check, load_text
 from models.layouts.conflict_pairs import Conflicts
 from models.layouts.native import import_native
 from models.layouts.railml.overlaps import FITS, OF_A_ROUTE
+from tests.independent.layouts.dangerous_railml import CROSSES, CROSSING, FOULED, SPOTS, railml
 from tests.layouts.railml_made import railml_of
 from tests.layouts.stations import plain_station, railjson_of
 
@@ -106,6 +107,12 @@ def test_an_overlap_is_that_of_the_routes_that_end_where_its_asset_stands() -> N
         assert bool(imported.layout.overlap["a-d"]) == speaks  # type: ignore[index]
         odd = [each.elements for each in check(imported).violations if each.axiom == OF_A_ROUTE]
         assert odd == ([] if speaks else [("o", asset)])
+
+
+def test_a_detector_that_fouls_a_crossing_joins_the_blocks_beside_it() -> None:
+    text = railml(CROSSING, SPOTS, CROSSES.format(""), FOULED.format("A tags"))
+    block, before = "B:A tags+B tags+C tags+D tags", "B:A tags"
+    assert before in load_text("crossing.railml", text).layout.fouls[block]  # type: ignore[index]
 
 
 def test_of_several_overlaps_the_first_is_taken_and_timers_are_not() -> None:

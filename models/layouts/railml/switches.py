@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from kernel.names import Block, Point
+from kernel.names import Block
 from models.layouts.blocks import Blocks
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
@@ -104,7 +104,7 @@ def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: B
                 _note_clear(clear_mm, point.name, found, name, findings)
         for item in source.all("hasFoulingTrainDetectors", switch):
             detector = source.attribute(signal_of(source, source.referred(item)), "id")
-            _foul(point.name, detector, marks, blocks, fouls, findings)
+            _foul(point, detector, marks, blocks, fouls, findings)
     return Clearance(clear_mm, fouls)
 
 
@@ -136,20 +136,21 @@ def _along(source: Document, topology: Topology, point: Junction, marker: Elemen
 
 
 def _foul(
-    point: str,
+    point: Junction,
     detector: str,
     marks: Marks,
     blocks: Blocks,
     fouls: dict[Block, frozenset[Block]],
     findings: Findings,
 ) -> None:
-    """The block behind a detector that proves nothing of a point's clearance fouls the block of the point."""
-    mark, own = marks.of.get(detector), blocks.stands_in[Point(point)]
+    """The block behind a detector that proves nothing of a point's or crossing's clearance fouls its block."""
+    mark = marks.of.get(detector)
+    (own,) = {blocks.of[blocks.segments.leaving[end][0]] for end in point.ports.values()}
     sides = blocks.segments.beside.get(mark or "", {}).values()
     beside = {blocks.of[heading[0]] for heading in sides}
     if own not in beside:
-        text = f"detector '{detector}' is said to foul switch '{point}', and does not bound its block"
-        findings.violation(FOULS, (point, detector), text)
+        text = f"detector '{detector}' is said to foul switch '{point.name}', and does not bound its block"
+        findings.violation(FOULS, (point.name, detector), text)
     for other in beside - {own} if own in beside else ():
         fouls[own] = fouls.get(own, frozenset()) | {other}
         fouls[other] = fouls.get(other, frozenset()) | {own}

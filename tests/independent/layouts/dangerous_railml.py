@@ -74,6 +74,8 @@ ONE_MARKER = '<switchIL id="il"><refersTo ref="P"/><hasGaugeClearanceMarker ref=
 ON_E = '<spotLocation netElementRef="e" intrinsicCoord="0.06"{}/>'
 LONG_TRACK = """<track id="T"><linearLocation><associatedNetElement netElementRef="e"{}/></linearLocation>
 <length value="{}" type="{}"/></track>"""
+CROSSING = BOTH + relation("wn", "w", "n", "None").replace('positionOnB="0"', 'positionOnB="1"')
+FOULED = '<switchIL id="il"><refersTo ref="X"/><hasFoulingTrainDetectors ref="{}"/></switchIL>'
 
 
 def level(*names: str) -> str:
@@ -193,6 +195,12 @@ DANGEROUS_RAILML = {
         "the only track over a net element of 500 m runs over 50 m of it",
         "the only one there, runs over 50 m of it",
         *("e", "T"),
+    ),
+    "crossing fouled from afar.railml": danger_of(
+        railml(CROSSING, SPOTS + spot("E", "w", "0.2"), CROSSES.format(""), FOULED.format("E tags")),
+        "a detector is told to foul a crossing from which it lies a block away",
+        "does not bound its block",
+        *("X", "E tags"),
     ),
     "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
