@@ -36,13 +36,15 @@ class Marks:
     parts: set[str] = field(default_factory=set)
     _at: dict[tuple[str, int], str] = field(default_factory=dict)
 
-    def put(self, source: Document, element: Element, mark: Mark) -> None:
+    def put(self, source: Document, element: Element, mark: Mark, joint: tuple[str, int] | None = None) -> None:
         """Put an element in its place, where another one may stand already for it.
+
+        ``joint``: the same place for all that stand at one joint, on whichever of its tracks.
 
         Raises:
             BadInput: track goes on behind one of the two and not behind the other.
         """
-        first = self.of[mark.name] = self._at.setdefault((mark.track, mark.at_mm), mark.name)
+        first = self.of[mark.name] = self._at.setdefault(joint or (mark.track, mark.at_mm), mark.name)
         if first == mark.name:
             self.marks[mark.name] = mark
         elif self.marks[first].cuts != mark.cuts:
@@ -68,17 +70,34 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
-            spot = spots[0]
-            found.put(source, element, Mark(name, *placed(source, topology, name, spot), cuts))
+            place = placed(source, topology, name, spots[0])
+            found.put(source, element, Mark(name, *place, cuts), topology.joint(*place))
             compare_places(source, found.of[name], name, spots, topology, findings)
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
                 found.detectors.add(found.of[name])
-            direction = spot.get("applicationDirection", "")
-            if direction in DIRECTIONS:
-                found.side[name] = DIRECTIONS[direction]
+            sides = _sides(source, topology, found.marks[found.of[name]], name, spots)
+            if len(sides) == 1:
+                found.side[name] = sides.pop()
+            elif sides and kind == "signalIS":
+                text = f"signal '{name}' is told to speak to trains of both directions: give each its own signal"
+                findings.violation(ONE_WAY, (name,), text)
     return found
+
+
+def _sides(source: Document, topology: Topology, mark: Mark, name: str, spots: Sequence[Element]) -> set[int]:
+    """The sides of its mark that an element is told to speak to, where the mark stands; none if one place says both."""
+    joint, sides = topology.joint(mark.track, mark.at_mm), set()
+    for spot in spots:
+        place, direction = placed(source, topology, name, spot), spot.get("applicationDirection", "")
+        if topology.joint(*place) != joint:
+            continue
+        if direction == "both":
+            return set()
+        if direction in DIRECTIONS:
+            sides.add(topology.side_from(*place, DIRECTIONS[direction], mark.track))
+    return sides
 
 
 def spots_of(source: Document, topology: Topology, element: Element) -> list[Element]:
@@ -122,6 +141,7 @@ def _compare_metres(
         findings.violation(ONE_PLACE, list(dict.fromkeys((name, mark))), f"{text}: correct one of the two")
 
 
+ONE_WAY = "a signal speaks to trains of one direction"
 ONE_PLACE = "an element lies in one place"
 SAME_PLACE_M = 1.0
 SAME_SHARE = 0.0001

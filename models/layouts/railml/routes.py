@@ -122,7 +122,9 @@ def _side(source: Document, segments: Segments, marks: Marks, entry: Element) ->
         return marks.side[name]
     sides = list(segments.beside[marks.of[name]])
     if len(sides) > 1:
-        raise source.bad(entry, "says of no direction that it speaks to", "add applicationDirection normal or reverse")
+        raise source.bad(
+            entry, "says of no one direction that it speaks to", "give applicationDirection normal or reverse"
+        )
     return sides[0]
 
 

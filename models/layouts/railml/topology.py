@@ -45,10 +45,33 @@ class Topology:
     def joined_at(self) -> Mapping[tuple[str, int], str]:
         """For each end of track that is joined, by net element and mm, the junction there."""
         return {
-            (track, self.lengths_mm[track] if side == HIGH else 0): name
+            (end[0], self._at_mm(end)): name
             for name, junction in self.junctions.items()
-            for track, side in junction.ports.values()
+            for end in junction.ports.values()
         }
+
+    @cached_property
+    def _meets(self) -> Mapping[tuple[str, int], tuple[End, End]]:
+        """For each end of track at a plain joint, by net element and mm, the two ends that meet there."""
+        found: dict[tuple[str, int], tuple[End, End]] = {}
+        for junction in self.junctions.values():
+            if len(junction.ports) == 2 and len(set(junction.ports.values())) == 2:
+                one, other = sorted(junction.ports.values())
+                found |= {(end[0], self._at_mm(end)): (one, other) for end in (one, other)}
+        return found
+
+    def joint(self, track: str, at_mm: int) -> tuple[str, int]:
+        """A place, told alike by each of the two ends of track that meet there."""
+        ends = self._meets.get((track, at_mm))
+        return (track, at_mm) if ends is None else (ends[0][0], self._at_mm(ends[0]))
+
+    def side_from(self, track: str, at_mm: int, side: int, seen: str) -> int:
+        """The side of a place that is told on one track, by the track of the mark that stands there."""
+        ends = self._meets.get((track, at_mm))
+        return 1 - side if ends is not None and seen != track and ends[0][1] == ends[1][1] else side
+
+    def _at_mm(self, end: End) -> int:
+        return self.lengths_mm[end[0]] if end[1] == HIGH else 0
 
 
 @dataclass(frozen=True)

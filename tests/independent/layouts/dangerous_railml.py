@@ -76,6 +76,10 @@ LONG_TRACK = """<track id="T"><linearLocation><associatedNetElement netElementRe
 <length value="{}" type="{}"/></track>"""
 CROSSING = BOTH + relation("wn", "w", "n", "None").replace('positionOnB="0"', 'positionOnB="1"')
 FOULED = '<switchIL id="il"><refersTo ref="X"/><hasFoulingTrainDetectors ref="{}"/></switchIL>'
+BACK = '<spotLocation netElementRef="{}" intrinsicCoord="{}" applicationDirection="{}"/>'
+HEAD_ON = relation("we", "w", "e").replace('positionOnB="0"', 'positionOnB="1"') + relation("ns", "n", "s")
+ROUND = BOTH + relation("ew", "e", "w")
+ON_RING = spot("A", "w", "0.2") + spot("B", "w", "0.6") + spot("G", "e", "0.5") + spot("C", "n", "0.8")
 
 
 def level(*names: str) -> str:
@@ -202,6 +206,27 @@ DANGEROUS_RAILML = {
         "does not bound its block",
         *("X", "E tags"),
     ),
+    "both ways round.railml": danger_of(
+        railml(ROUND, ON_RING + spot("D", "s", "0.2")).replace(
+            '<signalIS id="A">', '<signalIS id="A">' + BACK.format("w", "0.2", "reverse")
+        ),
+        "the entry of a route on a ring speaks to trains of both directions: the route may run either way round",
+        "says of no one direction",
+    ),
+    "exit both ways.railml": danger_of(
+        railml(BOTH, SPOTS).replace('<signalIS id="B">', '<signalIS id="B">' + BACK.format("e", "0.2", "reverse")),
+        "a signal that a route ends at is told to speak to trains of both directions",
+        "a signal speaks to trains of one direction",
+        "B",
+    ),
+    "both ways at a joint.railml": danger_of(
+        railml(
+            HEAD_ON, spot("B", "e", "1.0", BACK.format("w", "1.0", "normal")) + SPOTS.replace(spot("B", "e", "0.2"), "")
+        ),
+        "the ends of two tracks meet, and a signal there speaks to trains that leave each of them",
+        "a signal speaks to trains of one direction",
+        "B",
+    ),
     "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
         "a relation leads on from known track to an element that no level Micro lists",
@@ -252,3 +277,15 @@ DANGEROUS_RAILML = {
     ),
 }
 """Every file with what must be said of it."""
+
+ONE_SIGN = SPOTS.replace(spot("B", "e", "0.2"), "{}") + spot("F", "e", "0.5")
+AT_W, AT_E = BACK.format("w", "1.0", "normal"), BACK.format("e", "{}", "{}")
+APART = '<signalIS id="B">{}</signalIS><trainDetectionElement id="B tags">{}</trainDetectionElement>'
+RAILML_THAT_HOLD = {
+    "two lines.railml": railml(BOTH, SPOTS),
+    "joint on both tracks.railml": railml(BOTH, ONE_SIGN.format(APART.format(AT_E.format("0.0", "normal"), AT_W))),
+    "tracks that meet head on.railml": railml(
+        HEAD_ON, ONE_SIGN.format(APART.format(AT_E.format("1.0", "reverse") + AT_W, AT_W))
+    ),
+}
+"""Files that look much like these and hold."""

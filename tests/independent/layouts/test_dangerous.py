@@ -8,7 +8,7 @@ import pytest
 
 from models.layouts import BadInput, check, load_text
 from tests.independent.layouts.dangerous import DANGERS
-from tests.independent.layouts.dangerous_railml import BOTH, SPOTS, railml
+from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
@@ -37,7 +37,7 @@ def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
     assert refused >= DANGERS[name].elements
 
 
-@pytest.mark.parametrize(("name", "text"), [*TABLES_THAT_HOLD.items(), ("two lines.railml", railml(BOTH, SPOTS))])
+@pytest.mark.parametrize(("name", "text"), [*TABLES_THAT_HOLD.items(), *RAILML_THAT_HOLD.items()])
 def test_without_its_danger_nothing_of_the_kind_is_said(name: str, text: str) -> None:
     result = check(load_text(name, text))
     assert result.verdict == "holds"
