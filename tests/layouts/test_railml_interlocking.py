@@ -109,6 +109,15 @@ def test_an_overlap_is_that_of_the_routes_that_end_where_its_asset_stands() -> N
         assert odd == ([] if speaks else [("o", asset)])
 
 
+def test_an_overlap_ends_at_a_signal_that_no_route_uses() -> None:
+    signal = '<signalIS id="limit"><spotLocation netElementRef="x" intrinsicCoord="0.5"/></signalIS>'
+    text = RAILML.replace("</functionalInfrastructure>", f"{signal}</functionalInfrastructure>")
+    assert "B:g+h" in told(text=text).layout.blocks
+    imported = told(overlap('<isLimitedBy ref="limit"/>'), text=text)
+    assert imported.layout.overlap["a-d"] == {"B:d+f+g", "B:g+limit"}  # type: ignore[index]
+    assert check(imported).verdict == "holds"
+
+
 def test_a_detector_that_fouls_a_crossing_joins_the_blocks_beside_it() -> None:
     text = railml(CROSSING, SPOTS, CROSSES.format(""), FOULED.format("A tags"))
     block, before = "B:A tags+B tags+C tags+D tags", "B:A tags"

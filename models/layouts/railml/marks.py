@@ -1,7 +1,7 @@
-"""Where blocks end: at train detection elements, and at signals that a route begins or ends at.
+"""Where blocks end: at train detection elements, and at signals that a route begins or ends at, or an overlap.
 
-A train without track circuits is found at tags alone, so a signal that routes begin or end at has a pair of tags
-of its own, unless a detector stands in the same place.
+A train without track circuits is found at tags alone, so a signal that routes begin or end at, or that limits an
+overlap, has a pair of tags of its own, unless a detector stands in the same place.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Marks:
 
 
 def read_marks(source: Document, topology: Topology, signals: Mapping[str, Element], findings: Findings) -> Marks:
-    """Read them; ``signals``: those that routes begin or end at.
+    """Read them; ``signals``: those that routes begin or end at, and that limit overlaps.
 
     Raises:
         BadInput: one lies nowhere.

@@ -106,7 +106,7 @@ def _way(
     if side not in segments.beside[first]:
         what = f"route '{route.wanted.name}' ends at '{first}', where track ends"
         raise source.bad(overlap, what, "take the overlap away")
-    limits = {marks.of.get(source.attribute(each, "id"), "") for each in _limits(source, overlap)}
+    limits = {marks.of.get(source.attribute(each, "id"), "") for each in limits_of(source, overlap)}
     listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
     if limits:
         ways = ways_from(segments, first, side, lambda mark, _: mark in limits)
@@ -123,7 +123,12 @@ def _way(
     return fitting[0]
 
 
-def _limits(source: Document, overlap: Element) -> list[Element]:
+def limits_of(source: Document, overlap: Element) -> list[Element]:
+    """The elements on the track that limit an overlap.
+
+    Raises:
+        BadInput: one is not there, or stands for none on the track.
+    """
     return [signal_of(source, source.referred(each)) for each in source.all("isLimitedBy", overlap)]
 
 
@@ -149,7 +154,7 @@ def _compare_length(
         return
     name, told_mm = source.attribute(overlap, "id"), round(source.number(overlap, "length", 0.001, LONGEST_M) * 1_000)
     long_mm = _long_mm(segments, way)
-    ended = bool(_limits(source, overlap)) or source.first("hasTvdSection", overlap) is not None
+    ended = bool(limits_of(source, overlap)) or source.first("hasTvdSection", overlap) is not None
     if long_mm < told_mm - (SAME_PLACE_M * 1_000 if ended else 0):
         text = (
             f"overlap '{name}' of route '{route.wanted.name}' is told to be {told_mm:,} mm long, and from its exit "
