@@ -25,7 +25,8 @@ class Marks:
 
     ``side``: for a signal, the end of its net element that trains it speaks to run to.
     ``signals``: the signals; ``detectors``: marks that a detector stands at; ``parts``: those of them at
-    which a route is released in parts, by the sections beside them.
+    which a route is released in parts, by the sections beside them.  ``border``: for each further mark of a border
+    that several tracks end at, the border.
     """
 
     marks: dict[str, Mark] = field(default_factory=dict)
@@ -34,7 +35,17 @@ class Marks:
     signals: set[str] = field(default_factory=set)
     detectors: set[str] = field(default_factory=set)
     parts: set[str] = field(default_factory=set)
+    border: dict[str, str] = field(default_factory=dict)
     _at: dict[tuple[str, int], str] = field(default_factory=dict)
+
+    def standing(self, name: str) -> set[str]:
+        """The marks that stand for an element: one, or those of a border at each track that it ends; none."""
+        parts = [name, *(part for part, border in self.border.items() if border == name)]
+        return {self.of[part] for part in parts if part in self.of}
+
+    def element_of(self, mark: str) -> str:
+        """What a mark goes by where elements are told: its own name, or that of the border that it is a part of."""
+        return self.border.get(mark, mark)
 
     def put(self, source: Document, element: Element, mark: Mark, joint: tuple[str, int] | None = None) -> None:
         """Put an element in its place, where another one may stand already for it.
@@ -70,9 +81,12 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
-            place = placed(source, topology, name, spots[0])
-            found.put(source, element, Mark(name, *place, cuts), topology.joint(*place))
-            compare_places(source, found.of[name], name, spots, topology, findings)
+            for group in _parts(source, topology, element, spots):
+                place = placed(source, topology, name, group[0])
+                part = name if group[0] is spots[0] else _part_of(name, place[0])
+                found.put(source, element, Mark(part, *place, cuts), topology.joint(*place))
+                compare_places(source, found.of[part], name, group, topology, findings)
+                found.border |= {part: name} if part != name else {}
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
@@ -84,6 +98,23 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                 text = f"signal '{name}' is told to speak to trains of both directions: give each its own signal"
                 findings.violation(ONE_WAY, (name,), text)
     return found
+
+
+def _parts(source: Document, topology: Topology, element: Element, spots: Sequence[Element]) -> list[list[Element]]:
+    """The places of an element, those of a border that several tracks end at apart, track by track."""
+    name, by_track = source.attribute(element, "id"), dict[str, list[Element]]()
+    for spot in spots if kind_of(element) == "border" else ():
+        track, at_mm = placed(source, topology, name, spot)
+        ends = at_mm in (0, topology.lengths_mm[track]) and (track, at_mm) not in topology.joined_at
+        if not ends or (track not in by_track and _part_of(name, track) in source.by_id):
+            return [list(spots)]
+        by_track.setdefault(track, []).append(spot)
+    return list(by_track.values()) or [list(spots)]
+
+
+def _part_of(border: str, track: str) -> str:
+    """The name of a border where it ends one more track."""
+    return f"{border} on {track}"
 
 
 def _sides(source: Document, topology: Topology, mark: Mark, name: str, spots: Sequence[Element]) -> set[int]:

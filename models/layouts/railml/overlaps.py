@@ -77,7 +77,7 @@ def _routes_of(
 def _ends_at(marks: Marks, route: Followed, asset: str) -> bool:
     """Whether a route ends where an element stands, and runs the way that this speaks to, if it says which."""
     side = route.way.arrives[1]
-    return marks.of.get(asset) == route.wanted.exit and marks.side.get(asset, side) == side
+    return route.wanted.exit in marks.standing(asset) and marks.side.get(asset, side) == side
 
 
 def _with(
@@ -106,9 +106,9 @@ def _way(
     if side not in segments.beside[first]:
         what = f"route '{route.wanted.name}' ends at '{first}', where track ends"
         raise source.bad(overlap, what, "take the overlap away")
-    limits = {marks.of.get(source.attribute(each, "id"), "") for each in limits_of(source, overlap)}
+    limits = [each for element in limits_of(source, overlap) for each in marks.standing(element.get("id", ""))]
     listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
-    if limits:
+    if source.first("isLimitedBy", overlap) is not None:
         ways = ways_from(segments, first, side, lambda mark, _: mark in limits)
     elif listed:
         ways = _over_sections(source, segments, marks, first, side, listed)
@@ -139,7 +139,9 @@ def _over_sections(
     bounds, track = demarcated(source, marks), segments_of(source, segments, marks)
     once = [each for name in listed for each in bounds.get(name, ())]
     inside = frozenset[int]().union(*(track.get(name, ()) for name in listed))
-    ways = ways_from(segments, mark, side, lambda end, heading: heading[0] in inside and once.count(end) == 1)
+    ways = ways_from(
+        segments, mark, side, lambda end, heading: heading[0] in inside and once.count(marks.element_of(end)) == 1
+    )
     return [way for way in ways if all(track[name] & set(way.segments) for name in listed if track.get(name))]
 
 

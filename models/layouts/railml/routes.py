@@ -83,13 +83,15 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
     route, (first, last) = ends[0], (source.attribute(each, "id") for each in ends[1:])
     name = source.attribute(route, "id")
     given = positions_told(source, route, name, segments, findings)
-    side = _side(source, segments, marks, ends[1])
-    goal = marks.of.get(last)
-    if goal is None:
-        raise source.bad(ends[2], "has no place on the track", "add its spotLocation")
+    starts = {mark: _side(source, segments, marks, ends[1], mark) for mark in sorted(marks.standing(first))}
+    goals = marks.standing(last)
+    for element, standing in ((ends[1], starts), (ends[2], goals)):
+        if not standing:
+            raise source.bad(element, "has no place on the track", "add its spotLocation")
     ways = [
-        way
-        for way in ways_from(segments, marks.of[first], side, lambda mark, _: mark == goal)
+        (start, way)
+        for start, side in starts.items()
+        for way in ways_from(segments, start, side, lambda mark, _: mark in goals)
         if all(way.positions.get(point, position) == position for point, position in given.items())
     ]
     if not ways:
@@ -98,7 +100,7 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
     if len(ways) > 1:
         what = f"{len(ways)} ways lead from '{first}' to '{last}'"
         raise source.bad(route, what, "name the position of each facing point")
-    (way,) = ways
+    ((start, way),) = ways
     if marks.side.get(last, way.arrives[1]) != way.arrives[1]:
         text = f"route '{name}' ends at '{last}', which speaks to trains the other way"
         findings.remark([name, last], text, "derived")
@@ -109,18 +111,16 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
     for point, at in against.items():
         text = f"route '{name}' wants switch '{point}' in '{at}' in its departure track, and otherwise as well"
         findings.violation(POSITIONS_FIT, [name, point], text)
-    wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, positions, parts, flank=flank)
+    wanted = Wanted(name, f"route '{name}'", start, starts[start], way.to, positions, parts, flank=flank)
     return Followed(wanted, way)
 
 
-def _side(source: Document, segments: Segments, marks: Marks, entry: Element) -> int:
+def _side(source: Document, segments: Segments, marks: Marks, entry: Element, mark: str) -> int:
     """The side of its entry that a route runs to."""
     name = source.attribute(entry, "id")
-    if name not in marks.of:
-        raise source.bad(entry, "has no place on the track", "add its spotLocation")
     if name in marks.side:
         return marks.side[name]
-    sides = list(segments.beside[marks.of[name]])
+    sides = list(segments.beside[mark])
     if len(sides) > 1:
         raise source.bad(
             entry, "says of no one direction that it speaks to", "give applicationDirection normal or reverse"

@@ -88,6 +88,8 @@ def level(*names: str) -> str:
     return f'<network><level descriptionLevel="Micro">{listed}</level></network>'
 
 
+LINES_END = '<border id="edge">' + BACK.format("w", "0.0", "both") + BACK.format("n", "{}", "both") + "</border>"
+
 DANGEROUS_RAILML = {
     "crossing apart.railml": danger_of(
         railml(BOTH, SPOTS, CROSSES.format('<turningBranch netRelationRef="ns"/>')),
@@ -227,6 +229,12 @@ DANGEROUS_RAILML = {
         "a signal speaks to trains of one direction",
         "B",
     ),
+    "border within a track.railml": danger_of(
+        railml(BOTH, SPOTS, LINES_END.format("0.1")),
+        "a border lies at the end of one track, and within another one",
+        "an element lies in one place",
+        "edge",
+    ),
     "two networks.railml": danger_of(
         railml(BOTH, SPOTS, networks=level("w", "e", "n")),
         "a relation leads on from known track to an element that no level Micro lists",
@@ -281,7 +289,13 @@ DANGEROUS_RAILML = {
 ONE_SIGN = SPOTS.replace(spot("B", "e", "0.2"), "{}") + spot("F", "e", "0.5")
 AT_W, AT_E = BACK.format("w", "1.0", "normal"), BACK.format("e", "{}", "{}")
 APART = '<signalIS id="B">{}</signalIS><trainDetectionElement id="B tags">{}</trainDetectionElement>'
+SECTIONS = "".join(
+    f'<tvdSection id="{border}{detector}"><hasDemarcatingBorder ref="{border}"/>'
+    f'<hasDemarcatingTraindetector ref="{detector} tags"/></tvdSection>'
+    for border, detector in (("edge", "A"), ("edge", "C"))
+)
 RAILML_THAT_HOLD = {
+    "border of two tracks.railml": railml(BOTH, SPOTS, LINES_END.format("0.0"), SECTIONS),
     "two lines.railml": railml(BOTH, SPOTS),
     "joint on both tracks.railml": railml(BOTH, ONE_SIGN.format(APART.format(AT_E.format("0.0", "normal"), AT_W))),
     "tracks that meet head on.railml": railml(
