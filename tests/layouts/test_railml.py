@@ -101,6 +101,23 @@ def test_a_mark_at_a_joint_may_be_told_at_both_ends_that_meet_there() -> None:
         assert [v.elements for v in result.violations if v.axiom == "an element lies in one place"] == odd
 
 
+@pytest.mark.parametrize(
+    ("part", "length", "long"),
+    [
+        ("", 'value="1009"', True),
+        ("", 'value="1011"', False),
+        ("", 'value="300" type="operational"', True),
+        ('intrinsicCoordBegin="0.1"', 'value="300"', True),
+        ('intrinsicCoordBegin="0" intrinsicCoordEnd="1"', 'value="300"', False),
+    ],
+)
+def test_a_net_element_is_as_long_as_the_track_that_is_all_of_it(part: str, length: str, long: bool) -> None:
+    location = f'<linearLocation><associatedNetElement netElementRef="z" {part}/></linearLocation>'
+    track = f'<track id="T">{location}<length {length}/></track></functionalInfrastructure>'
+    result = check(load_text("railml", RAILML.replace("</functionalInfrastructure>", track)))
+    assert [v.elements for v in result.violations] == ([] if long else [("z", "T")])
+
+
 def test_a_branch_that_is_told_often_is_one_branch() -> None:
     branch = next(line for line in RAILML.splitlines(keepends=True) if "<leftBranch" in line)
     assert facts(load_text("railml", RAILML.replace(branch, branch * 12)), {}) == facts(load_text("railml", RAILML), {})

@@ -9,7 +9,8 @@ import pytest
 from models.layouts import BadInput, Imported, check, load_text
 from models.layouts.conflict_pairs import Conflicts
 from models.layouts.native import import_native
-from models.layouts.railml.overlaps import FITS
+from models.layouts.railml.overlaps import FITS, OF_A_ROUTE
+from tests.independent.layouts.dangerous_railml import CROSSES, CROSSING, FOULED, SPOTS, railml
 from tests.layouts.railml_made import railml_of
 from tests.layouts.stations import plain_station, railjson_of
 
@@ -90,8 +91,37 @@ def test_an_overlap_that_is_told_longer_than_the_track_is_a_violation() -> None:
         result = check(told(overlap("", more=f'length="{length}"')))
         assert [v.elements for v in result.violations if v.axiom == FITS] == found
         assert (result.verdict == "holds") == (not found)
-    limited = check(told(overlap('<isLimitedBy ref="g"/>', more='length="99000"')))
-    assert limited.verdict == "holds"
+
+
+@pytest.mark.parametrize("end", ['<isLimitedBy ref="g"/>', '<hasTvdSection ref="Q1"/>'])
+def test_an_overlap_is_as_long_as_the_way_to_what_ends_it(end: str) -> None:
+    for length, found in (("201", []), ("201.001", [("a-d", "o", "g")]), ("99000", [("a-d", "o", "g")])):
+        result = check(told(overlap(end, more=f'length="{length}"')))
+        assert [v.elements for v in result.violations if v.axiom == FITS] == found
+
+
+def test_an_overlap_is_that_of_the_routes_that_end_where_its_asset_stands() -> None:
+    limit = '<isLimitedBy ref="g"/>'
+    for asset, speaks in (("d-normal", True), ("d", True), ("a-normal", False), ("d-reverse", False)):
+        imported = told(overlap(limit if speaks else "", f'<relatedToTrackAsset ref="{asset}"/>'))
+        assert bool(imported.layout.overlap["a-d"]) == speaks  # type: ignore[index]
+        odd = [each.elements for each in check(imported).violations if each.axiom == OF_A_ROUTE]
+        assert odd == ([] if speaks else [("o", asset)])
+
+
+def test_an_overlap_ends_at_a_signal_that_no_route_uses() -> None:
+    signal = '<signalIS id="limit"><spotLocation netElementRef="x" intrinsicCoord="0.5"/></signalIS>'
+    text = RAILML.replace("</functionalInfrastructure>", f"{signal}</functionalInfrastructure>")
+    assert "B:g+h" in told(text=text).layout.blocks
+    imported = told(overlap('<isLimitedBy ref="limit"/>'), text=text)
+    assert imported.layout.overlap["a-d"] == {"B:d+f+g", "B:g+limit"}  # type: ignore[index]
+    assert check(imported).verdict == "holds"
+
+
+def test_a_detector_that_fouls_a_crossing_joins_the_blocks_beside_it() -> None:
+    text = railml(CROSSING, SPOTS, CROSSES.format(""), FOULED.format("A tags"))
+    block, before = "B:A tags+B tags+C tags+D tags", "B:A tags"
+    assert before in load_text("crossing.railml", text).layout.fouls[block]  # type: ignore[index]
 
 
 def test_of_several_overlaps_the_first_is_taken_and_timers_are_not() -> None:

@@ -9,7 +9,7 @@ from models.layouts.following import Follower
 from models.layouts.railml.declared import compare_declared
 from models.layouts.railml.document import Document, document
 from models.layouts.railml.marks import Marks, read_marks
-from models.layouts.railml.overlaps import with_overlaps
+from models.layouts.railml.overlaps import limits_of, with_overlaps
 from models.layouts.railml.routes import Ends, follow, route_ends
 from models.layouts.railml.sections import compare_sections, note_parts, with_groups
 from models.layouts.railml.switches import compare_branches, read_clearance
@@ -32,7 +32,7 @@ def import_railml(file: str, text: str, trains: tuple[str, ...]) -> Imported:
     note_parts(source, marks, findings)
     segments = cut_into_segments(Station(topology.lengths_mm, topology.junctions, marks.marks))
     followed = with_groups(source, marks, follow(source, segments, marks, routes, findings))
-    followed = with_overlaps(source, segments, marks, routes, followed, findings)
+    followed = with_overlaps(source, segments, marks, followed, findings)
     compare_sections(source, segments, marks, followed, findings)
     blocks = find_blocks(segments, {})
     follower = Follower(blocks, file, findings)
@@ -50,7 +50,7 @@ def _read(source: Document, findings: Findings) -> tuple[Topology, Marks, dict[s
         return *read_tracks(source, findings), {}
     topology = read_topology(source, findings)
     routes = route_ends(source)
-    signals = {source.attribute(end, "id"): end for ends in routes.values() for end in ends[1:]} or {
-        source.attribute(each, "id"): each for each in source.all("signalIS")
-    }
+    used = [end for ends in routes.values() for end in ends[1:]] or source.all("signalIS")
+    limits = [each for overlap in source.all("overlap") for each in limits_of(source, overlap)]
+    signals = {source.attribute(each, "id"): each for each in (*used, *limits)}
     return topology, read_marks(source, topology, signals, findings), routes

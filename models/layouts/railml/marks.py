@@ -1,7 +1,7 @@
-"""Where blocks end: at train detection elements, and at signals that a route begins or ends at.
+"""Where blocks end: at train detection elements, and at signals that a route begins or ends at, or an overlap.
 
-A train without track circuits is found at tags alone, so a signal that routes begin or end at has a pair of tags
-of its own, unless a detector stands in the same place.
+A train without track circuits is found at tags alone, so a signal that routes begin or end at, or that limits an
+overlap, has a pair of tags of its own, unless a detector stands in the same place.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ class Marks:
 
     ``side``: for a signal, the end of its net element that trains it speaks to run to.
     ``signals``: the signals; ``detectors``: marks that a detector stands at; ``parts``: those of them at
-    which a route is released in parts, by the sections beside them.
+    which a route is released in parts, by the sections beside them.  ``border``: for each further mark of a border
+    that several tracks end at, the border.
     """
 
     marks: dict[str, Mark] = field(default_factory=dict)
@@ -34,15 +35,27 @@ class Marks:
     signals: set[str] = field(default_factory=set)
     detectors: set[str] = field(default_factory=set)
     parts: set[str] = field(default_factory=set)
+    border: dict[str, str] = field(default_factory=dict)
     _at: dict[tuple[str, int], str] = field(default_factory=dict)
 
-    def put(self, source: Document, element: Element, mark: Mark) -> None:
+    def standing(self, name: str) -> set[str]:
+        """The marks that stand for an element: one, or those of a border at each track that it ends; none."""
+        parts = [name, *(part for part, border in self.border.items() if border == name)]
+        return {self.of[part] for part in parts if part in self.of}
+
+    def element_of(self, mark: str) -> str:
+        """What a mark goes by where elements are told: its own name, or that of the border that it is a part of."""
+        return self.border.get(mark, mark)
+
+    def put(self, source: Document, element: Element, mark: Mark, joint: tuple[str, int] | None = None) -> None:
         """Put an element in its place, where another one may stand already for it.
+
+        ``joint``: the same place for all that stand at one joint, on whichever of its tracks.
 
         Raises:
             BadInput: track goes on behind one of the two and not behind the other.
         """
-        first = self.of[mark.name] = self._at.setdefault((mark.track, mark.at_mm), mark.name)
+        first = self.of[mark.name] = self._at.setdefault(joint or (mark.track, mark.at_mm), mark.name)
         if first == mark.name:
             self.marks[mark.name] = mark
         elif self.marks[first].cuts != mark.cuts:
@@ -51,7 +64,7 @@ class Marks:
 
 
 def read_marks(source: Document, topology: Topology, signals: Mapping[str, Element], findings: Findings) -> Marks:
-    """Read them; ``signals``: those that routes begin or end at.
+    """Read them; ``signals``: those that routes begin or end at, and that limit overlaps.
 
     Raises:
         BadInput: one lies nowhere.
@@ -62,53 +75,105 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
             name = element.get("id")
             if name is None or (kind == "signalIS" and name not in signals):
                 continue
-            spots = list(source.all("spotLocation", element))
-            finest = [each for each in spots if each.get("netElementRef") in topology.lengths_mm]
-            spot = next(iter([*finest, *spots]), None)
-            if spot is None:
+            spots = spots_of(source, topology, element)
+            if not spots:
                 if name in signals:
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
-            found.put(source, element, Mark(name, *placed(source, topology, name, spot), cuts))
-            _compare_places(source, found.of[name], name, spot, topology, findings)
-            _compare_spots(source, name, finest, topology, findings)
+            for group in _parts(source, topology, element, spots):
+                place = placed(source, topology, name, group[0])
+                part = name if group[0] is spots[0] else _part_of(name, place[0])
+                found.put(source, element, Mark(part, *place, cuts), topology.joint(*place))
+                compare_places(source, found.of[part], name, group, topology, findings)
+                found.border |= {part: name} if part != name else {}
             if kind == "signalIS":
                 found.signals.add(name)
             if kind == "trainDetectionElement":
                 found.detectors.add(found.of[name])
-            direction = spot.get("applicationDirection", "")
-            if direction in DIRECTIONS:
-                found.side[name] = DIRECTIONS[direction]
+            sides = _sides(source, topology, found.marks[found.of[name]], name, spots)
+            if len(sides) == 1:
+                found.side[name] = sides.pop()
+            elif sides and kind == "signalIS":
+                text = f"signal '{name}' is told to speak to trains of both directions: give each its own signal"
+                findings.violation(ONE_WAY, (name,), text)
     return found
 
 
-def _compare_places(
-    source: Document, mark: str, name: str, spot: Element, topology: Topology, findings: Findings
-) -> None:
-    """Where a place is told twice, by share of the net element and by metres, the two must be one place."""
-    if spot.get("intrinsicCoord") is None or spot.get("pos") is None:
-        return
-    length_m = topology.lengths_mm[source.attribute(spot, "netElementRef")] / 1_000
-    pos_m = source.number(spot, "pos", -LONGEST_M, LONGEST_M)
-    share_m = source.number(spot, "intrinsicCoord", 0.0, 1.0) * length_m
-    if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
-        text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
-        findings.violation("an element lies in one place", list(dict.fromkeys((name, mark))), text)
+def _parts(source: Document, topology: Topology, element: Element, spots: Sequence[Element]) -> list[list[Element]]:
+    """The places of an element, those of a border that several tracks end at apart, track by track."""
+    name, by_track = source.attribute(element, "id"), dict[str, list[Element]]()
+    for spot in spots if kind_of(element) == "border" else ():
+        track, at_mm = placed(source, topology, name, spot)
+        ends = at_mm in (0, topology.lengths_mm[track]) and (track, at_mm) not in topology.joined_at
+        if not ends or (track not in by_track and _part_of(name, track) in source.by_id):
+            return [list(spots)]
+        by_track.setdefault(track, []).append(spot)
+    return list(by_track.values()) or [list(spots)]
 
 
-def _compare_spots(
-    source: Document, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
+def _part_of(border: str, track: str) -> str:
+    """The name of a border where it ends one more track."""
+    return f"{border} on {track}"
+
+
+def _sides(source: Document, topology: Topology, mark: Mark, name: str, spots: Sequence[Element]) -> set[int]:
+    """The sides of its mark that an element is told to speak to, where the mark stands; none if one place says both."""
+    joint, sides = topology.joint(mark.track, mark.at_mm), set()
+    for spot in spots:
+        place, direction = placed(source, topology, name, spot), spot.get("applicationDirection", "")
+        if topology.joint(*place) != joint:
+            continue
+        if direction == "both":
+            return set()
+        if direction in DIRECTIONS:
+            sides.add(topology.side_from(*place, DIRECTIONS[direction], mark.track))
+    return sides
+
+
+def spots_of(source: Document, topology: Topology, element: Element) -> list[Element]:
+    """Where an element lies: on net elements of the finest level, or, if on none of them, on the others."""
+    spots = list(source.all("spotLocation", element))
+    return [each for each in spots if each.get("netElementRef") in topology.lengths_mm] or spots
+
+
+def compare_places(
+    source: Document, mark: str, name: str, spots: Sequence[Element], topology: Topology, findings: Findings
 ) -> None:
-    """Of an element with several places, all are one, or ends of track that meet at one junction."""
+    """A place that is told twice is one place; ``mark``: the mark that stands there.
+
+    By share of the net element and by metres; and of an element with several places, all are one, or ends of track
+    that meet at one junction.
+
+    Raises:
+        BadInput: it lies nowhere.
+    """
+    for spot in spots:
+        _compare_metres(source, mark, name, spot, topology, findings)
     places = {placed(source, topology, name, spot) for spot in spots}
     junctions = {topology.joined_at.get(place) for place in places}
     if len(places) > 1 and (len(junctions) > 1 or None in junctions):
         told = ", ".join(f"'{track}' at {at_mm:,} mm" for track, at_mm in sorted(places))
         text = f"'{name}' lies in {len(places)} places: {told}; no junction joins them: correct its spotLocations"
-        findings.violation("an element lies in one place", (name,), text)
+        findings.violation(ONE_PLACE, (name,), text)
 
 
+def _compare_metres(
+    source: Document, mark: str, name: str, spot: Element, topology: Topology, findings: Findings
+) -> None:
+    """Where a place is told by share of the net element and by metres, the two must be one place."""
+    if spot.get("intrinsicCoord") is None or spot.get("pos") is None:
+        return
+    length_m = topology.lengths_mm[placed(source, topology, name, spot)[0]] / 1_000
+    pos_m = source.number(spot, "pos", -LONGEST_M, LONGEST_M)
+    share_m = source.number(spot, "intrinsicCoord", 0.0, 1.0) * length_m
+    if abs(pos_m - share_m) > max(SAME_PLACE_M, SAME_SHARE * length_m):
+        text = f"'{name}' lies at {share_m:,.1f} m by its intrinsicCoord, and at {pos_m:,.1f} m by its pos"
+        findings.violation(ONE_PLACE, list(dict.fromkeys((name, mark))), f"{text}: correct one of the two")
+
+
+ONE_WAY = "a signal speaks to trains of one direction"
+ONE_PLACE = "an element lies in one place"
 SAME_PLACE_M = 1.0
 SAME_SHARE = 0.0001
 """So far the two may be apart: as a share is written with four digits."""

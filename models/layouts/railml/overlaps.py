@@ -7,35 +7,35 @@ from dataclasses import replace
 
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element
-from models.layouts.railml.marks import Marks, signal_of
-from models.layouts.railml.routes import Ends, Followed, Way, given_positions, ways_from
+from models.layouts.railml.marks import SAME_PLACE_M, Marks, signal_of
+from models.layouts.railml.routes import POSITIONS_FIT, Followed, Way, positions_told, ways_from
 from models.layouts.railml.sections import demarcated, segments_of
 from models.layouts.track import Segments
 
 LONGEST_M = 100_000
 FITS = "there is as much track as an overlap is long"
+OF_A_ROUTE = "an overlap belongs to a route"
 
 
 def with_overlaps(
     source: Document,
     segments: Segments,
     marks: Marks,
-    routes: Mapping[str, Ends],
     followed: Sequence[Followed],
     findings: Findings,
 ) -> list[Followed]:
     """The routes with their overlaps, where the file tells any.
 
-    An overlap is that of the routes it names, or of all that end at the element it names.  It ends at what limits
-    it, else with its sections, else at the first mark that lies as far as it is long; where track ends before
-    that, the file contradicts itself.
+    An overlap is that of the routes it names, or of all that end where the element stands that it names; one of no
+    route is a violation.  It ends at what limits it, else with its sections, else at the first mark that lies as far
+    as it is long; where it is told to be longer than the way to its end, the file contradicts itself.
 
     Raises:
         BadInput: an overlap has no one way over the track, or does not say where it ends.
     """
     told: dict[str, list[Element]] = {}
     for overlap in source.all("overlap"):
-        for route in _routes_of(source, overlap, routes):
+        for route in _routes_of(source, overlap, marks, followed, findings):
             told.setdefault(route, []).append(overlap)
     found = []
     for each in followed:
@@ -53,29 +53,49 @@ def with_overlaps(
     return found
 
 
-def _routes_of(source: Document, overlap: Element, routes: Mapping[str, Ends]) -> list[str]:
+def _routes_of(
+    source: Document, overlap: Element, marks: Marks, followed: Sequence[Followed], findings: Findings
+) -> list[str]:
     """The routes that an overlap belongs to."""
+    routes = {each.wanted.name for each in followed}
     named = [source.attribute(source.referred(each), "id") for each in source.all("activeForApproachRoute", overlap)]
     for name in named:
         if name not in routes:
             raise source.bad(overlap, f"is told for '{name[:40]}', which is no route", "correct the reference")
-    asset = source.first("relatedToTrackAsset", overlap)
-    if named or asset is None:
+    if named:
         return named
-    exit_of = source.attribute(signal_of(source, source.referred(asset)), "id")
-    return [name for name, (_, _, last) in routes.items() if source.attribute(last, "id") == exit_of]
+    own, related = source.attribute(overlap, "id"), source.first("relatedToTrackAsset", overlap)
+    asset = None if related is None else source.attribute(signal_of(source, source.referred(related)), "id")
+    found = [each.wanted.name for each in followed if asset is not None and _ends_at(marks, each, asset)]
+    if not found:
+        why = "it names neither a route nor what it lies behind" if asset is None else f"no route ends at '{asset}'"
+        text = f"overlap '{own}' belongs to no route, and none claims it: {why}: give its activeForApproachRoute"
+        findings.violation(OF_A_ROUTE, [own] if asset is None else [own, asset], text)
+    return found
+
+
+def _ends_at(marks: Marks, route: Followed, asset: str) -> bool:
+    """Whether a route ends where an element stands, and runs the way that this speaks to, if it says which."""
+    side = route.way.arrives[1]
+    return route.wanted.exit in marks.standing(asset) and marks.side.get(asset, side) == side
 
 
 def _with(
     source: Document, segments: Segments, marks: Marks, route: Followed, overlap: Element, findings: Findings
 ) -> Followed:
     """One route with its overlap."""
-    given = dict(given_positions(source, overlap, segments))
+    name, wanted = source.attribute(overlap, "id"), route.wanted
+    given = positions_told(source, overlap, name, segments, findings)
     way = _way(source, segments, marks, route, overlap, given)
     _compare_length(source, segments, route, overlap, way, findings)
-    positions = {**way.positions, **route.wanted.positions}
-    flank = {**{point: at for point, at in given.items() if point not in positions}, **route.wanted.flank}
-    return replace(route, wanted=replace(route.wanted, overlap=way.to, positions=positions, flank=flank))
+    before = {**wanted.flank, **wanted.positions}
+    for point, at in {**given, **way.positions}.items():
+        if before.get(point, at) != at:
+            text = f"overlap '{name}' wants switch '{point}' in '{at}', its route '{wanted.name}' in '{before[point]}'"
+            findings.violation(POSITIONS_FIT, (wanted.name, name, point), f"{text}: correct one of the two")
+    positions = {**way.positions, **wanted.positions}
+    flank = {**{point: at for point, at in given.items() if point not in positions}, **wanted.flank}
+    return replace(route, wanted=replace(wanted, overlap=way.to, positions=positions, flank=flank))
 
 
 def _way(
@@ -86,9 +106,9 @@ def _way(
     if side not in segments.beside[first]:
         what = f"route '{route.wanted.name}' ends at '{first}', where track ends"
         raise source.bad(overlap, what, "take the overlap away")
-    limits = {marks.of.get(source.attribute(each, "id"), "") for each in _limits(source, overlap)}
+    limits = [each for element in limits_of(source, overlap) for each in marks.standing(element.get("id", ""))]
     listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
-    if limits:
+    if source.first("isLimitedBy", overlap) is not None:
         ways = ways_from(segments, first, side, lambda mark, _: mark in limits)
     elif listed:
         ways = _over_sections(source, segments, marks, first, side, listed)
@@ -103,7 +123,12 @@ def _way(
     return fitting[0]
 
 
-def _limits(source: Document, overlap: Element) -> list[Element]:
+def limits_of(source: Document, overlap: Element) -> list[Element]:
+    """The elements on the track that limit an overlap.
+
+    Raises:
+        BadInput: one is not there, or stands for none on the track.
+    """
     return [signal_of(source, source.referred(each)) for each in source.all("isLimitedBy", overlap)]
 
 
@@ -114,22 +139,28 @@ def _over_sections(
     bounds, track = demarcated(source, marks), segments_of(source, segments, marks)
     once = [each for name in listed for each in bounds.get(name, ())]
     inside = frozenset[int]().union(*(track.get(name, ()) for name in listed))
-    ways = ways_from(segments, mark, side, lambda end, heading: heading[0] in inside and once.count(end) == 1)
+    ways = ways_from(
+        segments, mark, side, lambda end, heading: heading[0] in inside and once.count(marks.element_of(end)) == 1
+    )
     return [way for way in ways if all(track[name] & set(way.segments) for name in listed if track.get(name))]
 
 
 def _compare_length(
     source: Document, segments: Segments, route: Followed, overlap: Element, way: Way, findings: Findings
 ) -> None:
-    """An overlap that is told by its length alone, and is longer than the track there, is a violation."""
-    if overlap.get("length") is None or _limits(source, overlap) or source.first("hasTvdSection", overlap) is not None:
+    """An overlap that is told to be longer than the way to its end is a violation.
+
+    Where its end is told as well, by limits or sections, the two may be as far apart as one place told twice.
+    """
+    if overlap.get("length") is None:
         return
     name, told_mm = source.attribute(overlap, "id"), round(source.number(overlap, "length", 0.001, LONGEST_M) * 1_000)
     long_mm = _long_mm(segments, way)
-    if long_mm < told_mm:
+    ended = bool(limits_of(source, overlap)) or source.first("hasTvdSection", overlap) is not None
+    if long_mm < told_mm - (SAME_PLACE_M * 1_000 if ended else 0):
         text = (
             f"overlap '{name}' of route '{route.wanted.name}' is told to be {told_mm:,} mm long, and from its exit "
-            f"'{route.wanted.exit}' to '{way.to}' there are {long_mm:,} mm: correct its length, or move the exit"
+            f"'{route.wanted.exit}' to '{way.to}' there are {long_mm:,} mm: correct its length or end, or move the exit"
         )
         findings.violation(FITS, (route.wanted.name, name, way.to), text)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from models.layouts.findings import Findings
-from models.layouts.railml.document import Document, Element
+from models.layouts.railml.document import Document, Element, kind_of
 from models.layouts.railml.marks import Marks, signal_of
 from models.layouts.told import Wanted
 from models.layouts.track import Cut, Heading, Joint, Segments, Stop
@@ -17,6 +17,7 @@ MOST_WAYS = 64
 MOST_STEPS = 20_000
 POSITIONS = ("facingSwitchInPosition", "trailingSwitchInPosition", "switchInPosition", "requiresSwitchInPosition")
 DEPARTURE = ("switchPositionInDepartureTrack",)
+POSITIONS_FIT = "a route's positions are of its points"
 
 Ends = tuple[Element, Element, Element]
 """A route, and the elements on the track that it begins and ends at."""
@@ -80,14 +81,17 @@ def follow(
 
 def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, findings: Findings) -> Followed:
     route, (first, last) = ends[0], (source.attribute(each, "id") for each in ends[1:])
-    name, given = source.attribute(route, "id"), dict(given_positions(source, route, segments))
-    side = _side(source, segments, marks, ends[1])
-    goal = marks.of.get(last)
-    if goal is None:
-        raise source.bad(ends[2], "has no place on the track", "add its spotLocation")
+    name = source.attribute(route, "id")
+    given = positions_told(source, route, name, segments, findings)
+    starts = {mark: _side(source, segments, marks, ends[1], mark) for mark in sorted(marks.standing(first))}
+    goals = marks.standing(last)
+    for element, standing in ((ends[1], starts), (ends[2], goals)):
+        if not standing:
+            raise source.bad(element, "has no place on the track", "add its spotLocation")
     ways = [
-        way
-        for way in ways_from(segments, marks.of[first], side, lambda mark, _: mark == goal)
+        (start, way)
+        for start, side in starts.items()
+        for way in ways_from(segments, start, side, lambda mark, _: mark in goals)
         if all(way.positions.get(point, position) == position for point, position in given.items())
     ]
     if not ways:
@@ -96,42 +100,63 @@ def _followed(source: Document, segments: Segments, marks: Marks, ends: Ends, fi
     if len(ways) > 1:
         what = f"{len(ways)} ways lead from '{first}' to '{last}'"
         raise source.bad(route, what, "name the position of each facing point")
-    (way,) = ways
+    ((start, way),) = ways
     if marks.side.get(last, way.arrives[1]) != way.arrives[1]:
         text = f"route '{name}' ends at '{last}', which speaks to trains the other way"
         findings.remark([name, last], text, "derived")
     parts = tuple(mark for mark in way.passed if mark in marks.parts)
-    departing = dict(given_positions(source, route, segments, DEPARTURE))
+    departing = positions_told(source, route, name, segments, findings, DEPARTURE)
     positions, flank = {**departing, **way.positions}, {p: at for p, at in given.items() if p not in way.positions}
     against = {p: at for p, at in departing.items() if positions[p] != at or given.get(p, at) != at}
     for point, at in against.items():
         text = f"route '{name}' wants switch '{point}' in '{at}' in its departure track, and otherwise as well"
-        findings.violation("a route's positions are of its points", [name, point], text)
-    wanted = Wanted(name, f"route '{name}'", marks.of[first], side, goal, positions, parts, flank=flank)
+        findings.violation(POSITIONS_FIT, [name, point], text)
+    wanted = Wanted(name, f"route '{name}'", start, starts[start], way.to, positions, parts, flank=flank)
     return Followed(wanted, way)
 
 
-def _side(source: Document, segments: Segments, marks: Marks, entry: Element) -> int:
+def _side(source: Document, segments: Segments, marks: Marks, entry: Element, mark: str) -> int:
     """The side of its entry that a route runs to."""
     name = source.attribute(entry, "id")
-    if name not in marks.of:
-        raise source.bad(entry, "has no place on the track", "add its spotLocation")
     if name in marks.side:
         return marks.side[name]
-    sides = list(segments.beside[marks.of[name]])
+    sides = list(segments.beside[mark])
     if len(sides) > 1:
-        raise source.bad(entry, "says of no direction that it speaks to", "add applicationDirection normal or reverse")
+        raise source.bad(
+            entry, "says of no one direction that it speaks to", "give applicationDirection normal or reverse"
+        )
     return sides[0]
 
 
-def given_positions(
-    source: Document, told: Element, segments: Segments, kinds: Sequence[str] = POSITIONS
-) -> Iterator[tuple[str, str]]:
+def positions_told(
+    source: Document,
+    told: Element,
+    name: str,
+    segments: Segments,
+    findings: Findings,
+    kinds: Sequence[str] = POSITIONS,
+) -> dict[str, str]:
     """The positions that a route or an overlap names for points; those of its departure track are of another kind.
+
+    A point that is named in two positions is a violation, and taken as not named.
 
     Raises:
         BadInput: it is no point, or has no such position.
     """
+    found: dict[str, list[str]] = {}
+    for point, at in _given_positions(source, told, segments, kinds):
+        found.setdefault(point, []).append(at)
+    for point, positions in found.items():
+        if len(set(positions)) > 1:
+            both = " and in ".join(f"'{at}'" for at in dict.fromkeys(positions))
+            text = f"{kind_of(told)} '{name}' wants switch '{point}' in {both}: leave one of them"
+            findings.violation(POSITIONS_FIT, [name, point], text)
+    return {point: positions[0] for point, positions in found.items() if len(set(positions)) == 1}
+
+
+def _given_positions(
+    source: Document, told: Element, segments: Segments, kinds: Sequence[str]
+) -> Iterator[tuple[str, str]]:
     for kind in kinds:
         for item in source.all(kind, told):
             refers = source.first("refersToSwitch", item)

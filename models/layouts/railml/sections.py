@@ -133,7 +133,7 @@ def _regions(segments: Segments, marks: Marks) -> Iterator[tuple[frozenset[int],
             case Cut(mark, beyond) if mark not in marks.detectors:
                 graph.add_edge(heading[0], beyond[0])
             case Cut(mark, _) | Stop(str() as mark):
-                around[heading[0]].add(mark)
+                around[heading[0]].add(marks.element_of(mark))
     for junction in segments.station.junctions.values():
         first, *others = (segments.leaving[end][0] for end in junction.ports.values())
         graph.add_edges_from((first, other) for other in others)

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations, product
 
-from kernel.names import Block, Point
+from kernel.names import Block
 from models.layouts.blocks import Blocks
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
-from models.layouts.railml.marks import Marks, placed, signal_of
+from models.layouts.railml.marks import Marks, compare_places, placed, signal_of, spots_of
 from models.layouts.railml.topology import Topology
 from models.layouts.track import HIGH, Cut, Heading, Joint, Junction
 
@@ -89,20 +89,24 @@ def read_clearance(source: Document, topology: Topology, marks: Marks, blocks: B
     """
     clear_mm: dict[tuple[str, str], int] = {}
     fouls: dict[Block, frozenset[Block]] = {}
+    compared: set[str] = set()
     for switch, point in _switches(source, topology):
         for item in source.all("hasGaugeClearanceMarker", switch):
             marker = signal_of(source, source.referred(item))
+            name = source.attribute(marker, "id")
+            if name not in marks.of and name not in compared:
+                compare_places(source, name, name, spots_of(source, topology, marker), topology, findings)
+            compared.add(name)
             found = _along(source, topology, point, marker)
             if found is None:
-                name = source.attribute(marker, "id")
                 text = f"clearance marker '{name}' does not lie on a leg of switch '{point.name}': it is not read"
                 findings.remark([point.name, name], text, "unread")
             else:
-                _note_clear(clear_mm, point.name, found, source.attribute(marker, "id"), findings)
+                _note_clear(clear_mm, point.name, found, name, findings)
         fouling: list[str] = []
         for item in source.all("hasFoulingTrainDetectors", switch):
             detector = source.attribute(signal_of(source, source.referred(item)), "id")
-            _foul(point.name, detector, marks, blocks, fouls, findings)
+            _foul(point, detector, marks, blocks, fouls, findings)
             fouling.append(marks.of.get(detector, detector))
         _foul_beside(point, fouling, blocks, fouls)
     return Clearance(clear_mm, fouls)
@@ -125,10 +129,10 @@ def _note_clear(
 
 def _along(source: Document, topology: Topology, point: Junction, marker: Element) -> tuple[str, int] | None:
     """The leg that a marker lies on, and how far from the point."""
-    spot = source.first("spotLocation", marker)
-    if spot is None:
+    spots = spots_of(source, topology, marker)
+    if not spots:
         raise source.bad(marker, "has no place on the track", "add its spotLocation")
-    track, at_mm = placed(source, topology, source.attribute(marker, "id"), spot)
+    track, at_mm = placed(source, topology, source.attribute(marker, "id"), spots[0])
     for port, (element, side) in point.ports.items():
         if element == track:
             return port, topology.lengths_mm[track] - at_mm if side == HIGH else at_mm
@@ -136,22 +140,28 @@ def _along(source: Document, topology: Topology, point: Junction, marker: Elemen
 
 
 def _foul(
-    point: str,
+    point: Junction,
     detector: str,
     marks: Marks,
     blocks: Blocks,
     fouls: dict[Block, frozenset[Block]],
     findings: Findings,
 ) -> None:
-    """The block behind a detector that proves nothing of a point's clearance fouls the block of the point."""
-    mark, own = marks.of.get(detector), blocks.stands_in[Point(point)]
+    """The block behind a detector that proves nothing of a point's or crossing's clearance fouls its block."""
+    mark = marks.of.get(detector)
+    own = _block_of(blocks, point)
     sides = blocks.segments.beside.get(mark or "", {}).values()
     beside = {blocks.of[heading[0]] for heading in sides}
     if own not in beside:
-        text = f"detector '{detector}' is said to foul switch '{point}', and does not bound its block"
-        findings.violation(FOULS, (point, detector), text)
+        text = f"detector '{detector}' is said to foul switch '{point.name}', and does not bound its block"
+        findings.violation(FOULS, (point.name, detector), text)
     for other in beside - {own} if own in beside else ():
         _bar(fouls, own, other)
+
+
+def _block_of(blocks: Blocks, point: Junction) -> Block:
+    """The block that all track at a point or crossing is."""
+    return blocks.of[blocks.segments.leaving[next(iter(point.ports.values()))][0]]
 
 
 def _bar(fouls: dict[Block, frozenset[Block]], one: Block, other: Block) -> None:
@@ -162,7 +172,7 @@ def _bar(fouls: dict[Block, frozenset[Block]], one: Block, other: Block) -> None
 
 def _foul_beside(point: Junction, detectors: list[str], blocks: Blocks, fouls: dict[Block, frozenset[Block]]) -> None:
     """The blocks behind two detectors that foul one point, on legs that no position joins, foul each other."""
-    own = blocks.stands_in[Point(point.name)]
+    own = _block_of(blocks, point)
     behind = {leg: _behind(blocks, point, leg, detectors) - {own} for leg in point.ports}
     for leg, other in combinations(point.ports, 2):
         if not point.kind.joined(leg, other):

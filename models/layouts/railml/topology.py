@@ -7,7 +7,7 @@ the relations gives its name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -28,7 +28,10 @@ LONGEST_M = LONGEST_DISTANCE_MM / MM_A_METRE
 BY_POSITION = {0.0: LOW, 1.0: HIGH}
 FARTHEST_M = 1e9
 TOLERANCE = 0.01
-"""By so much of it a length may differ from the drawing's before that is worth a remark."""
+"""By so much of it a length may differ from the drawing's, or from its track's, before that is worth a word."""
+WHOLE = {"Begin": 0, "End": 1}
+"""The two ends of a stretch of net element, by the shares of it that are all of it."""
+ONE_LENGTH = "a net element has one length"
 
 
 @dataclass(frozen=True)
@@ -42,10 +45,42 @@ class Topology:
     def joined_at(self) -> Mapping[tuple[str, int], str]:
         """For each end of track that is joined, by net element and mm, the junction there."""
         return {
-            (track, self.lengths_mm[track] if side == HIGH else 0): name
+            (end[0], self._at_mm(end)): name
             for name, junction in self.junctions.items()
-            for track, side in junction.ports.values()
+            for end in junction.ports.values()
         }
+
+    @cached_property
+    def _meets(self) -> Mapping[tuple[str, int], tuple[End, End]]:
+        """For each end of track at a plain joint, by net element and mm, the two ends that meet there."""
+        found: dict[tuple[str, int], tuple[End, End]] = {}
+        for junction in self.junctions.values():
+            if len(junction.ports) == 2 and len(set(junction.ports.values())) == 2:
+                one, other = sorted(junction.ports.values())
+                found |= {(end[0], self._at_mm(end)): (one, other) for end in (one, other)}
+        return found
+
+    def joint(self, track: str, at_mm: int) -> tuple[str, int]:
+        """A place, told alike by each of the two ends of track that meet there."""
+        ends = self._meets.get((track, at_mm))
+        return (track, at_mm) if ends is None else (ends[0][0], self._at_mm(ends[0]))
+
+    def side_from(self, track: str, at_mm: int, side: int, seen: str) -> int:
+        """The side of a place that is told on one track, by the track of the mark that stands there."""
+        ends = self._meets.get((track, at_mm))
+        return 1 - side if ends is not None and seen != track and ends[0][1] == ends[1][1] else side
+
+    def _at_mm(self, end: End) -> int:
+        return self.lengths_mm[end[0]] if end[1] == HIGH else 0
+
+
+@dataclass(frozen=True)
+class Over:
+    """A track that runs over a net element, what says so, and whether it runs over no other."""
+
+    track: Element
+    part: Element
+    alone: bool
 
 
 @dataclass(frozen=True)
@@ -72,7 +107,8 @@ def read_topology(source: Document, findings: Findings) -> Topology:
         BadInput: there is none, an end is related to none, or a place is nothing that rails can be.
     """
     micro = _micro(source, findings)
-    lengths_mm = {name: _length_mm(source, name, findings) for name in micro}
+    tracks = _tracks_over(source)
+    lengths_mm = {name: _length_mm(source, name, tracks.get(name, ()), findings) for name in micro}
     named = _named(source)
     junctions: dict[str, Junction] = {}
     for meeting in _meetings(source, lengths_mm):
@@ -114,14 +150,16 @@ def _listed(source: Document, level: Element) -> Iterator[str]:
 # ---- lengths
 
 
-def _length_mm(source: Document, name: str, findings: Findings) -> int:
+def _length_mm(source: Document, name: str, tracks: Sequence[Over], findings: Findings) -> int:
     """A net element's length: its own, else the track's that is all of it, else that of its drawing."""
     element = source.by_id[name]
     drawn_m = _drawn_m(source, element)
     if element.get("length") is not None:
         told_m: float | None = source.number(element, "length", 0.001, LONGEST_M)
     else:
-        told_m = _of_track_m(source, name)
+        told_m = _of_track_m(source, tracks)
+    if told_m is not None:
+        _compare_track(source, name, told_m, tracks, findings)
     if told_m is None and drawn_m is None:
         raise source.bad(element, "has no length, and no track or coordinates that give one", "add the length")
     if told_m is None:
@@ -146,14 +184,51 @@ def _drawn_m(source: Document, element: Element) -> float | None:
     return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points)) if len(points) > 1 else None
 
 
-def _of_track_m(source: Document, name: str) -> float | None:
-    """The length of the track that is this net element and no other."""
+def _tracks_over(source: Document) -> Mapping[str, list[Over]]:
+    """For each net element, the tracks that run over it."""
+    found: dict[str, list[Over]] = {}
     for track in source.all("track"):
         parts = list(source.all("associatedNetElement", track))
-        length = source.first("length", track)
-        if length is not None and len(parts) == 1 and parts[0].get("netElementRef") == name:
-            return source.number(length, "value", 0.001, LONGEST_M)
-    return None
+        for part in parts:
+            found.setdefault(part.get("netElementRef", ""), []).append(Over(track, part, len(parts) == 1))
+    return found
+
+
+def _of_track_m(source: Document, tracks: Sequence[Over]) -> float | None:
+    """The length of the track that is this net element and no other."""
+    lengths = (source.first("length", over.track) for over in tracks if over.alone)
+    length = next((each for each in lengths if each is not None), None)
+    return None if length is None else source.number(length, "value", 0.001, LONGEST_M)
+
+
+def _compare_track(source: Document, name: str, told_m: float, tracks: Sequence[Over], findings: Findings) -> None:
+    """A track that is a net element and no other is as long as this, and the only one there runs over all of it.
+
+    A usable length is shorter; so is a track that is told to begin or end within the net element.
+    """
+    for over in tracks:
+        track, length = over.track.get("id"), source.first("length", over.track)
+        named = [name] if track is None else [name, track]
+        span_m = _span_m(source, over)
+        shares = ((over.part, f"intrinsicCoord{end}", whole) for end, whole in WHOLE.items())
+        within = any(part.get(at) is not None and source.number(part, at, 0, 1) != whole for part, at, whole in shares)
+        if span_m is not None:
+            if len(tracks) == 1 and abs(span_m - told_m) > TOLERANCE * told_m:
+                run = f"track '{track}', the only one there, runs over {span_m:g} m of it"
+                findings.remark(named, f"net element '{name}' is {told_m:g} m long, and {run}", "derived")
+        elif over.alone and not within and length is not None and length.get("type", "physical") == "physical":
+            track_m = source.number(length, "value", 0.001, LONGEST_M)
+            if abs(track_m - told_m) > TOLERANCE * told_m:
+                text = f"net element '{name}' is {told_m:g} m long, and track '{track}', which is all of it, is"
+                findings.violation(ONE_LENGTH, named, f"{text} {track_m:g} m long: correct one of the two")
+
+
+def _span_m(source: Document, over: Over) -> float | None:
+    """How much of a net element a track is told to run over, if that is told in metres."""
+    if any(over.part.get(f"pos{end}") is None for end in WHOLE):
+        return None
+    begin_m, end_m = (source.number(over.part, f"pos{end}", -FARTHEST_M, FARTHEST_M) for end in WHOLE)
+    return abs(end_m - begin_m)
 
 
 # ---- places

@@ -10,6 +10,7 @@ from typing import Any
 
 from tests.independent.layouts.crafted import NEAR, RING
 from tests.independent.layouts.danger import UNREAD, danger_of
+from tests.independent.layouts.dangerous_railml import DANGEROUS_RAILML
 from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS
 from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
@@ -107,82 +108,13 @@ two = { from = "a+b", direction = "forward", to = "c" }
 three = { from = "u", direction = "forward", to = "v" }
 """
 
-# ---- railML 3
+# ---- railML 2
 
-
-def railml(relations: str, spots: str, functional: str = "", assets: str = "", networks: str = "") -> str:
-    """Four net elements of 500 m, what relates them, and routes from A to B and from C to D."""
-    elements = "".join(f'<netElement id="{name}" length="500"/>' for name in "wens")
-    routes = "".join(
-        f'<route id="{one}{other}"><routeEntry id="{one}e"><refersTo ref="{one}"/></routeEntry>'
-        f'<routeExit id="{other}x"><refersTo ref="{other}"/></routeExit></route>'
-        for one, other in ("AB", "CD")
-    )
-    return (
-        '<railML xmlns="https://www.railml.org/schemas/3.1" version="3.1"><infrastructure><topology>'
-        f"<networks>{networks}</networks>"
-        f"<netElements>{elements}</netElements><netRelations>{relations}</netRelations></topology>"
-        f"<functionalInfrastructure>{functional}{spots}</functionalInfrastructure></infrastructure>"
-        f"<interlocking><assetsForIL>{routes}{assets}</assetsForIL></interlocking></railML>"
-    )
-
-
-def relation(name: str, one: str, other: str, way: str = "Both") -> str:
-    """The end of one net element meets the beginning of another."""
-    ends = f'<elementA ref="{one}"/><elementB ref="{other}"/>'
-    return f'<netRelation id="{name}" positionOnA="1" positionOnB="0" navigability="{way}">{ends}</netRelation>'
-
-
-def spot(name: str, track: str, share: str, more: str = "") -> str:
-    """A signal and a detector in one place."""
-    place = f'netElementRef="{track}" intrinsicCoord="{share}"'
-    return (
-        f'<signalIS id="{name}">{more}<spotLocation {place} applicationDirection="normal"/></signalIS>'
-        f'<trainDetectionElement id="{name} tags">{more}<spotLocation {place}/></trainDetectionElement>'
-    )
-
-
-BOTH = relation("we", "w", "e") + relation("ns", "n", "s")
-SPOTS = spot("A", "w", "0.8") + spot("B", "e", "0.2") + spot("C", "n", "0.8") + spot("D", "s", "0.2")
-ELSEWHERE = '<spotLocation netElementRef="w" intrinsicCoord="0.95" applicationDirection="normal"/>'
-CROSSES = '<crossing id="X"><straightBranch netRelationRef="we"/>{}</crossing>'
-CLOSED = """<track id="T"><elementState value="closed"/><linearLocation><associatedNetElement netElementRef="e"/>
-</linearLocation></track>"""
 GAUGES = """<trackElements><gaugeChanges><gaugeChange id="gauge" pos="1500" value="1067"/></gaugeChanges>
 <axleWeightChanges><axleWeightChange id="weight" pos="10"/></axleWeightChanges></trackElements><ocsElements>"""
-TURNOUT = (
-    relation("we", "w", "e")
-    + relation("ws", "w", "s")
-    + relation("es", "e", "s", "None").replace('positionOnA="1"', 'positionOnA="0"')
-)
-ON_LEGS = spot("A", "w", "0.4") + spot("B", "w", "0.8") + spot("C", "e", "0.2") + spot("D", "e", "0.8")
-SWITCHES = """<switchIS id="P"><leftBranch netRelationRef="we"/><rightBranch netRelationRef="ws"/></switchIS>"""
-AGAIN = """<switchIS id="R"><leftBranch netRelationRef="ws"/><rightBranch netRelationRef="we"/></switchIS>"""
-AT_END = '<spotLocation netElementRef="{}" intrinsicCoord="1.0" applicationDirection="normal"/>'
-BORDER = '<border id="edge"><spotLocation netElementRef="s" intrinsicCoord="0.0"/></border>'
-MARKERS = "".join(
-    f'<signalIS id="{name}"><spotLocation netElementRef="e" intrinsicCoord="{share}"/></signalIS>'
-    for name, share in (("far", "0.16"), ("near", "0.1"))
-)
-BUFFER = """<bufferStop id="wall"><spotLocation netElementRef="e" intrinsicCoord="1.0"/></bufferStop>
-</functionalInfrastructure>"""
-COUPLED = '<switchIL id="il"><refersTo ref="P"/><relatedMovableElement ref="il"/></switchIL>'
-MARKED = """<switchIL id="il"><refersTo ref="P"/><hasGaugeClearanceMarker ref="far"/>
-<hasGaugeClearanceMarker ref="near"/></switchIL>"""
-CURVED = '<trackGauge id="broad" value="1524"/><horizontalCurve id="bend" radius="60"/>'
-SHORT_OF_IT = '<overlap id="o" length="300.001"><activeForApproachRoute ref="CD"/></overlap>'
-
-
-def level(*names: str) -> str:
-    """A network whose level Micro lists these."""
-    listed = "".join(f'<networkResource ref="{name}"/>' for name in names)
-    return f'<network><level descriptionLevel="Micro">{listed}</level></network>'
-
-
 OFF = '<track id="T0"><state disabled="true"/>'
 
-ELSEWHERE_WRITTEN = DANGEROUS_TABLES | DANGEROUS_TRACKS
-DANGERS = ELSEWHERE_WRITTEN | {
+OTHERS = {
     "no train.toml": danger_of(
         RING.replace("699_999", "1"),
         "the longest train is told to have 1 mm, so every train is longer, and the ring of 700 m lets one meet itself",
@@ -268,7 +200,12 @@ DANGERS = ELSEWHERE_WRITTEN | {
     "curve.railml": danger_of(
         changed(
             TRACKS,
-            [("<ocsElements>", '<trackElements><radiusChange id="bend" radius="60"/></trackElements><ocsElements>')],
+            [
+                (
+                    "<ocsElements>",
+                    '<trackElements><radiusChange id="bend" radius="60"/></trackElements><ocsElements>',
+                )
+            ],
         ),
         "a curve of 60 m within a route",
         UNREAD,
@@ -285,95 +222,6 @@ DANGERS = ELSEWHERE_WRITTEN | {
         "not in use",
         "T0",
     ),
-    "crossing apart.railml": danger_of(
-        railml(BOTH, SPOTS, CROSSES.format('<turningBranch netRelationRef="ns"/>')),
-        "two lines cross on the level; a crossing names both, no relation says that they meet: trains collide",
-        "two ends of track meet here, and none of another track",
-    ),
-    "crossing of one.railml": danger_of(
-        railml(BOTH, SPOTS, CROSSES.format("")),
-        "the same, and the crossing names one of the lines alone",
-        "two ends of track meet here, and none of another track",
-    ),
-    "one way.railml": danger_of(
-        railml(relation("we", "w", "e", "BA") + relation("ns", "n", "s"), SPOTS),
-        "track may be run over one way alone, and the route runs the other",
-        "navigable one way",
-        "we",
-    ),
-    "two places.railml": danger_of(
-        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "0.2", ELSEWHERE))),
-        "a signal and its detector lie in two places, 125 m apart: a train stands behind the wrong one",
-        "an element lies in one place",
-        "B",
-    ),
-    "ends apart.railml": danger_of(
-        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "1.0", AT_END.format("w")))),
-        "a signal and its detector lie at two ends of track that do not meet, 500 m apart",
-        "no junction joins them",
-        "B",
-    ),
-    "border at a switch.railml": danger_of(
-        railml(TURNOUT, ON_LEGS, SWITCHES + BORDER),
-        "a border stands at the switch, with track behind it: a train there is foul of the other leg",
-        "no track goes on behind a buffer stop at a joint",
-        *("edge", "s", "P"),
-    ),
-    "overlap too long.railml": danger_of(
-        railml(
-            TURNOUT, ON_LEGS.replace('"e" intrinsicCoord="0.8"', '"e" intrinsicCoord="0.4"'), SWITCHES, SHORT_OF_IT
-        ).replace("</functionalInfrastructure>", BUFFER),
-        "an overlap is told to be longer than the track behind the exit: a train slips through the buffer stop",
-        "there is as much track as an overlap is long",
-        *("CD", "o", "wall"),
-    ),
-    "two networks.railml": danger_of(
-        railml(BOTH, SPOTS, networks=level("w", "e", "n")),
-        "a relation leads on from known track to an element that no level Micro lists",
-        "which is on no level Micro",
-    ),
-    "on no level.railml": danger_of(
-        railml(BOTH, SPOTS, networks=level(*"wens")).replace(
-            "<netElements>", '<netElements><netElement id="z" length="5"/>'
-        ),
-        "track of which no level says that it is there is not read",
-        "not read",
-        "z",
-    ),
-    "two markers.railml": danger_of(
-        railml(TURNOUT, ON_LEGS, SWITCHES + MARKERS, MARKED),
-        "two markers say of one leg where it is clear: the nearer would let a train stand foul",
-        "a leg is clear from one place on",
-        *("P", "near"),
-    ),
-    "two switches.railml": danger_of(
-        railml(TURNOUT, ON_LEGS, SWITCHES + AGAIN),
-        "two switches are told of one place, with left and right the other way round",
-        "is a branch of switchIS 'P' as well",
-    ),
-    "coupled.railml": danger_of(
-        railml(TURNOUT, ON_LEGS, SWITCHES, COUPLED),
-        "a switch moves with another one, and is thrown under a train when that is",
-        UNREAD,
-        "il",
-    ),
-    "gauges and curves.railml": danger_of(
-        railml(BOTH, SPOTS, CURVED),
-        "the gauge of track, and a curve of 60 m",
-        UNREAD,
-        *("broad", "bend"),
-    ),
-    "not yet there.railml": danger_of(
-        railml(BOTH, SPOTS, CLOSED.replace('<elementState value="closed"/>', '<isValid from="2999-01-01"/>')),
-        "the track that a route runs over is not yet there",
-        "from when to when",
-        "T",
-    ),
-    "closed.railml": danger_of(
-        railml(BOTH, SPOTS, CLOSED),
-        "the track that a route runs over is closed",
-        "not in use",
-        "T",
-    ),
 }
+DANGERS = DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_RAILML | OTHERS
 """Every file with what must be said of it."""

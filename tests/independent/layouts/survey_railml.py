@@ -125,9 +125,10 @@ Spots = dict[str, tuple[str, int, int]]
 
 
 def _spots(source: Document, lengths: Mapping[str, int], faults: list[str]) -> tuple[Spots, dict[End, str]]:
-    """Where blocks end: detectors, and signals of routes; and ends of track."""
+    """Where blocks end: detectors, signals of routes, and what limits overlaps; and ends of track."""
     ends = [each for kind in ("routeEntry", "routeExit") for each in source.all(kind)]
     wanted = {source.on_track(each) for each in ends}
+    wanted |= {source.on_track(source.by_id[each.get("ref", "")]) for each in source.all("isLimitedBy")}
     found: Spots = {}
     stops: dict[End, str] = {}
     for kind in ("trainDetectionElement", "signalIS", "bufferStop", "border"):

@@ -9,7 +9,8 @@ import pytest
 
 from models.layouts import BadInput, check, load_text
 from tests.independent.compare import disagreements
-from tests.independent.layouts.dangerous import BOTH, DANGERS, SPOTS, railml
+from tests.independent.layouts.dangerous import DANGERS
+from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS, TRACKS_THAT_HOLD
 from tests.independent.raw_native import enumerate_data
@@ -40,7 +41,7 @@ def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
     assert refused >= DANGERS[name].elements
 
 
-WITHOUT = [*TABLES_THAT_HOLD.items(), *TRACKS_THAT_HOLD.items(), ("two lines.railml", railml(BOTH, SPOTS))]
+WITHOUT = [*TABLES_THAT_HOLD.items(), *TRACKS_THAT_HOLD.items(), *RAILML_THAT_HOLD.items()]
 
 
 @pytest.mark.parametrize(("name", "text"), WITHOUT)
