@@ -23,23 +23,30 @@ CRAFTED = Path(os.environ.get("HEISOKU_CRAFTED_LAYOUTS") or ROOT.parent / "share
 needs_crafted = pytest.mark.skipif(not CRAFTED.is_dir(), reason=f"there are no crafted layouts at {CRAFTED}")
 
 ROOM, FOUL = "a block has room for its tags", "a train behind a boundary is clear of the point"
+BLADES = "a boundary's tags lie clear of points and crossings"
 APART, SAID = "the tracks of a start block are told apart", "a route says where its train stands"
 SECTIONS = "sections are pieces of track, and a route's are those that it runs through"
 ALIKE, SLIPS = "no two names look the same", "an overlap is longer than a train slips"
 Instances = set[tuple[str, ...]]
 Wrong = set[tuple[str, tuple[str, ...]]]
 WRONG: dict[str, Wrong] = {
-    "atswitch.json": {(ROOM, ("D1", "D2", "DA")), (FOUL, ("P", "D1")), (FOUL, ("P", "D2"))},
+    "atswitch.json": {
+        *((ROOM, ("D1", "D2", "DA")), (FOUL, ("P", "D1")), (FOUL, ("P", "D2"))),
+        *((BLADES, (detector, "P")) for detector in ("D1", "D2", "DA")),
+    },
     "crossover.toml": {(APART, ("1on", "e", "f")), (APART, ("2on", "a", "c"))},
     "eight.toml": {(APART, ("a", "L4", "M1")), (APART, ("d", "L1", "M4")), (APART, ("rc", "L4", "M1"))},
     "float.toml": {(SAID, ("out", "P"))},
-    "frog.toml": {(FOUL, ("P", "A")), (FOUL, ("P", "B"))},
+    "frog.toml": {*((FOUL, ("P", each)) for each in "AB"), *((BLADES, (each, "P")) for each in "AB")},
     "km.json": {
         *((ROOM, ends) for ends in (("BE", "D3"), ("BW", "D0"), ("D0", "D1"), ("D1", "D3"))),
         ("a track is as long as a vehicle", ("T1", "T2")),
     },
     "overflow.toml": {(ROOM, ("A", "west")), ("a distance fits its tag", ("A", "B"))},
-    "r_close.railml": {(FOUL, ("swi72", "tde78")), (SECTIONS, ("rt_sig113_sig107_swi72N", "tvd80"))},
+    "r_close.railml": {
+        *((FOUL, ("swi72", "tde78")), (BLADES, ("tde78", "swi72"))),
+        (SECTIONS, ("rt_sig113_sig107_swi72N", "tvd80")),
+    },
     "r_depart.railml": {("a route's positions are of its points", ("rt_sig98_sig116", "swi55"))},
     "r_flank.railml": {("a flank point shields its route", ("rt_sig98_sig116", "swi72"))},
     "r_ilswap.railml": {("a switch has one left and one right branch", ("swi9", "il_swi9"))},
