@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import gzip
 import hashlib
-import json
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from evidence.manifest.finding import Finding
-from evidence.manifest.hashes import Manifest, files, hash_of, sources
+from evidence.manifest.forms import formed
+from evidence.manifest.hashes import Manifest, files, hash_of, others, sources
+from evidence.records.strict import content_of, parsed
 from proofs.records import commit
 from proofs.run import kept
 
@@ -24,6 +25,8 @@ def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:
     """Compare a folder with its manifest, the manifest with these sources, and the records with each other."""
     yield from _of_these_sources(manifest)
     there = files(folder)
+    for name, what in others(folder).items():
+        yield Finding("no file", name, f"is {what}, and no regular file: it is not opened")
     for name, digest in manifest.records.items():
         if name not in there:
             yield Finding("missing", name, "stands in the manifest and not in the folder")
@@ -37,7 +40,7 @@ def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:
             yield from _of_one_commit(folder / name, manifest)
         if name.endswith(".html") and "/" not in name:
             yield from _reported(folder / name, manifest)
-    yield from _obligations(folder)
+    yield from formed("prove.json", lambda: _obligations(folder))
 
 
 def _of_these_sources(manifest: Manifest) -> Iterator[Finding]:
@@ -73,7 +76,7 @@ def _another(path: Path, told: object, manifest: Manifest) -> Finding:
 
 def _data(path: Path) -> Mapping[str, Any] | None:
     try:
-        data = json.loads(path.read_bytes())
+        data = parsed(content_of(path))
     except (OSError, ValueError):
         return None
     return data if isinstance(data, dict) else None

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+import stat
 import subprocess
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from evidence.records.strict import KINDS, content_of, is_other, parsed
 from models.shipped import is_installed
 from proofs.records import commit, versions
 
@@ -54,8 +56,18 @@ def files(folder: Path) -> list[str]:
     return sorted(
         path.relative_to(folder).as_posix()
         for path in folder.rglob("*")
-        if path.is_file() and path.relative_to(folder).parts[0] not in NOT_RECORDS
+        if path.is_file() and not path.is_symlink() and path.relative_to(folder).parts[0] not in NOT_RECORDS
     )
+
+
+def others(folder: Path) -> dict[str, str]:
+    """What else stands in a folder of records, by its place in it: links, FIFOs, devices, each as what it is."""
+    found = {path: is_other(path) for path in sorted(folder.rglob("*"))}
+    return {
+        path.relative_to(folder).as_posix(): what
+        for path, what in found.items()
+        if what and what != KINDS[stat.S_IFDIR] and path.relative_to(folder).parts[0] not in NOT_RECORDS - {NAME}
+    }
 
 
 def hash_of(path: Path) -> str:
@@ -108,7 +120,7 @@ def read_manifest(folder: Path) -> Manifest:
     """
     path = folder / NAME
     try:
-        data = json.loads(path.read_text("utf-8"))
+        data = parsed(content_of(path))
         if data["format"] != FORMAT:
             raise ManifestError(f"{path}: is of the format {data['format']}; heisoku manifest {folder} makes it anew")
         return Manifest(data["commit"], str(data["sources"]), dict(data["records"]), dict(data["versions"]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from lxml import etree
+
+from evidence.records.strict import NotStrict, content_of, parsed, tree
 
 ABOUT = "heisoku.about"
 """The name of the property of a JUnit file that says how it was made."""
@@ -33,7 +34,8 @@ class Kept:
     """One record.
 
     ``data``: what stands in it, of a JSON record; ``answers``: of one that lists tests or contracts, and
-    ``said`` how it was made.  ``problem``: why it cannot be used, or nothing.
+    ``said`` how it was made.  ``problem``: why it cannot be used, or nothing; ``unfit``: something
+    stands there under its name that no command wrote.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Kept:
     said: Mapping[str, Any] = field(default_factory=dict)
     problem: str = ""
     sha256: str = ""
+    unfit: bool = False
 
     @cached_property
     def cells(self) -> Mapping[Cell, Mapping[str, Set[str]]]:
@@ -90,7 +93,9 @@ def read(folder: Path, names: frozenset[str]) -> Records:
 
 def _kept(path: Path) -> Kept:
     try:
-        content = path.read_bytes()
+        content = content_of(path)
+    except NotStrict as error:
+        return Kept(path.name, problem=str(error), unfit=True)
     except FileNotFoundError:
         return Kept(path.name, problem="there is no such record")
     except OSError as error:
@@ -98,9 +103,9 @@ def _kept(path: Path) -> Kept:
     digest = hashlib.sha256(content).hexdigest()
     try:
         if path.suffix == ".json":
-            data = json.loads(content)
+            data = parsed(content)
             if not isinstance(data, dict):
-                return Kept(path.name, problem="it is no record: no object at its top", sha256=digest)
+                return Kept(path.name, problem="it is no record: no object at its top", sha256=digest, unfit=True)
             return Kept(path.name, data=data, sha256=digest)
         if path.suffix == ".xml":
             answers, said = _tests(content), _properties(content)
@@ -108,7 +113,7 @@ def _kept(path: Path) -> Kept:
             answers, said = _contracts(content.decode()), heading(content.decode())
     except (ValueError, etree.XMLSyntaxError) as error:
         line = str(error).splitlines()[0] if str(error) else type(error).__name__
-        return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest)
+        return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest, unfit=True)
     return Kept(path.name, answers=tuple(answers), said=said, sha256=digest)
 
 
@@ -116,13 +121,13 @@ def _tests(content: bytes) -> list[Answer]:
     """Every test of a JUnit file."""
     return [
         Answer(f"{case.get('classname', '')}::{case.get('name', '')}", _came_to(case))
-        for case in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("testcase")
+        for case in tree(content).iter("testcase")
     ]
 
 
 def _properties(content: bytes) -> Mapping[str, Any]:
     """What a JUnit file says of how it was made, in a property of its suite."""
-    for each in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("property"):
+    for each in tree(content).iter("property"):
         if each.get("name") == ABOUT:
             return _object(each.get("value", ""))
     return {}
@@ -135,7 +140,7 @@ def heading(text: str) -> Mapping[str, Any]:
 
 
 def _object(text: str) -> Mapping[str, Any]:
-    found = json.loads(text)
+    found = parsed(text)
     return found if isinstance(found, dict) else {}
 
 
