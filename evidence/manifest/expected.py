@@ -7,9 +7,10 @@ from functools import partial
 from typing import Any
 
 from evidence.catalogue import catalogue
+from evidence.manifest import expected_campaign, making
 from evidence.manifest import expected_proofs as proofs
 from evidence.manifest import expected_runs as runs
-from evidence.manifest import making
+from evidence.manifest.alike import alike, timed
 from evidence.manifest.finding import Finding
 from evidence.manifest.forms import formed
 from evidence.manifest.laying_out import Cell, LaidOut
@@ -45,7 +46,7 @@ def by_runs(records: Records) -> Iterator[Finding]:
     """Compare every other record with what the sources name."""
     judges: dict[str, Callable[[Kept], Iterator[Finding]]] = {
         "check.json": lambda kept: runs.checked(kept.data),
-        "fuzz.json": lambda kept: runs.fuzzed(kept.data),
+        "fuzz.json": lambda kept: expected_campaign.fuzzed(kept.data),
         "test.xml": runs.tested,
         "crosshair.txt": runs.confirmed,
     }
@@ -70,20 +71,26 @@ def lacking(records: Records) -> list[str]:
         part = [f"--{key} {kept.data[key]}" for key in ("only", "sample") if kept.data.get(key) is not None]
         if part:
             said.append(f"{name}: a part, made with {' '.join(part)}")
+    for name, kept in records.items():
+        skipped = sum(each.came_to == "skipped" for each in kept.answers)
+        if skipped:
+            said.append(f"{name}: {skipped:,} of {len(kept.answers):,} were skipped")
     told = records["prove.json"].data.get("obligations")
     asked = {str(each.get("solver")) for each in told if isinstance(each, dict)} if isinstance(told, list) else set()
     said += [f"prove.json: {solver} was not asked" for solver in ("z3", "cvc5") if asked and solver not in asked]
     return said
 
 
-def told(records: Records, commit: str | None) -> Iterator[Finding]:
-    """Each record says how it was made, and all of them the same of commit, versions and solvers."""
+def told(records: Records, commit: str | None, until: str = "") -> Iterator[Finding]:
+    """Each record says how it was made, all of them the same, and none later than ``until``."""
     now = about()
     for name, kept in records.items():
         if kept.unfit:
             yield Finding("unreadable", name, kept.problem)
         elif not kept.problem:
             yield from formed(name, partial(_told, kept, now, commit))
+            yield from formed(name, partial(timed, kept, until))
+    yield from alike(records)
     for file in solvers_altered():
         yield Finding("altered solver", file, "is not as its package says: install the solvers again")
 

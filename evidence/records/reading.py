@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,6 +18,9 @@ ABOUT = "heisoku.about"
 """The name of the property of a JUnit file that says how it was made."""
 HEADING = f"# {ABOUT} "
 """What stands before the same in the first line of CrossHair's."""
+TOLD = re.compile(r"(?P<place>.+?:\d+): (?P<kind>info|warning|error): (?P<says>.*)")
+"""A line of CrossHair's."""
+CONFIRMED, NOT_CONFIRMED = "Confirmed over all paths.", "Not confirmed."
 Cell = tuple[str, str]
 """An obligation by its row and column."""
 
@@ -121,13 +125,13 @@ def _tests(content: bytes) -> list[Answer]:
     """Every test of a JUnit file."""
     return [
         Answer(f"{case.get('classname', '')}::{case.get('name', '')}", _came_to(case))
-        for case in tree(content).iter("testcase")
+        for case in _named(tree(content), "testcase")
     ]
 
 
 def _properties(content: bytes) -> Mapping[str, Any]:
     """What a JUnit file says of how it was made, in a property of its suite."""
-    for each in tree(content).iter("property"):
+    for each in _named(tree(content), "property"):
         if each.get("name") == ABOUT:
             return _object(each.get("value", ""))
     return {}
@@ -145,21 +149,27 @@ def _object(text: str) -> Mapping[str, Any]:
 
 
 def _came_to(case: etree._Element) -> str:
-    if case.find("failure") is not None or case.find("error") is not None:
+    if _named(case, "failure") or _named(case, "error"):
         return "failed"
-    return "skipped" if case.find("skipped") is not None else "passed"
+    return "skipped" if _named(case, "skipped") else "passed"
+
+
+def _named(within: etree._Element, name: str) -> list[etree._Element]:
+    """All elements of a name, in whatever namespace."""
+    return [each for each in within.iter(etree.Element) if etree.QName(each).localname == name]
 
 
 def _contracts(text: str) -> list[Answer]:
-    """Every condition that CrossHair tells of: one line each."""
+    """Every condition that CrossHair tells of: one line each; a line of another form shows nothing, by its text."""
     found = []
-    for line in text.splitlines():
-        place, _, told = line.partition(": ")
-        kind, _, says = told.partition(": ")
-        if kind == "info" and says.startswith("Confirmed"):
-            found.append(Answer(place, "passed"))
-        elif kind == "error":
-            found.append(Answer(place, "failed"))
-        elif kind in ("info", "warning"):
-            found.append(Answer(place, "skipped"))
+    for number, line in enumerate(text.splitlines()):
+        if not line.strip() or (number == 0 and line.startswith(HEADING)):
+            continue
+        told = TOLD.fullmatch(line)
+        if told is None or (told["kind"] == "info" and told["says"] not in (CONFIRMED, NOT_CONFIRMED)):
+            found.append(Answer(line, "skipped"))
+        elif told["kind"] == "error":
+            found.append(Answer(told["place"], "failed"))
+        else:
+            found.append(Answer(told["place"], "passed" if told["says"] == CONFIRMED else "skipped"))
     return found
