@@ -15,6 +15,7 @@ from models.streams import write_whole
 
 if TYPE_CHECKING:
     from evidence.manifest.finding import Finding
+    from evidence.manifest.hashes import Manifest
     from evidence.records.reading import Records
 
 SAMPLE = 30
@@ -70,7 +71,7 @@ def verify(
     except ManifestError as error:
         refuse(str(error))
     findings, records = list(compared(folder, known)), read(folder, NAMES)
-    findings += _against_the_sources(records, known.commit, jobs)
+    findings += _against_the_sources(records, known, jobs)
     for line in lines(findings):
         tell(line)
     tell(f"{len(known.records):,} files of commit {known.commit or 'unknown'}: {len(findings)} findings")
@@ -83,7 +84,7 @@ def verify(
     raise typer.Exit(verdict)
 
 
-def _against_the_sources(records: Records, commit: str | None, jobs: int) -> list[Finding]:
+def _against_the_sources(records: Records, known: Manifest, jobs: int) -> list[Finding]:
     """Compare the records with all that the sources say of them; tell what is not there, and what is of a part."""
     from evidence.manifest import expected
     from evidence.manifest.laying_out import all_laid_out
@@ -91,7 +92,11 @@ def _against_the_sources(records: Records, commit: str | None, jobs: int) -> lis
     with progress("laid out") as step:
         laid_out = all_laid_out(jobs, step)
     played = list(expected.played(jobs))
-    found = [*expected.told(records, commit), *expected.by_proofs(records, laid_out), *expected.by_runs(records)]
+    found = [
+        *expected.told(records, known.commit, known.made_at),
+        *expected.by_proofs(records, laid_out),
+        *expected.by_runs(records),
+    ]
     for line in expected.lacking(records):
         tell(f"not shown: {line}")
     tell(f"{len(laid_out):,} obligations laid out anew, {len(expected.plays()):,} witnesses played, no solver asked")
@@ -101,7 +106,7 @@ def _against_the_sources(records: Records, commit: str | None, jobs: int) -> lis
 def _again(folder: Path, seed: int, sample: int, jobs: int) -> Iterator[bool]:
     """Put every obligation to Z3, and make a sample of figures again, once the solvers have noticed their canaries."""
     from evidence.catalogue import catalogue
-    from evidence.manifest.again import asked_again, drawn, figures, made_again
+    from evidence.manifest.again import asked_again, drawn, figures, made_again, never, rarely
     from evidence.records.reading import read
     from proofs.canaries import seen
 
@@ -115,7 +120,14 @@ def _again(folder: Path, seed: int, sample: int, jobs: int) -> Iterator[bool]:
             if not result.same:
                 tell(f"DIFFERS: obligation: {result.says}")
             yield result.same
-    for figure in drawn(list(figures(folder, records)), seed, sample):
+    pool = list(figures(folder, records))
+    chosen = drawn(pool, seed, sample)
+    rare = rarely(pool, chosen)
+    if rare:
+        tell(f"drawn with seed {seed}: {rare}; one that is made up is shown by luck alone")
+    for line in never(folder, records):
+        tell(f"too large to be made again, so not shown to be true: {line}")
+    for figure in chosen:
         result = made_again(figure)
         tell(f"{'again' if result.same else 'DIFFERS'}: {figure.kind}: {figure.what}: {result.says}")
         yield result.same

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import gzip
 import hashlib
-import json
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from lxml import etree
+
 from evidence.manifest.finding import Finding
-from evidence.manifest.hashes import Manifest, files, hash_of, sources
-from proofs.records import commit
+from evidence.manifest.forms import formed
+from evidence.manifest.hashes import Manifest, files, hash_of, others, sources
+from evidence.records.strict import content_of, parsed, tree
+from proofs.junit import junit_xml
+from proofs.records import Report, commit
 from proofs.run import kept
 
+JUNIT = "prove.xml"
 OBLIGATIONS = "obligations"
 """The folder of the texts that were put to the solvers, where they are kept."""
 COMMIT_OF_REPORT = re.compile(r'<meta name="heisoku-commit" content="([^"]*)">')
@@ -24,6 +29,8 @@ def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:
     """Compare a folder with its manifest, the manifest with these sources, and the records with each other."""
     yield from _of_these_sources(manifest)
     there = files(folder)
+    for name, what in others(folder).items():
+        yield Finding("no file", name, f"is {what}, and no regular file: it is not opened")
     for name, digest in manifest.records.items():
         if name not in there:
             yield Finding("missing", name, "stands in the manifest and not in the folder")
@@ -37,7 +44,8 @@ def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:
             yield from _of_one_commit(folder / name, manifest)
         if name.endswith(".html") and "/" not in name:
             yield from _reported(folder / name, manifest)
-    yield from _obligations(folder)
+    yield from formed("prove.json", lambda: _obligations(folder))
+    yield from formed(JUNIT, lambda: _junit(folder))
 
 
 def _of_these_sources(manifest: Manifest) -> Iterator[Finding]:
@@ -73,7 +81,7 @@ def _another(path: Path, told: object, manifest: Manifest) -> Finding:
 
 def _data(path: Path) -> Mapping[str, Any] | None:
     try:
-        data = json.loads(path.read_bytes())
+        data = parsed(content_of(path))
     except (OSError, ValueError):
         return None
     return data if isinstance(data, dict) else None
@@ -94,6 +102,24 @@ def _obligations(folder: Path) -> Iterator[Finding]:
             yield Finding("changed obligation", where, "its text is not the one that prove.json tells of")
     for path in sorted(each for each in texts.rglob("*") if each.is_file() and each not in wanted):
         yield Finding("foreign obligation", path.relative_to(folder).as_posix(), "prove.json tells of none such")
+
+
+def _junit(folder: Path) -> Iterator[Finding]:
+    """The same run as JUnit XML is what would be written of prove.json, but for a time to more digits."""
+    proved = _data(folder / "prove.json")
+    if proved is None or not (folder / JUNIT).exists():
+        return
+    report = Report(proved["obligations"], 0.0, 0.0, proved["canaries"], proved["offences"])
+    now, there = (_suites(content) for content in (junit_xml(report), content_of(folder / JUNIT)))
+    if now != there:
+        yield Finding("other cases", JUNIT, "is not what prove.json would be written as")
+
+
+def _suites(content: bytes) -> bytes:
+    """A JUnit document as it is compared: without how long its root took, which prove.json tells to more digits."""
+    root = tree(content)
+    root.attrib.pop("time", "")
+    return etree.tostring(root, method="c14n")
 
 
 def _text_hash(path: Path) -> str:

@@ -7,20 +7,21 @@ from functools import partial
 from typing import Any
 
 from evidence.catalogue import catalogue
+from evidence.manifest import expected_campaign, making
 from evidence.manifest import expected_proofs as proofs
 from evidence.manifest import expected_runs as runs
-from evidence.manifest import making
+from evidence.manifest.alike import alike, timed
 from evidence.manifest.finding import Finding
+from evidence.manifest.forms import formed
 from evidence.manifest.laying_out import Cell, LaidOut
 from evidence.records.reading import Kept, Records
 from models.processes import spread
 from models.reproduce import PAPERS
 from proofs.mutants.plays import witnesses
-from proofs.records import about, solvers_altered
+from proofs.records import About, about, solvers_altered
 from proofs.theories import THEORIES
 from proofs.witnesses.registry import WITNESSES
 
-FORM = (KeyError, TypeError, ValueError, AttributeError, IndexError)
 BOUND = ("prove.json", "certificates.json", "mutate.json", "cores.json", "joints.json")
 NAMES = frozenset({*BOUND, *(each.record for each in catalogue().values())})
 """Every record that is compared."""
@@ -45,7 +46,7 @@ def by_runs(records: Records) -> Iterator[Finding]:
     """Compare every other record with what the sources name."""
     judges: dict[str, Callable[[Kept], Iterator[Finding]]] = {
         "check.json": lambda kept: runs.checked(kept.data),
-        "fuzz.json": lambda kept: runs.fuzzed(kept.data),
+        "fuzz.json": lambda kept: expected_campaign.fuzzed(kept.data),
         "test.xml": runs.tested,
         "crosshair.txt": runs.confirmed,
     }
@@ -59,14 +60,6 @@ def by_runs(records: Records) -> Iterator[Finding]:
             yield from formed(name, partial(judge, records[name]))
 
 
-def formed(name: str, judge: Callable[[], Iterator[Finding]]) -> list[Finding]:
-    """What is found; a record that does not have the form of such a record is a finding."""
-    try:
-        return list(judge())
-    except FORM as error:
-        return [Finding("unreadable", name, f"does not have the form of such a record: {error!r}")]
-
-
 def _is_there(records: Records, name: str) -> bool:
     return name in records and not records[name].problem
 
@@ -78,30 +71,42 @@ def lacking(records: Records) -> list[str]:
         part = [f"--{key} {kept.data[key]}" for key in ("only", "sample") if kept.data.get(key) is not None]
         if part:
             said.append(f"{name}: a part, made with {' '.join(part)}")
-    asked = {each.get("solver") for each in records["prove.json"].data.get("obligations", ()) if isinstance(each, dict)}
+    for name, kept in records.items():
+        skipped = sum(each.came_to == "skipped" for each in kept.answers)
+        if skipped:
+            said.append(f"{name}: {skipped:,} of {len(kept.answers):,} were skipped")
+    told = records["prove.json"].data.get("obligations")
+    asked = {str(each.get("solver")) for each in told if isinstance(each, dict)} if isinstance(told, list) else set()
     said += [f"prove.json: {solver} was not asked" for solver in ("z3", "cvc5") if asked and solver not in asked]
     return said
 
 
-def told(records: Records, commit: str | None) -> Iterator[Finding]:
-    """Each record says how it was made, and all of them the same of commit, versions and solvers."""
+def told(records: Records, commit: str | None, until: str = "") -> Iterator[Finding]:
+    """Each record says how it was made, all of them the same, and none later than ``until``."""
     now = about()
     for name, kept in records.items():
-        if kept.problem:
-            continue
-        said = kept.about
-        for key in ABOUT:
-            if not said.get(key) and (key != "commit" or commit):
-                yield Finding("unsaid", name, f"does not say its {key}")
-        if said.get("commit", commit) != commit:
-            yield Finding("other commit", name, f"is of commit {said['commit']}, and the manifest of {commit}")
-        if said.get("versions") and said["versions"] != now["versions"]:
-            there, here = _in_words(said["versions"]), _in_words(now["versions"])
-            yield Finding("other versions", name, f"is of {there}, and this is {here}")
-        elif said.get("platform") == now["platform"] and said.get("solvers") != now["solvers"]:
-            yield Finding("other solvers", name, "is by solvers of these versions whose files are not those here")
+        if kept.unfit:
+            yield Finding("unreadable", name, kept.problem)
+        elif not kept.problem:
+            yield from formed(name, partial(_told, kept, now, commit))
+            yield from formed(name, partial(timed, kept, until))
+    yield from alike(records)
     for file in solvers_altered():
         yield Finding("altered solver", file, "is not as its package says: install the solvers again")
+
+
+def _told(kept: Kept, now: About, commit: str | None) -> Iterator[Finding]:
+    name, said = kept.name, kept.about
+    for key in ABOUT:
+        if not said.get(key) and (key != "commit" or commit):
+            yield Finding("unsaid", name, f"does not say its {key}")
+    if said.get("commit", commit) != commit:
+        yield Finding("other commit", name, f"is of commit {said['commit']}, and the manifest of {commit}")
+    if said.get("versions") and said["versions"] != now["versions"]:
+        there, here = _in_words(said["versions"]), _in_words(now["versions"])
+        yield Finding("other versions", name, f"is of {there}, and this is {here}")
+    elif said.get("platform") == now["platform"] and said.get("solvers") != now["solvers"]:
+        yield Finding("other solvers", name, "is by solvers of these versions whose files are not those here")
 
 
 def _in_words(versions: Any) -> str:

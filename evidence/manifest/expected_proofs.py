@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import random
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Any
 
 from evidence.manifest.finding import Finding, differences
@@ -33,8 +34,8 @@ KEPT = "--kept"
 def proved(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
     """Each obligation of the sources stands there once a solver and seed, as it is laid out from them."""
     obligations: Sequence[Told] = told["obligations"]
-    solvers = sorted({each["solver"] for each in obligations})
-    seeds = range(1 + max((each["seed"] for each in obligations), default=0))
+    solvers = sorted({"z3", *(each["solver"] for each in obligations)})
+    seeds = _seeds({each["seed"] for each in obligations}, len(obligations))
     wanted = [_asked(*cell, solver, seed) for cell in laid_out for solver in solvers for seed in seeds]
     there = [_asked(each["transition"], each["invariant"], each["solver"], each["seed"]) for each in obligations]
     yield from differences("obligation", PROOF, there, wanted)
@@ -51,8 +52,18 @@ def proved(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
     if list(told["offences"]) != offences:
         yield Finding("other offences", PROOF, f"says {told['offences']}, and the sources {offences}")
     verdict = Report(told["obligations"], 0.0, 0.0, told["canaries"], told["offences"]).verdict
+    if "z3" not in {each["solver"] for each in obligations}:
+        yield Finding("missing obligation", PROOF, "Z3 was asked nothing")
+    if max((each["seed"] for each in obligations), default=0) > len(obligations):
+        yield Finding("foreign obligation", PROOF, "tells of seeds beyond the number of its answers")
     if told["verdict"] != verdict:
         yield Finding("other verdict", PROOF, f"says {told['verdict']}, and what stands in it comes to {verdict}")
+
+
+def _seeds(told: Set[int], answers: int) -> Sequence[int]:
+    """Each seed up to the greatest, and the first in any case; of greater ones than there are answers, no more."""
+    greatest = max(told, default=0)
+    return range(1 + greatest) if greatest <= answers else sorted({0, *told})
 
 
 def _asked(row: str, column: str, solver: str, seed: int) -> str:
@@ -76,6 +87,10 @@ def _as_laid_out(each: Told, now: LaidOut, versions: Told) -> Iterator[Finding]:
         yield Finding("other verdict", PROOF, f"{what}: {each['verdict']} is no verdict")
     if "kept" in each:
         yield Finding("kept answer", PROOF, f"{what}: nobody was asked, the answer is one of {each['kept']}")
+    budget = math.inf if each["verdict"] == "undecided" else each["rlimit"] * max(now.parts, 1)
+    for key, most in (("seed", math.inf), ("rlimit_spent", budget), ("seconds", math.inf)):
+        if not 0 <= each[key] <= most:
+            yield Finding("other figures", PROOF, f"{what}: says {key} {each[key]:,}, which no run comes to")
     if now.parts and not each["rlimit_spent"] and each["seconds"] == 0:
         yield Finding("nothing spent", PROOF, f"{what}: an answer for which nothing was spent")
 
@@ -109,7 +124,19 @@ def certified(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]
     if told["external"]:
         wanted += WRONG
     yield from differences("control", name, controls, wanted)
+    yield from _outside(name, told)
     yield from _verdict(name, told, certified_code(told))
+
+
+def _outside(name: str, told: Told) -> Iterator[Finding]:
+    """Where an external checker is named it said something of every proof, and without one nothing is said."""
+    for each in told["obligations"]:
+        if bool(told["external"]) != bool(each["external"]) and (each["parts"] or not told["external"]):
+            what = f"{each['row']} × {each['column']}"
+            says = each["external"] or "nothing"
+            yield Finding("other checker", name, f"{what}: {says}, by the checker {told['external'] or 'that is none'}")
+    if told["external"] and not dict(told.get("external_hashes") or {}).get("program"):
+        yield Finding("other checker", name, f"{told['external']}: without a hash of the program that ran")
 
 
 def mutated(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:

@@ -10,13 +10,13 @@ from itertools import takewhile
 from pathlib import PurePath
 from typing import Any
 
-from evidence.manifest import making
+from evidence.manifest import expected_sums, making
 from evidence.manifest.finding import Finding, differences
 from evidence.records.reading import Kept
-from fuzz.planted.canaries import canaries as planted
 from models.days.systems import system_of
 from models.exit_codes import WORDS
-from models.rides.tally import ASSUMPTIONS, COUNTS, MONITORS, VIOLATIONS
+from models.layouts.measures import CLEARANCE_MM
+from models.rides.tally import ASSUMPTIONS, COLUMNS, MONITORS, VIOLATIONS
 from models.sensors.faults import names as faults
 from models.shipped import PACKAGES, is_installed, shipped
 
@@ -32,6 +32,12 @@ def checked(told: Told) -> Iterator[Finding]:
     samples = [f"layouts/{path.name}" for path in sorted(shipped("layouts").glob("*.toml"))]
     yield from differences("layout", name, [each for each in there if each in samples], samples)
     for each in told["layouts"]:
+        place = f"layouts/{PurePath(each['file']).name}"
+        if place in samples and each["file"] != place:
+            yield Finding("foreign layout", name, f"{each['file']}: has the name of {place}, and is another file")
+        if place in samples and (each["clearance_mm"] != CLEARANCE_MM or each["strict"]):
+            said = f"with {each['clearance_mm']} mm, strict: {each['strict']}"
+            yield Finding("other check", name, f"{place}: checked {said}, and not with {CLEARANCE_MM} mm as it stands")
         result = making.check(each)
         if not result.same:
             yield Finding("other layout", name, f"{each['file']}: {result.says}")
@@ -55,6 +61,8 @@ def reproduced(name: str, told: Told) -> Iterator[Finding]:
             yield Finding("other row", name, f"{each['what']}: another figure of the paper's, or another criterion")
         if (each["agrees"] is None) != (row.agrees is None):
             yield Finding("other row", name, f"{each['what']}: compared or not, against the sources")
+        if each["agrees"] is not None and not isinstance(each["agrees"], bool):
+            yield Finding("other row", name, f"{each['what']}: agrees {each['agrees']!r}, which is neither yes nor no")
     agrees = all(each["agrees"] for each in told["rows"] if each["agrees"] is not None)
     if (told["verdict"] == "holds") != agrees or told["paper"] != paper:
         yield Finding("other verdict", name, f"says {told['verdict']} of {told['paper']}, and its rows do not")
@@ -64,12 +72,13 @@ def ridden(name: str, told: Told) -> Iterator[Finding]:
     """Each fault beyond its range has its campaign, and each campaign counts what the sources count."""
     there = [each["beyond"] or "" for each in told["campaigns"]]
     yield from differences("campaign", name, there, [""] if name == "ride.json" else list(faults()))
-    counted = {"violations": VIOLATIONS, "assumptions": ASSUMPTIONS, "monitors": MONITORS, "sums": COUNTS}
+    counted = {"violations": VIOLATIONS, "assumptions": ASSUMPTIONS, "monitors": MONITORS, "sums": COLUMNS}
     for each in told["campaigns"]:
         for key, wanted in counted.items():
             yield from differences("count", name, list(each[key]), list(wanted))
         if bool(each["violated"]) != any(each["violations"].values()) or each["violated"] > each["rides"]:
             yield Finding("other sums", name, f"{each['violated']} rides with a claim broken, and its counts say other")
+    yield from expected_sums.ridden(name, told)
 
 
 def lived(name: str, told: Told) -> Iterator[Finding]:
@@ -84,20 +93,7 @@ def lived(name: str, told: Told) -> Iterator[Finding]:
     broken = any(each["on days"] for each in told["columns"]["claims"].values())
     if bool(told["violated"]) != broken or told["violated"] > told["days"]:
         yield Finding("other sums", name, f"{told['violated']} days with a claim broken, and its counts say other")
-
-
-def fuzzed(told: Told) -> Iterator[Finding]:
-    """Each seed sought canaries, and the sources know each; the sums are those of what stands there."""
-    name, known = "fuzz.json", {canary.name for seed in told["seeds"] for canary in planted(seed)}
-    if not told["canaries"]:
-        yield Finding("missing canary", name, "no canary was sought: nothing that was not found counts")
-    for each in told["canaries"]:
-        if each["fault"] not in known:
-            yield Finding("foreign canary", name, f"{each['fault']}: the sources plant none such by these seeds")
-        if each["target"] and not each["batches"]:
-            yield Finding("other canary", name, f"{each['fault']}: found in no batch")
-    if told["verdict"] == "holds" and (told["failures"] or not all(each["target"] for each in told["canaries"])):
-        yield Finding("other verdict", name, "says holds, with failures or canaries that were not found")
+    yield from expected_sums.lived(name, told)
 
 
 # ---- lists of tests and contracts
@@ -108,6 +104,9 @@ def tested(record: Kept) -> Iterator[Finding]:
     wanted = collected()
     if wanted is not None:
         yield from differences("test", record.name, [each.name for each in record.answers], wanted)
+    skipped = sum(each.came_to == "skipped" for each in record.answers)
+    if record.answers and 2 * skipped >= len(record.answers):
+        yield Finding("skipped tests", record.name, f"{skipped:,} of {len(record.answers):,} were not run")
 
 
 def collected() -> list[str] | None:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+import stat
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
+from evidence.records.strict import KINDS, content_of, is_other, parsed
 from models.shipped import is_installed
 from proofs.records import commit, versions
 from proofs.repository import git
@@ -32,12 +35,14 @@ class Manifest:
 
     ``commit``: of the sources, with ``+`` behind it where files differed from it; ``sources``: a hash of all files
     that are not ignored, by their names and content; ``records``: the hash of each file by its place in the folder.
+    ``made_at``: when it was made, in UTC; empty in one of an earlier version.
     """
 
     commit: str | None
     sources: str
     records: Mapping[str, str]
     versions: Mapping[str, str]
+    made_at: str = ""
 
     def text(self) -> str:
         """As it is written."""
@@ -46,7 +51,8 @@ class Manifest:
 
 def made(folder: Path) -> Manifest:
     """Hash everything in a folder, and the sources."""
-    return Manifest(commit(), sources(), {name: hash_of(folder / name) for name in files(folder)}, versions())
+    records = {name: hash_of(folder / name) for name in files(folder)}
+    return Manifest(commit(), sources(), records, versions(), datetime.now(UTC).isoformat(timespec="seconds"))
 
 
 def files(folder: Path) -> list[str]:
@@ -54,8 +60,18 @@ def files(folder: Path) -> list[str]:
     return sorted(
         path.relative_to(folder).as_posix()
         for path in folder.rglob("*")
-        if path.is_file() and path.relative_to(folder).parts[0] not in NOT_RECORDS
+        if path.is_file() and not path.is_symlink() and path.relative_to(folder).parts[0] not in NOT_RECORDS
     )
+
+
+def others(folder: Path) -> dict[str, str]:
+    """What else stands in a folder of records, by its place in it: links, FIFOs, devices, each as what it is."""
+    found = {path: is_other(path) for path in sorted(folder.rglob("*"))}
+    return {
+        path.relative_to(folder).as_posix(): what
+        for path, what in found.items()
+        if what and what != KINDS[stat.S_IFDIR] and path.relative_to(folder).parts[0] not in NOT_RECORDS - {NAME}
+    }
 
 
 def hash_of(path: Path) -> str:
@@ -105,10 +121,11 @@ def read_manifest(folder: Path) -> Manifest:
     """
     path = folder / NAME
     try:
-        data = json.loads(path.read_text("utf-8"))
+        data = parsed(content_of(path))
         if data["format"] != FORMAT:
             raise ManifestError(f"{path}: is of the format {data['format']}; heisoku manifest {folder} makes it anew")
-        return Manifest(data["commit"], str(data["sources"]), dict(data["records"]), dict(data["versions"]))
+        records, with_versions = dict(data["records"]), dict(data["versions"])
+        return Manifest(data["commit"], str(data["sources"]), records, with_versions, str(data.get("made_at", "")))
     except OSError as error:
         line = f"{path}: {error.strerror}; heisoku manifest {folder} makes it at the end of make assure"
         raise ManifestError(line) from error

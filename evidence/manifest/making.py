@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from evidence.manifest.forms import FORM
 from fuzz.failures.command import Replayed, replay_file
 from models.days.campaign import outcome as outcome_of
 from models.days.kept import KeptDays
@@ -59,7 +60,7 @@ def ask_again(some: Sequence[tuple[tuple[str, str], str]]) -> list[Result]:
     for (row, column), verdict in some:
         try:
             now = run.settle(row, column, "z3", 0, run.parts(row, column), "")["verdict"]
-        except (KeyError, TypeError, AttributeError) as error:
+        except FORM as error:
             found.append(Result(False, f"{row} × {column}: cannot be made from its record: {error!r}"))
             continue
         found.append(Result(now == verdict, f"{row} × {column}: recorded as {verdict}, and now {now}"))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import json
+import re
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,10 +12,15 @@ from typing import Any
 
 from lxml import etree
 
+from evidence.records.strict import NotStrict, content_of, parsed, tree
+
 ABOUT = "heisoku.about"
 """The name of the property of a JUnit file that says how it was made."""
 HEADING = f"# {ABOUT} "
 """What stands before the same in the first line of CrossHair's."""
+TOLD = re.compile(r"(?P<place>.+?:\d+): (?P<kind>info|warning|error): (?P<says>.*)")
+"""A line of CrossHair's."""
+CONFIRMED, NOT_CONFIRMED = "Confirmed over all paths.", "Not confirmed."
 Cell = tuple[str, str]
 """An obligation by its row and column."""
 
@@ -33,7 +38,8 @@ class Kept:
     """One record.
 
     ``data``: what stands in it, of a JSON record; ``answers``: of one that lists tests or contracts, and
-    ``said`` how it was made.  ``problem``: why it cannot be used, or nothing.
+    ``said`` how it was made.  ``problem``: why it cannot be used, or nothing; ``unfit``: something
+    stands there under its name that no command wrote.
     """
 
     name: str
@@ -42,6 +48,7 @@ class Kept:
     said: Mapping[str, Any] = field(default_factory=dict)
     problem: str = ""
     sha256: str = ""
+    unfit: bool = False
 
     @cached_property
     def cells(self) -> Mapping[Cell, Mapping[str, Set[str]]]:
@@ -90,7 +97,9 @@ def read(folder: Path, names: frozenset[str]) -> Records:
 
 def _kept(path: Path) -> Kept:
     try:
-        content = path.read_bytes()
+        content = content_of(path)
+    except NotStrict as error:
+        return Kept(path.name, problem=str(error), unfit=True)
     except FileNotFoundError:
         return Kept(path.name, problem="there is no such record")
     except OSError as error:
@@ -98,9 +107,9 @@ def _kept(path: Path) -> Kept:
     digest = hashlib.sha256(content).hexdigest()
     try:
         if path.suffix == ".json":
-            data = json.loads(content)
+            data = parsed(content)
             if not isinstance(data, dict):
-                return Kept(path.name, problem="it is no record: no object at its top", sha256=digest)
+                return Kept(path.name, problem="it is no record: no object at its top", sha256=digest, unfit=True)
             return Kept(path.name, data=data, sha256=digest)
         if path.suffix == ".xml":
             answers, said = _tests(content), _properties(content)
@@ -108,7 +117,7 @@ def _kept(path: Path) -> Kept:
             answers, said = _contracts(content.decode()), heading(content.decode())
     except (ValueError, etree.XMLSyntaxError) as error:
         line = str(error).splitlines()[0] if str(error) else type(error).__name__
-        return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest)
+        return Kept(path.name, problem=f"it cannot be read: {line}", sha256=digest, unfit=True)
     return Kept(path.name, answers=tuple(answers), said=said, sha256=digest)
 
 
@@ -116,13 +125,13 @@ def _tests(content: bytes) -> list[Answer]:
     """Every test of a JUnit file."""
     return [
         Answer(f"{case.get('classname', '')}::{case.get('name', '')}", _came_to(case))
-        for case in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("testcase")
+        for case in _named(tree(content), "testcase")
     ]
 
 
 def _properties(content: bytes) -> Mapping[str, Any]:
     """What a JUnit file says of how it was made, in a property of its suite."""
-    for each in etree.fromstring(content, etree.XMLParser(resolve_entities=False)).iter("property"):
+    for each in _named(tree(content), "property"):
         if each.get("name") == ABOUT:
             return _object(each.get("value", ""))
     return {}
@@ -135,26 +144,32 @@ def heading(text: str) -> Mapping[str, Any]:
 
 
 def _object(text: str) -> Mapping[str, Any]:
-    found = json.loads(text)
+    found = parsed(text)
     return found if isinstance(found, dict) else {}
 
 
 def _came_to(case: etree._Element) -> str:
-    if case.find("failure") is not None or case.find("error") is not None:
+    if _named(case, "failure") or _named(case, "error"):
         return "failed"
-    return "skipped" if case.find("skipped") is not None else "passed"
+    return "skipped" if _named(case, "skipped") else "passed"
+
+
+def _named(within: etree._Element, name: str) -> list[etree._Element]:
+    """All elements of a name, in whatever namespace."""
+    return [each for each in within.iter(etree.Element) if etree.QName(each).localname == name]
 
 
 def _contracts(text: str) -> list[Answer]:
-    """Every condition that CrossHair tells of: one line each."""
+    """Every condition that CrossHair tells of: one line each; a line of another form shows nothing, by its text."""
     found = []
-    for line in text.splitlines():
-        place, _, told = line.partition(": ")
-        kind, _, says = told.partition(": ")
-        if kind == "info" and says.startswith("Confirmed"):
-            found.append(Answer(place, "passed"))
-        elif kind == "error":
-            found.append(Answer(place, "failed"))
-        elif kind in ("info", "warning"):
-            found.append(Answer(place, "skipped"))
+    for number, line in enumerate(text.splitlines()):
+        if not line.strip() or (number == 0 and line.startswith(HEADING)):
+            continue
+        told = TOLD.fullmatch(line)
+        if told is None or (told["kind"] == "info" and told["says"] not in (CONFIRMED, NOT_CONFIRMED)):
+            found.append(Answer(line, "skipped"))
+        elif told["kind"] == "error":
+            found.append(Answer(told["place"], "failed"))
+        else:
+            found.append(Answer(told["place"], "passed" if told["says"] == CONFIRMED else "skipped"))
     return found

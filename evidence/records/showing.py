@@ -90,7 +90,9 @@ def _few(names: Sequence[str], most: int = 4) -> str:
 
 
 def _checked(record: Kept, which: str) -> tuple[Came, str]:
-    entry = next((each for each in record.data["layouts"] if PurePath(each["file"]).name == which), None)
+    entry = next(
+        (each for each in record.data["layouts"] if PurePath(each["file"]) == PurePath("layouts", which)), None
+    )
     if entry is None:
         return "not shown", f"check.json says nothing of {which}"
     if entry["verdict"] != "holds":
@@ -144,7 +146,8 @@ def _fuzzed(record: Kept, which: str) -> tuple[Came, str]:
     missed = sum(not each["target"] for each in canaries)
     says = f"{traces:,} traces, {steps:,} steps, {len(record.data['failures']):,} causes of failure"
     says += f", {len(canaries) - missed} of {len(canaries)} canaries found"
-    if record.data["verdict"] == "does not hold" or record.data["failures"]:
+    ended = any(each["failures"] or each["unfinished"] for each in targets.values()) or record.data["left_out"]
+    if record.data["verdict"] == "does not hold" or record.data["failures"] or ended:
         return "does not hold", says
     if missed or not steps or record.data["verdict"] != "holds":
         return "not shown", says
@@ -209,7 +212,7 @@ def judged(answers: Sequence[Answer], what: str, *, skipping: bool) -> tuple[Cam
     says = f"{came.count('passed'):,} of {len(came):,} {what} passed" + (f", {skipped:,} skipped" if skipped else "")
     if failed:
         return "does not hold", says
-    if not came.count("passed") or (skipped and not skipping):
+    if not came.count("passed") or (skipped and not skipping) or skipped > came.count("passed"):
         return "not shown", says
     return "holds", says
 

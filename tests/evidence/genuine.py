@@ -18,16 +18,17 @@ from models.days.systems import NAMES as SYSTEMS
 from models.days.systems import system_of
 from models.layouts import as_json, check, load
 from models.reproduce import PAPERS
-from models.rides.tally import ASSUMPTIONS, COUNTS, MONITORS, VIOLATIONS
+from models.rides.tally import ASSUMPTIONS, COLUMNS, MONITORS, VIOLATIONS
 from models.sensors.faults import names as faults
 from models.shipped import shipped
 from proofs import canaries
+from proofs.junit import write_junit
 from proofs.mutants import assumed, trying
 from proofs.mutants import command as mutating
 from proofs.mutants import joints as between
 from proofs.mutants.classes import table
 from proofs.mutants.targets import mutants, theories_with
-from proofs.records import about
+from proofs.records import Report, about
 from proofs.solvers import BUDGET, version
 from proofs.theories import is_transition, theory_of
 
@@ -166,26 +167,29 @@ def ridden(beyond: Sequence[str | None]) -> Told:
         "monitors": dict.fromkeys(MONITORS, 0),
         "violated": 0,
         "unexplained": 0,
-        "sums": dict.fromkeys(COUNTS, 1),
+        "sums": {**dict.fromkeys(COLUMNS, 0), "cycles": 100},
+        "most": {**dict.fromkeys(COLUMNS, 0), "cycles": 1},
     }
-    return {"seed": 1, "campaigns": [{"beyond": name, **one} for name in beyond], **about()}
+    campaigns = [{"beyond": name, **one} for name in beyond]
+    return {"seed": 1, "campaigns": campaigns, **about(), "command": "heisoku ride --rides 100"}
 
 
 def lived(name: str) -> Told:
     system = system_of(name)
     column = {"all": 0, "most in a day": 0, "on days": 0}
     columns = {group: dict.fromkeys(getattr(system, group), column) for group in GROUPS}
-    return {"system": name, "seed": 1, "days": 5, "violated": 0, "unexplained": 0, "columns": columns, **about()}
+    told = {"system": name, "seed": 1, "days": 5, "violated": 0, "unexplained": 0, "columns": columns}
+    return {**told, **about(), "command": f"heisoku days {name} --days=5"}
 
 
 def fuzzed() -> Told:
     sought = [
-        {"kind": each.kind, "fault": each.name, "target": "link", "batches": 1, "seconds": 1.0} for each in planted(1)
+        {"kind": each.kind, "fault": each.name, "target": "walks", "batches": 1, "seconds": 1.0} for each in planted(1)
     ]
     starts = [{"at": "2026-01-01", "seed": 1, **about()}]
-    target = {"batches": 8, "traces": 40, "steps": 4_868}
-    told = {"verdict": "holds", "seeds": [1], "starts": starts, "targets": {"link": target}}
-    return {**told, "canaries": sought, "failures": []}
+    target = {"batches": 8, "unfinished": 0, "traces": 40, "steps": 4_868, "failures": 0}
+    told = {"verdict": "holds", "seeds": [1], "starts": starts, "targets": {"link": target, "walks": target}}
+    return {**told, "left_out": [], "canaries": sought, "failures": []}
 
 
 def tests(names: Sequence[str]) -> str:
@@ -222,6 +226,8 @@ def write(folder: Path, laid_out: Laid, *, whole: bool) -> Path:
     folder.mkdir()
     for name, record in records.items():
         (folder / name).write_text(json.dumps(record), "utf-8")
+    told = records["prove.json"]
+    write_junit(folder / "prove.xml", Report(told["obligations"], 1.0, 2.5, told["canaries"], told["offences"]))
     (folder / "test.xml").write_text(tests(expected_runs.collected() or []), "utf-8")
     (folder / "crosshair.txt").write_text(contracts(), "utf-8")
     bind(folder)

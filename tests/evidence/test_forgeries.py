@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from evidence.manifest import again, comparing, expected, expected_runs
+from evidence.manifest import again, comparing, expected, expected_runs, making
 from evidence.manifest.finding import Finding
 from evidence.manifest.hashes import read_manifest
 from evidence.manifest.laying_out import Cell, LaidOut, all_laid_out, laid_out
@@ -23,6 +23,7 @@ from proofs.witnesses.registry import WITNESSES
 from proofs.workbench import Workbench
 from tests.evidence import genuine
 from tests.evidence.forgeries import MORE, QUICK, Forgery
+from tests.evidence.forgeries_later import DAYS, LATER
 
 Laid = Mapping[Cell, LaidOut]
 TESTS = ["tests.test_cli::test_one", "tests.test_cli::test_two[a & b]"]
@@ -60,7 +61,7 @@ def found(folder: Path, every: Laid) -> list[Finding]:
     manifest, records = read_manifest(folder), read(folder, expected.NAMES)
     return [
         *comparing.compared(folder, manifest),
-        *expected.told(records, manifest.commit),
+        *expected.told(records, manifest.commit, manifest.made_at),
         *expected.by_proofs(records, every),
         *expected.by_runs(records),
     ]
@@ -79,7 +80,7 @@ def test_genuine_records_have_no_findings(quick: tuple[Path, Laid]) -> None:
     assert [each.line for each in found(*quick)] == []
 
 
-@pytest.mark.parametrize("forgery", QUICK, ids=lambda each: each.name)
+@pytest.mark.parametrize("forgery", [*QUICK, *LATER], ids=lambda each: each.name)
 def test_a_forgery_is_named(forgery: Forgery, quick: tuple[Path, Laid], tmp_path: Path) -> None:
     names(forgery, *quick, tmp_path / "forged")
 
@@ -90,13 +91,13 @@ def test_all_genuine_records_have_no_findings(whole: tuple[Path, Laid]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("forgery", [*QUICK, *MORE], ids=lambda each: each.name)
+@pytest.mark.parametrize("forgery", [*QUICK, *MORE, *LATER, *DAYS], ids=lambda each: each.name)
 def test_every_forgery_is_named(forgery: Forgery, whole: tuple[Path, Laid], tmp_path: Path) -> None:
     names(forgery, *whole, tmp_path / "forged")
 
 
-def test_forty_forgeries_are_written_down() -> None:
-    assert len({each.name for each in (*QUICK, *MORE)}) >= 40
+def test_sixty_forgeries_are_written_down() -> None:
+    assert len({each.name for each in (*QUICK, *MORE, *LATER)}) >= 60
 
 
 # ---- forgeries of what the verifier runs on
@@ -156,5 +157,50 @@ def test_a_cell_that_does_not_hold_is_asked_again_for_certain(monkeypatch: pytes
 
 def as_recorded(cells: list[Cell]) -> Kept:
     """A record by which each of them is proved, by both solvers."""
-    told = [{"transition": row, "invariant": column, "verdict": "proved"} for row, column in cells]
+    told = [answer(*cell, solver, "proved") for cell in cells for solver in ("z3", "cvc5")]
     return Kept("prove.json", data={"obligations": told})
+
+
+def answer(row: str, column: str, solver: str, verdict: str) -> dict[str, object]:
+    """One answer, as far as it is compared."""
+    return {"transition": row, "invariant": column, "solver": solver, "seed": 0, "verdict": verdict}
+
+
+def test_what_cvc5_leaves_undecided_and_z3_proves_is_asked_again_and_is_the_same() -> None:
+    column = next(iter(THEORIES["braking"].invariants))
+    for verdicts in ({"z3": "proved", "cvc5": "undecided"}, {"cvc5": "undecided", "z3": "proved"}):
+        told = [answer(ROW, column, solver, verdict) for solver, verdict in verdicts.items()]
+        records = {"prove.json": Kept("prove.json", data={"obligations": told})}
+        assert [result.same for result in again.asked_again(records, 1, lambda *_: None)] == [True]
+
+
+def test_what_only_cvc5_is_said_to_prove_differs() -> None:
+    column = next(iter(THEORIES["braking"].invariants))
+    nothing: dict[str, object] = {}
+    for told in ([answer(ROW, column, "cvc5", "proved")], [answer(ROW, column, "z3", "undecided")], [nothing]):
+        records = {"prove.json": Kept("prove.json", data={"obligations": told})}
+        assert [result.same for result in again.asked_again(records, 1, lambda *_: None)] == [False]
+
+
+def test_what_is_drawn_and_what_is_never_made_again_is_said(tmp_path: Path) -> None:
+    pool = [again.Figure("mutant", str(number), lambda: making.Result(True, "")) for number in range(6_000)]
+    assert again.rarely(pool, again.drawn(pool, 1, 30)) == "3 of 6,000 mutant"
+    assert again.rarely(pool[:2], pool[:2]) == ""
+    records = {
+        "ride.json": Kept("ride.json", data={"campaigns": [{"rides": 112_000}]}),
+        "beyond.json": Kept("beyond.json", data={"campaigns": [{"rides": 1_024}, {"rides": "many"}]}),
+        "days-tram.json": Kept("days-tram.json", data={"days": 10_000}),
+    }
+    assert again.never(tmp_path, records) == ["ride.json: 112,000 rides", "days-tram.json: 10,000 days"]
+    (tmp_path / "tram.days").write_bytes(b"")
+    assert again.never(tmp_path, records) == ["ride.json: 112,000 rides"]
+
+
+def test_a_record_of_another_form_has_a_figure_that_cannot_be_made(tmp_path: Path) -> None:
+    records = {
+        "ride.json": Kept("ride.json", data={"campaigns": [{}]}),
+        "days-tram.json": Kept("days-tram.json", data={"days": "many"}),
+    }
+    told = [each for each in again.figures(tmp_path, records) if each.kind == "unreadable"]
+    assert {each.what for each in told} == {"rides", "days of the tram"}
+    assert not any(again.made_again(each).same for each in told)

@@ -129,3 +129,11 @@ def test_tests_and_contracts_are_counted(folder: Path) -> None:
     assert found["witness:split"].verdict == "does not hold"
     assert found["crosshair"].verdict == "not shown"
     assert "1 of 2 conditions" in found["crosshair"].says
+
+
+def test_a_failure_in_whatever_namespace_is_a_failure(folder: Path) -> None:
+    xml = (folder / "test.xml").read_text("utf-8")
+    failed = 'name="test_it[split]"><f:failure xmlns:f="of:nobody"/></testcase>'
+    (folder / "test.xml").write_text(xml.replace('name="test_it[split]"/>', failed), "utf-8")
+    assert came_to(folder)["witness:split"].verdict == "does not hold"
+    assert came_to(folder)["test"].verdict == "does not hold"
