@@ -29,7 +29,9 @@ from proofs.run import prove_all
 from proofs.solvers import Reply
 from proofs.theories import THEORIES, columns
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
-from proofs.workbench import Workbench
+from proofs.workbench import Part, Workbench
+
+TRIES = 3
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SAMPLE = (
@@ -438,3 +440,19 @@ def test_a_cell_in_which_nothing_is_asked_says_so_and_only_a_look_up_may_be_one(
 def test_how_many_cells_ask_nothing_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert heisoku.run(["prove", "--only", "^cycle.receive ", "--jobs", "1"]) == 0
     assert "in 1 of them nothing is looked up, so nothing was asked" in capsys.readouterr().out
+
+
+def test_what_z3_leaves_unknown_is_asked_again_and_then_by_its_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In three contexts, with the same seed; the last is the one that the text alone makes."""
+    x = z3.Int("x")
+    part = Part({"x_is_positive": [x > 0]}, [], x > -1)
+    asked: list[tuple[z3.Context, str]] = []
+
+    def at_a_loss(solver: z3.Solver, seed: int) -> tuple[str, int]:
+        asked.append((solver.ctx, solver.to_smt2()))
+        return ("unknown", 5) if len(asked) < TRIES else (str(solver.check()), 3)
+
+    monkeypatch.setattr(solvers, "_ask_z3_once", at_a_loss)
+    assert solvers.ask_z3(part, 7) == ("unsat", 5)
+    assert len({str(context.ref()) for context, _ in asked}) == TRIES
+    assert "(> x 0)" in asked[-1][1]
