@@ -106,13 +106,20 @@ sys.modules["z3"] = z3
 """The first worker to ask anything is lied to; no other process is."""
 
 
+BEGIN = "import heisoku_start; heisoku_start.SOLVERS.clear(); heisoku_start.main()"
+"""The program, but for what looks whose solvers' packages stand on the path."""
+
+
 def proved_with(fake: str, package: str, place: Path, *options: str) -> tuple[int, list[str], dict[str, Any]]:
-    """Prove with a package in front of the solver's; exit code, what is said to be missed, and the record."""
+    """Prove with a package in front of the solver's; exit code, what is said to be missed, and the record.
+
+    The program begins without what refuses such a package by name: what canaries notice of it is asked.
+    """
     (place / package).mkdir()
     (place / package / "__init__.py").write_text(fake, "utf-8")
     record = place / "prove.json"
     ended = subprocess.run(
-        [sys.executable, str(ROOT / "heisoku.py"), "prove", "--jobs", "2", "--json", str(record), *options],
+        [sys.executable, "-c", BEGIN, *("prove", "--jobs", "2", "--json", record), *options],
         capture_output=True,
         text=True,
         cwd=ROOT,
