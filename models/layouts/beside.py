@@ -65,7 +65,7 @@ class Spare:
         ports = {port for pair in junction.kind.positions[position] for port in pair}
         joined = [segments.segments[segments.leaving[junction.ports[p]][0]] for p in ports if p in junction.ports]
         tracks_mm = sum(segments.station.tracks[each.track] for each in joined)
-        return -sum(each.to_mm - each.from_mm for each in joined), -tracks_mm
+        return -sum(each.long_mm for each in joined), -tracks_mm
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,12 @@ block at a time, so its cost is that of the block and not of the network.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from kernel.names import Block, Point, Position
-from models.layouts.track import HIGH, LOW, Cut, Heading, Joint, Segments, Stop
+from models.layouts.track import HIGH, LOW, Cut, Heading, Joint, Segments, Stop, WayOn
 
 
 @dataclass(frozen=True)
@@ -122,11 +122,10 @@ def opposite(heading: Heading) -> Heading:
     return heading[0], 1 - heading[1]
 
 
-def walk(segments: Segments, starts: Iterable[Heading], barred: tuple[str, Position] | None = None) -> set[Heading]:
-    """Every heading met by a movement inside one block from these on, over all positions of points.
-
-    ``barred`` forbids to pass that point facing where only that position leads the way taken.
-    """
+def walk(
+    segments: Segments, starts: Iterable[Heading], may_take: Callable[[Joint, WayOn], bool] = lambda *_: True
+) -> set[Heading]:
+    """Every heading met by a movement inside one block from these on, by the ways over junctions that it may take."""
     met: set[Heading] = set()
     todo = list(starts)
     while todo:
@@ -136,11 +135,17 @@ def walk(segments: Segments, starts: Iterable[Heading], barred: tuple[str, Posit
         met.add(heading)
         end = segments.at[heading]
         if isinstance(end, Joint):
-            ways = segments.onward(end)
-            for _, positions, onward in ways:
-                if barred is None or len(ways) < 2 or (end.junction, positions) != (barred[0], (barred[1],)):
-                    todo.append(onward)
+            todo += [way[2] for way in segments.onward(end) if may_take(end, way)]
     return met
+
+
+def _without(segments: Segments, point: Point, position: Position) -> Callable[[Joint, WayOn], bool]:
+    """All ways but those over a point met facing that this position alone leads."""
+
+    def may_take(joint: Joint, way: WayOn) -> bool:
+        return (joint.junction, way[1]) != (point, (position,)) or len(segments.onward(joint)) < 2
+
+    return may_take
 
 
 def exits(blocks: Blocks, starts: Iterable[Heading]) -> set[Block]:
@@ -164,7 +169,8 @@ def demanded(blocks: Blocks, block: Block, starts: Sequence[Heading], goals: set
         return found
     for point in sorted(blocks.points_in[block]):
         for position in sorted(blocks.segments.station.junctions[point].kind.positions):
-            if not goals & walk(blocks.segments, starts, (point, Position(position))):
+            without = _without(blocks.segments, point, Position(position))
+            if not goals & walk(blocks.segments, starts, without):
                 found[point] = Position(position)
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from heapq import heappop, heappush
-from itertools import combinations
+from itertools import combinations, groupby, product
 
 from kernel.names import Block
 from models.layouts.blocks import Blocks
@@ -77,8 +77,7 @@ def _behind(blocks: Blocks, heading: Heading) -> Heading | None:
 
 
 def _long_mm(blocks: Blocks, heading: Heading) -> int:
-    segment = blocks.segments.segments[heading[0]]
-    return segment.to_mm - segment.from_mm
+    return blocks.segments.segments[heading[0]].long_mm
 
 
 def foul_legs(legs: tuple[Leg, ...], clearance_mm: int) -> Iterator[Violation]:
@@ -106,23 +105,21 @@ def trains_side_by_side(
 
     That the point's block fouls each of the blocks behind them keeps neither off the other.
     """
-    at: dict[str, list[Leg]] = {}
-    for leg in legs:
-        at.setdefault(leg.point, []).append(leg)
-    for point, its in at.items():
-        for one, other in combinations(its, 2) if station is not None else ():
-            if station is None or station.junctions[point].kind.joined(one.leg, other.leg):
-                continue
-            for near_mm, near, block in _not_apart(one, clearance_mm):
-                for far_mm, far, beside in _not_apart(other, clearance_mm):
-                    if block != beside and beside not in fouls.get(block, ()):
-                        text = (
-                            f"boundary '{near}' lies {near_mm:,} mm behind '{point}' on its leg '{one.leg}' and "
-                            f"'{far}' {far_mm:,} mm on its leg '{other.leg}', where neither is clear of the other: "
-                            f"trains behind both stand side by side; tell blocks '{block}' and '{beside}' to foul "
-                            "each other"
-                        )
-                        yield Violation(BESIDE, (point, near, far), text)
+    if station is None:
+        return
+    for one, other in (pair for _, its in groupby(legs, lambda leg: leg.point) for pair in combinations(its, 2)):
+        if station.junctions[one.point].kind.joined(one.leg, other.leg):
+            continue
+        for (near_mm, near, block), (far_mm, far, beside) in product(
+            _not_apart(one, clearance_mm), _not_apart(other, clearance_mm)
+        ):
+            if block != beside and beside not in fouls.get(block, ()):
+                text = (
+                    f"boundary '{near}' lies {near_mm:,} mm behind '{one.point}' on its leg '{one.leg}' and "
+                    f"'{far}' {far_mm:,} mm on its leg '{other.leg}', where neither is clear of the other: "
+                    f"trains behind both stand side by side; tell blocks '{block}' and '{beside}' to foul each other"
+                )
+                yield Violation(BESIDE, (one.point, near, far), text)
 
 
 def _not_apart(leg: Leg, clearance_mm: int) -> list[Passed]:

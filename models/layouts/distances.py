@@ -63,8 +63,7 @@ def _onward(blocks: Blocks, start: Heading) -> Onward:
             meets = True
             continue
         reached.add(heading)
-        segment = segments.segments[heading[0]]
-        end_mm = so_far_mm + segment.to_mm - segment.from_mm
+        end_mm = so_far_mm + segments.segments[heading[0]].long_mm
         end = segments.at[heading]
         if isinstance(end, Joint):
             for _, _, onward in segments.onward(end):

@@ -78,7 +78,7 @@ class Follower:
         over: set[int] = set()
         last_in = self._run(path, end.beyond, str(path.wanted.overlap), path.overlap, path.beyond, over)
         segments = self.blocks.segments.segments
-        path.overlap_mm = sum(segments[index].to_mm - segments[index].from_mm for index in over)
+        path.overlap_mm = sum(segments[index].long_mm for index in over)
         return last_in is not None
 
     def _run(

@@ -83,8 +83,7 @@ def _nearest_point(blocks: Blocks, start: Heading) -> tuple[int, str] | None:
     heading = start
     while heading not in met:
         met.add(heading)
-        segment = segments.segments[heading[0]]
-        long_mm += segment.to_mm - segment.from_mm
+        long_mm += segments.segments[heading[0]].long_mm
         end = segments.at[heading]
         if not isinstance(end, Joint):
             return None
@@ -98,7 +97,6 @@ def _nearest_point(blocks: Blocks, start: Heading) -> tuple[int, str] | None:
 def _say_what_ends_no_track(blocks: Blocks, findings: Findings) -> None:
     """What ends track, such as a buffer stop, with track behind it: where it is joined there, one of them is wrong."""
     station = blocks.segments.station
-    joined = {end: name for name, junction in station.junctions.items() for end in junction.ports.values()}
     for mark in station.marks.values():
         if mark.cuts or len(blocks.segments.beside[mark.name]) < 2:
             continue
@@ -106,7 +104,7 @@ def _say_what_ends_no_track(blocks: Blocks, findings: Findings) -> None:
         if 0 < mark.at_mm < station.tracks[mark.track]:
             findings.remark((mark.name, mark.track), f"{told}, where the file has track go on")
             continue
-        junction = joined[mark.track, HIGH if mark.at_mm else LOW]
+        junction = station.joined[mark.track, HIGH if mark.at_mm else LOW].junction
         text = f"{told}, where '{junction}' joins it to other track: move '{mark.name}', or take the joint away"
         findings.violation(ENDS, (mark.name, mark.track, junction), text)
 

@@ -142,8 +142,7 @@ def _leaving(junction: Junction, port: str) -> list[Lies]:
 
 
 def _long_mm(blocks: Blocks, heading: Heading) -> int:
-    segment = blocks.segments.segments[heading[0]]
-    return segment.to_mm - segment.from_mm
+    return blocks.segments.segments[heading[0]].long_mm
 
 
 def _over(blocks: Blocks, joint: Joint, lies: Lies) -> Iterator[tuple[Heading, Lies]]:

@@ -125,11 +125,10 @@ def _open_ends(imported: Imported) -> Iterator[tuple[str, ...]]:
     station = imported.station
     if station is None:
         return
-    joined = {end for junction in station.junctions.values() for end in junction.ports.values()}
     closed = {(mark.track, mark.at_mm) for mark in station.marks.values() if not mark.cuts}
     for track, length_mm in station.tracks.items():
         for side, at_mm in ((LOW, 0), (HIGH, length_mm)):
-            if (track, side) not in joined and (track, at_mm) not in closed:
+            if (track, side) not in station.joined and (track, at_mm) not in closed:
                 yield track, f"{at_mm} mm"
 
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from kernel.names import Block, Point, Position
-from models.layouts.blocks import Blocks, opposite
+from models.layouts.blocks import Blocks, opposite, walk
 from models.layouts.findings import Findings
 from models.layouts.following import Path
-from models.layouts.track import Cut, Heading, Joint, Stop
+from models.layouts.track import Cut, Heading, Joint, Stop, WayOn
 
 SAID = "a route says where its train stands"
 APART = "the tracks of a start block are told apart"
@@ -110,20 +110,13 @@ def _other_tracks(
 
 def _open_to(blocks: Blocks, start: Heading, needs: Mapping[Point, Position]) -> set[Heading]:
     """The ends of a block that are come to with these points so and the others in any position."""
-    segments, met, ends = blocks.segments, set[Heading](), set[Heading]()
-    todo = [start]
-    while todo:
-        heading = todo.pop()
-        if heading in met:
-            continue
-        met.add(heading)
-        end = segments.at[heading]
-        if isinstance(end, Joint):
-            lies = needs.get(Point(end.junction))
-            todo += [onward for _, at, onward in segments.onward(end) if lies is None or lies in at]
-        else:
-            ends.add(heading)
-    return ends
+
+    def may_take(joint: Joint, way: WayOn) -> bool:
+        lies = needs.get(Point(joint.junction))
+        return lies is None or lies in way[1]
+
+    met = walk(blocks.segments, [start], may_take)
+    return {heading for heading in met if not isinstance(blocks.segments.at[heading], Joint)}
 
 
 def _place(blocks: Blocks, heading: Heading) -> str:

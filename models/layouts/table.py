@@ -14,7 +14,7 @@ routes run over it: from one block lead those that follow it on some route which
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -93,7 +93,8 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     _say_what_is_not_read(data, findings)
     _say_which_ways(routes.values(), findings)
     _say_how_points_lie(routes.values(), findings)
-    fouls = _fouling(file, data.get("fouling", ()), routes.values())
+    home = homes(list(routes.values()))
+    fouls = _fouling(file, data.get("fouling", ()), routes.values(), home)
     compare_conflicts(list(routes.values()), fouls, findings)
     for what, each in (
         ("routes", lambda route: [route.name]),
@@ -104,7 +105,7 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     ):
         names = (name for route in routes.values() for name in each(route))
         say_what_is_alike(what, dict.fromkeys(names), findings)
-    return assemble_table(file, list(routes.values()), fouls, trains, findings)
+    return assemble_table(file, list(routes.values()), home, fouls, trains, findings)
 
 
 def _say_what_is_not_read(data: Mapping[str, Any], findings: Findings) -> None:
@@ -148,10 +149,11 @@ def _say_how_points_lie(routes: Iterable[TableRoute], findings: Findings) -> Non
             findings.violation("a point lies one way or the other", (point, *found.values()), text)
 
 
-def _fouling(file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute]) -> dict[str, frozenset[str]]:
+def _fouling(
+    file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute], home: Mapping[str, str]
+) -> dict[str, frozenset[str]]:
     """The sections and pieces that a train in each also obstructs, both ways: what a table does not draw."""
     known = {name for route in routes for name in (*route.path, *route.sections)}
-    home = homes(list(routes))
     sections = {name for route in routes for name in route.sections}
     found: dict[str, frozenset[str]] = {}
     for index, pair in enumerate(pairs):
@@ -177,19 +179,28 @@ def read_routes(file: str, rows: list[Mapping[str, Any]]) -> dict[str, TableRout
             what = f"there is no route '{other}'"
             raise BadInput(file, f"route '{name}' conflicts", what, "correct the reference or add the route")
     signals = {signal for route in routes.values() for signal in (route.source, route.destination)}
+    _refuse_names_of_two(file, list(routes.values()), signals)
     return {name: _on_track(file, route, signals) for name, route in routes.items()}
+
+
+def _refuse_names_of_two(file: str, routes: Sequence[TableRoute], signals: Set[str]) -> None:
+    """What has the name of a signal, or of a block that the import makes, would be taken for that."""
+    made = {f"before {signal}": f"a block at signal '{signal}'" for signal in signals}
+    made |= {f"at {point}": f"a block at point '{point}'" for route in routes for point in route.points}
+    standing = dict.fromkeys(signals, "a signal")
+    for route in routes:
+        for field, names, others in (
+            ("path", route.path, made),
+            ("sections", route.sections, {**made, **standing}),
+            ("points", route.points, standing),
+        ):
+            for name in (name for name in names if name in others):
+                what = f"'{name}' is the name of {others[name]} too"
+                raise BadInput(file, f"route '{route.name}' {field}", what, "give one of the two another name")
 
 
 def _on_track(file: str, route: TableRoute, signals: Set[str]) -> TableRoute:
     """The row without the signals that its path passes: two routes that pass one signal share no track by that."""
-    made = {f"before {signal}": f"signal '{signal}'" for signal in signals}
-    made |= {f"at {point}": f"point '{point}'" for point in route.points}
-    for field, names in (("path", route.path), ("sections", route.sections), ("points", route.points)):
-        for name in names:
-            whose = made.get(name) if field != "points" else None
-            if whose or (name in signals and field != "path"):
-                what = f"'{name}' is the name of {f'a block at {whose}' if whose else 'a signal'} too"
-                raise BadInput(file, f"route '{route.name}' {field}", what, "give one of the two another name")
     path = tuple(piece for piece in route.path if piece not in signals)
     if not path:
         place, what = f"route '{route.name}' path", "holds signals alone: the route leads over no track"

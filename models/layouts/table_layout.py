@@ -63,17 +63,21 @@ class Row:
 def assemble_table(
     file: str,
     routes: Sequence[TableRoute],
+    home: Mapping[str, str],
     fouls: Mapping[str, frozenset[str]],
     trains: Sequence[str],
     findings: Findings,
 ) -> Imported:
-    """The layout that a table tells of; ``fouls``: the sections and pieces of path that obstruct each other."""
-    rows = [Row(route, covers, _needs(route), Block("")) for route, covers in _covered(routes, findings)]
+    """The layout that a table tells of.
+
+    ``home``: the section of each piece of path.  ``fouls``: the sections and pieces that obstruct each other.
+    """
+    rows = [Row(route, covers, _needs(route), Block("")) for route, covers in _covered(routes, home, findings)]
     _start(rows, findings)
     stands_in = _stand(rows, findings)
     compare_ways(rows, stands_in, findings)
     track = Track(rows)
-    layout = _layout(rows, stands_in, track, trains, _fouling(routes, fouls))
+    layout = _layout(rows, stands_in, track, trains, _fouling(home, fouls))
     places = Places(
         blocks={block: (_element(block),) for block in layout.blocks},
         routes={route: (str(route),) for route in layout.routes},
@@ -99,16 +103,18 @@ def _needs(route: TableRoute) -> dict[Point, Position]:
     return {Point(point): Position(position) for point, position in route.points.items()}
 
 
-def _covered(routes: Sequence[TableRoute], findings: Findings) -> Iterable[tuple[TableRoute, list[Block]]]:
+def _covered(
+    routes: Sequence[TableRoute], home: Mapping[str, str], findings: Findings
+) -> Iterable[tuple[TableRoute, list[Block]]]:
     """Each route with its blocks in running order, held against the sections it lists."""
-    home = homes(routes)
+    sections = set(home.values())
     for route in routes:
         run = [block for block, _ in groupby(Block(home.get(piece, piece)) for piece in route.path)]
         for block in sorted(block for block, times in Counter(run).items() if times > 1):
             text = f"route '{route.name}' leaves '{block}' and comes back into it: a train would be in it twice"
             findings.violation("a route passes a block once", (route.name, block), text)
         covers = list(dict.fromkeys(run))
-        passed = [block for block in covers if block in set(home.values())]
+        passed = [block for block in covers if block in sections]
         if passed != list(route.sections):
             text = f"route '{route.name}' lists sections {named(route.sections)} but its path runs over {named(passed)}"
             odd = sorted(set(passed) ^ set(route.sections)) or list(route.sections)
@@ -122,14 +128,15 @@ def _start(rows: Sequence[Row], findings: Findings) -> None:
 
     Where none ends there, it is the block that routes the other way run into over the same leg of the same point.
     """
-    ends: dict[tuple[str, str], Counter[Block]] = defaultdict(Counter)
+    ends: dict[str, dict[str, Counter[Block]]] = defaultdict(lambda: defaultdict(Counter))
     for row in rows:
-        ends[row.route.destination, row.route.orientation][row.covers[-1]] += 1
+        ends[row.route.destination][row.route.orientation][row.covers[-1]] += 1
     told: set[str] = set()
     met, sections = _met_by_track(rows), {section for row in rows for section in row.route.sections}
     for row in rows:
-        _say_where_signals_stand(row, ends, findings)
-        source, found = row.route.source, ends.get((row.route.source, row.route.orientation))
+        source = row.route.source
+        _say_where_signals_stand(row, ends[source], findings)
+        found = ends[source].get(row.route.orientation)
         if not found:
             _start_by_track(row, met[source], sections, findings, source not in told)
         else:
@@ -140,22 +147,15 @@ def _start(rows: Sequence[Row], findings: Findings) -> None:
         told.add(source)
 
 
-def _say_where_signals_stand(row: Row, ends: Mapping[tuple[str, str], Iterable[Block]], findings: Findings) -> None:
+def _say_where_signals_stand(row: Row, ends: Mapping[str, Iterable[Block]], findings: Findings) -> None:
     """Where routes the other way end at a route's source signal, they end in the block that it begins with."""
     source, first = row.route.source, row.covers[0]
-    other = sorted(
-        {
-            block
-            for (signal, way), blocks in ends.items()
-            for block in blocks
-            if signal == source and way != row.route.orientation
-        }
-    )
+    other = sorted({block for way, blocks in ends.items() if way != row.route.orientation for block in blocks})
     if other and first not in other:
         text = (
-            f"route '{row.route.name}' runs {row.route.orientation} from signal '{source}' into '{first}'; routes the"
+            f"route '{row.route.name}' runs {row.route.orientation} from signal '{source}' into '{first}'; routes the "
+            f"other way end there in {named(other)}: one of them has the wrong signal, or runs the other way"
         )
-        text = f"{text} other way end there in {named(other)}: one of them has the wrong signal, or runs the other way"
         findings.violation("a signal stands at one place", (source, row.route.name, first, *other), text)
 
 
@@ -228,9 +228,9 @@ def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
     return stands_in
 
 
-def _fouling(routes: Sequence[TableRoute], fouls: Mapping[str, frozenset[str]]) -> dict[Block, frozenset[Block]]:
+def _fouling(home: Mapping[str, str], fouls: Mapping[str, frozenset[str]]) -> dict[Block, frozenset[Block]]:
     """The blocks that foul each other: those of the sections and pieces that do; a piece lies in its section's."""
-    home, found = homes(routes) if fouls else {}, dict[Block, frozenset[Block]]()
+    found: dict[Block, frozenset[Block]] = {}
     for name, others in fouls.items():
         block = Block(home.get(name, name))
         beside = {Block(home.get(other, other)) for other in others} - {block}

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 
 LOW, HIGH = 0, 1
@@ -75,6 +76,11 @@ class Station:
     junctions: Mapping[str, Junction]
     marks: Mapping[str, Mark]
 
+    @cached_property
+    def joined(self) -> Mapping[tuple[str, int], Joint]:
+        """For each end of track that a junction joins, that and its port there."""
+        return {end: Joint(name, port) for name, j in self.junctions.items() for port, end in j.ports.items()}
+
 
 @dataclass(frozen=True)
 class Segment:
@@ -83,6 +89,11 @@ class Segment:
     track: str
     from_mm: int
     to_mm: int
+
+    @property
+    def long_mm(self) -> int:
+        """How long it is."""
+        return self.to_mm - self.from_mm
 
 
 @dataclass(frozen=True)
@@ -145,7 +156,6 @@ class Segments:
 
 def cut_into_segments(station: Station) -> Segments:
     """Cut every track at its marks; a mark at a free end of track ends it instead."""
-    joined = {end: Joint(name, port) for name, j in station.junctions.items() for port, end in j.ports.items()}
     on_track: dict[str, list[Mark]] = {track: [] for track in station.tracks}
     for mark in station.marks.values():
         on_track[mark.track].append(mark)
@@ -155,8 +165,8 @@ def cut_into_segments(station: Station) -> Segments:
     beside: dict[str, Mapping[int, Heading]] = {}
     for track, length_mm in station.tracks.items():
         marks = sorted(on_track[track], key=lambda mark: mark.at_mm)
-        low: End = joined.get((track, LOW), Stop(None))
-        high: End = joined.get((track, HIGH), Stop(None))
+        low: End = station.joined.get((track, LOW), Stop(None))
+        high: End = station.joined.get((track, HIGH), Stop(None))
         first = len(segments)
         if marks and marks[0].at_mm == 0 and isinstance(low, Stop):
             low = Stop(marks[0].name)

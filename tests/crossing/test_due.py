@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from kernel.crossing import arrival
 from kernel.crossing.crossing import Due, due
-from proofs.crossing.witnesses.due import BOUNDS, SITE, WITNESSES, Train
+from proofs.crossing.witnesses.contact import BOUNDS
+from proofs.crossing.witnesses.due import SITE, WITNESSES, Train
 
 
 @pytest.mark.parametrize("witness", WITNESSES)

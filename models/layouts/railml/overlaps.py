@@ -166,7 +166,7 @@ def _compare_length(
 
 
 def _long_mm(segments: Segments, way: Way) -> int:
-    return sum(segments.segments[at].to_mm - segments.segments[at].from_mm for at in way.segments)
+    return sum(segments.segments[at].long_mm for at in way.segments)
 
 
 def _so_long(

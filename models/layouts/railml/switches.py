@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from itertools import combinations, product
 
 from kernel.names import Block
-from models.layouts.blocks import Blocks
+from models.layouts.blocks import Blocks, walk
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element, kind_of
 from models.layouts.railml.marks import Marks, compare_places, placed, signal_of, spots_of
 from models.layouts.railml.topology import Topology
-from models.layouts.track import HIGH, Cut, Heading, Joint, Junction
+from models.layouts.track import HIGH, Cut, Junction
 
 BRANCHES = {"left": "branchLeft", "right": "branchRight"}
 AGREE = "a switch has one left and one right branch"
@@ -183,16 +183,7 @@ def _foul_beside(point: Junction, detectors: list[str], blocks: Blocks, fouls: d
 
 def _behind(blocks: Blocks, point: Junction, leg: str, detectors: list[str]) -> set[Block]:
     """The blocks behind the detectors, of these, that a movement from a point along a leg comes to in its block."""
-    segments, met, found = blocks.segments, set[Heading](), set[Block]()
-    todo = [segments.leaving[point.ports[leg]]]
-    while todo:
-        heading = todo.pop()
-        if heading in met:
-            continue
-        met.add(heading)
-        end = segments.at[heading]
-        if isinstance(end, Joint):
-            todo += [onward for _, _, onward in segments.onward(end) if end.junction != point.name]
-        elif isinstance(end, Cut) and end.mark in detectors:
-            found.add(blocks.of[end.beyond[0]])
-    return found
+    start = blocks.segments.leaving[point.ports[leg]]
+    met = walk(blocks.segments, [start], lambda joint, _: joint.junction != point.name)
+    ends = (blocks.segments.at[heading] for heading in met)
+    return {blocks.of[end.beyond[0]] for end in ends if isinstance(end, Cut) and end.mark in detectors}

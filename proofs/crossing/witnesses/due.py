@@ -4,25 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
+from kernel.crossing.arrival import Followed, Ranging
 from kernel.crossing.crossing import Settings, have_one_warning_time
 from models.crossing.arrival import Brought
 from models.crossing.due import Answered, Way
 from proofs.crossing.due import THEORY
+from proofs.crossing.witnesses.contact import BOUNDS, LINE_UM, NOTHING
 from proofs.onboard.witnesses.play import Play
 
-BOUNDS = ArrivalBounds(
-    line_um=3_000_000,
-    gain_um=10_000,
-    cycle_ms=100,
-    warning_cycles=350,
-    silence_cycles=20,
-    way_spread_mm=1,
-    speed_spread_mm_s=1,
-)
-"""30 m/s, 1 m/s², a cycle of 100 ms, 35 s of warning, and rangings that count for 2 s."""
-NOTHING = Ranging(valid=False, way_mm=0, speed_mm_s=0, age_cycles=0)
-LINE_UM = BOUNDS.line_um
 UNKNOWN = Followed(0, 0, LINE_UM, 21, 0, 0, False)
 """Of a train of which nothing is known."""
 SITE = Way(BOUNDS, Settings(100, 350, 50, 100, 200, 60, 200, 20, 372))
