@@ -3,39 +3,31 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from evidence.manifest.finding import Finding
+from fuzz.campaign.session import OFFERED
 from fuzz.campaign.sought import unsought
-from fuzz.targets.interlocking import Interlocking
-from fuzz.targets.jolted import Jolted
-from fuzz.targets.link import LinkRuns
+from fuzz.campaign.summary import comes_to
 from fuzz.targets.target import Target
-from fuzz.targets.walks import Walks
-from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
+from models.exit_codes import UNDECIDED, WORDS
 
 Told = Mapping[str, Any]
 NAME = "fuzz.json"
-CARRY: Mapping[str, Callable[[str], Target]] = {
-    "interlocking": lambda layout: Interlocking(Path(layout)),
-    "jolted": lambda layout: Jolted(Path(layout)),
-    "walks": lambda _: Walks(),
-    "link": lambda _: LinkRuns(),
-}
-"""The targets that a fault can be planted in, by the first part of their names."""
 CARRY_NONE = frozenset({"lines", "rides", "days"})
+"""The targets that no fault is planted in; of the others it is asked what they carry."""
 
 
 def fuzzed(told: Told) -> Iterator[Finding]:
     """Each seed sought every canary that its targets carry; the verdict is that of what stands there."""
-    targets = []
+    targets: list[Target] = []
     for target in told["targets"]:
         kind, _, layout = target.partition(":")
-        if kind in CARRY:
-            targets.append(CARRY[kind](layout))
-        elif kind not in CARRY_NONE:
+        if kind in OFFERED:
+            targets += [] if kind in CARRY_NONE else OFFERED[kind]([Path(layout)])
+        else:
             yield Finding("foreign target", NAME, f"{target}: there is no such target")
     if sorted(told["seeds"]) != sorted({each["seed"] for each in told["starts"]}):
         yield Finding("other sums", NAME, f"says seeds {told['seeds']}, and its starts say others")
@@ -54,15 +46,17 @@ def fuzzed(told: Told) -> Iterator[Finding]:
 
 
 def verdict_of(told: Told) -> int:
-    """What a campaign comes to by its record, as :func:`fuzz.campaign.summary.verdict` says by its store.
+    """What a campaign comes to by its record, as its command said by its store.
 
     One that was interrupted is undecided whatever stands in it.
     """
     totals = told["targets"].values()
-    if told["failures"] or told["left_out"] or any(one["failures"] or one["unfinished"] for one in totals):
-        return DOES_NOT_HOLD
-    found_all = all(each["target"] for each in told["canaries"])
-    return HOLDS if found_all and any(one["steps"] for one in totals) else UNDECIDED
+    left = told["failures"] or told["left_out"]
+    return comes_to(
+        is_bad=bool(left) or any(one["failures"] or one["unfinished"] for one in totals),
+        found_all=all(each["target"] for each in told["canaries"]),
+        ran=any(one["steps"] for one in totals),
+    )
 
 
 def _canaries(told: Told, targets: list[Target]) -> Iterator[Finding]:

@@ -26,10 +26,18 @@ VERDICTS = {HOLDS: "holds", DOES_NOT_HOLD: "does not hold", UNDECIDED: "undecide
 def verdict(store: Store) -> int:
     """The exit code: 1 with a failure or a batch left out, 3 if nothing ran or a canary was not found, else 0."""
     totals = store.totals().values()
-    if any(one.failures or one.unfinished for one in totals):
+    return comes_to(
+        is_bad=any(one.failures or one.unfinished for one in totals),
+        found_all=all(each.target for each in store.canaries()),
+        ran=any(one.steps for one in totals),
+    )
+
+
+def comes_to(*, is_bad: bool, found_all: bool, ran: bool) -> int:
+    """The exit code of a campaign with a failure or a batch left out, with every canary found, and of one that ran."""
+    if is_bad:
         return DOES_NOT_HOLD
-    found_all = all(each.target for each in store.canaries())
-    return HOLDS if found_all and any(one.steps for one in totals) else UNDECIDED
+    return HOLDS if found_all and ran else UNDECIDED
 
 
 def show(out: Console, store: Store, rates: Mapping[str, float], code: int) -> None:
