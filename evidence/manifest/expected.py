@@ -12,12 +12,14 @@ from evidence.manifest import expected_proofs as proofs
 from evidence.manifest import expected_runs as runs
 from evidence.manifest.alike import alike, timed
 from evidence.manifest.finding import Finding
-from evidence.manifest.forms import formed
+from evidence.manifest.forms import formed, gone_through
 from evidence.manifest.laying_out import Cell, LaidOut
 from evidence.records.reading import Kept, Records
 from models.processes import spread
 from models.reproduce import PAPERS
+from proofs.mutants import joints
 from proofs.mutants.plays import witnesses
+from proofs.mutants.targets import mutants
 from proofs.records import About, about, solvers_altered
 from proofs.theories import THEORIES
 from proofs.witnesses.registry import WITNESSES
@@ -39,7 +41,18 @@ def by_proofs(records: Records, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Fi
     }
     for name, judge in judges.items():
         if _is_there(records, name):
-            yield from formed(name, partial(judge, records[name].data, laid_out))
+            yield from formed(name, partial(_by_pattern, judge, records[name].data, laid_out))
+
+
+def _by_pattern(
+    judge: Callable[[Mapping[str, Any], Mapping[Cell, LaidOut]], Iterator[Finding]],
+    told: Mapping[str, Any],
+    laid_out: Mapping[Cell, LaidOut],
+) -> Iterator[Finding]:
+    """Compare a record with what its pattern asks for, if that can be found out."""
+    if told.get("only"):
+        gone_through(told["only"], [*map(" ".join, laid_out), *mutants(), *joints.names()])
+    yield from judge(told, laid_out)
 
 
 def by_runs(records: Records) -> Iterator[Finding]:

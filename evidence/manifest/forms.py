@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from typing import NoReturn
 
 from evidence.manifest.finding import Finding
 from models.layouts import BadInput
@@ -22,6 +24,30 @@ FORM = (
     BadInput,
 )
 """What goes wrong with a record of another form: a pattern that is none, a number without bounds, a list for a name."""
+
+
+MATCHING_S = 3
+"""A pattern that somebody meant is done with every name there is in a fraction of a second."""
+
+
+def gone_through(pattern: str, names: Iterable[str]) -> None:
+    """Match a record's pattern with names; one that backtracks for ever holds nobody up.
+
+    Raises:
+        ValueError: it is not done in time.
+    """
+
+    def over(_signal: int, _frame: object) -> NoReturn:
+        raise ValueError(f"the pattern {pattern[:60]!r} is not done with the names in {MATCHING_S} s")
+
+    matches, before = re.compile(pattern), signal.signal(signal.SIGALRM, over)
+    signal.setitimer(signal.ITIMER_REAL, MATCHING_S)
+    try:
+        for name in names:
+            matches.search(name)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def formed(name: str, judge: Callable[[], Iterator[Finding]]) -> list[Finding]:

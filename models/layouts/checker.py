@@ -125,6 +125,7 @@ def as_json(imported: Imported, result: CheckResult) -> dict[str, object]:
     return {
         "layout": result.name,
         "format": imported.kind,
+        "sha256": imported.sha256,
         "verdict": result.verdict,
         "clearance_mm": result.clearance_mm,
         "strict": result.strict,

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import hashlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 from models.layouts.native import import_native
@@ -32,7 +34,8 @@ def load_text(name: str, text: str, trains: Sequence[str] = TRAINS) -> Imported:
     """The layout in a text; ``name`` stands for the file in messages."""
     kind, fleet = format_of(name, text), tuple(trains)
     with _without_collection():
-        return _of_kind(kind, name, text, fleet)
+        imported = _of_kind(kind, name, text, fleet)
+    return replace(imported, sha256=hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest())
 
 
 @contextmanager

@@ -134,6 +134,7 @@ class Imported:
     ``kind`` names the format; ``station`` is the track graph for formats that have one;
     ``told``: what the file tells beside it.  ``beside``: for a route, the points beside its path in its blocks.
     ``legs``: those of points and crossings, with their clearance.  ``loop``: the shortest that no point bars, if any.
+    ``sha256``: of the text that was read, in UTF-8, so that a record says which layout it is of.
     """
 
     name: str
@@ -149,6 +150,7 @@ class Imported:
     beside: Mapping[Route, Mapping[Point, BesidePath]] = field(default_factory=dict)
     legs: tuple[Leg, ...] = ()
     loop: Loop | None = None
+    sha256: str = ""
 
     @property
     def longest_route(self) -> Route | None:

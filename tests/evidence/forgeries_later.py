@@ -139,6 +139,9 @@ READ = (
     Forgery(
         "certificates by a pattern that is none", edited(CERTIFIED, set_to("only", value="[")), "unreadable", CERTIFIED
     ),
+    Forgery(
+        "a pattern that backtracks for ever", edited(MUTATED, set_to("only", value="(?:.|.)*!")), "unreadable", MUTATED
+    ),
     Forgery("a FIFO for a record", a_fifo, "no file", CHECKED),
     Forgery("a device for a record", a_link_to("/dev/zero"), "no file", CHECKED),
     Forgery("a link for a record", a_link_to("elsewhere.json"), "no file", CHECKED),
@@ -283,6 +286,12 @@ LAYOUTS = (
         "another file under the name of a sample, before it", edited(CHECKED, another_first), "foreign layout", CHECKED
     ),
     Forgery("no clearance asked of any layout", edited(CHECKED, without_clearance), "other check", CHECKED),
+    Forgery(
+        "a layout of another text",
+        edited(CHECKED, set_to("layouts", 0, "sha256", value="0" * 64)),
+        "other layout",
+        CHECKED,
+    ),
 )
 """In what layouts come to."""
 
