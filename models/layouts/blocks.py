@@ -113,10 +113,6 @@ def _fresh(name: str, taken: Mapping[Block, object]) -> Block:
     return candidate
 
 
-Facing = tuple[str, str, str]
-"""A point met facing: the junction, the port arrived at, the port taken."""
-
-
 def opposite(heading: Heading) -> Heading:
     """The same segment, the other way."""
     return heading[0], 1 - heading[1]
@@ -172,34 +168,4 @@ def demanded(blocks: Blocks, block: Block, starts: Sequence[Heading], goals: set
             without = _without(blocks.segments, point, Position(position))
             if not goals & walk(blocks.segments, starts, without):
                 found[point] = Position(position)
-    return found
-
-
-def towards(segments: Segments, starts: Sequence[Heading], goal: Heading) -> dict[Facing, tuple[str, ...]]:
-    """The facing choices, with the positions that allow each, of all movements that reach ``goal``.
-
-    Only points at which some other way on exists are listed.
-    """
-    met = walk(segments, starts)
-    before: dict[Heading, list[Heading]] = {}
-    for heading in met:
-        end = segments.at[heading]
-        if isinstance(end, Joint):
-            for _, _, onward in segments.onward(end):
-                before.setdefault(onward, []).append(heading)
-    reaching: set[Heading] = set()
-    todo = [goal] if goal in met else []
-    while todo:
-        heading = todo.pop()
-        if heading not in reaching:
-            reaching.add(heading)
-            todo += before.get(heading, [])
-    found: dict[Facing, tuple[str, ...]] = {}
-    for heading in sorted(reaching):
-        end = segments.at[heading]
-        if heading != goal and isinstance(end, Joint):
-            ways = list(segments.onward(end))
-            for port, positions, onward in ways:
-                if len(ways) > 1 and onward in reaching:
-                    found[end.junction, end.port, port] = positions
     return found

@@ -120,13 +120,14 @@ def import_railjson(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
 
 
 def say_what_is_not_read(data: Mapping[str, Any], dialect: Dialect, findings: Findings) -> None:
-    """A remark for each list of the file, and each field of what is read, that is not and may matter to safety."""
+    """A remark for what else the file lists, and for each field of what is read that is not and may matter."""
     read = {dialect.switches, dialect.extended, "track_sections", "detectors", "buffer_stops", "routes"}
     for listed in sorted(set(data) - read - WITHOUT_EFFECT):
         items = data[listed]
-        if isinstance(items, list) and items:
-            ids = [each.get("id") if isinstance(each, dict) else None for each in items]
-            names = [f"{listed}[{at}]" if name is None else str(name) for at, name in enumerate(ids)]
+        ids = [each.get("id") if isinstance(each, dict) else None for each in items] if isinstance(items, list) else []
+        names = [f"{listed}[{at}]" if name is None else str(name) for at, name in enumerate(ids)]
+        if items:
+            names = names or [listed]
             findings.remark(names, f"{len(names)} of {listed} are not read: no route knows of them", "unread")
 
     for listed, known in dialect.fields.items():

@@ -33,6 +33,7 @@ from tests.independent.files import (
     to_write_down,
     written_down,
 )
+from tests.independent.raw_records import differing_records
 
 WHY = f"the layouts of others are not at {FOLDER} (HEISOKU_LAYOUTS names another folder)"
 needs_folder = pytest.mark.skipif(not FOLDER.is_dir(), reason=WHY)
@@ -86,6 +87,11 @@ def test_every_block_lies_where_the_walk_finds_it(name: str) -> None:
 @every_file
 def test_ground_is_as_walked(name: str) -> None:
     assert differing_ground(imported(name), walked(name)) == []
+
+
+@every_file
+def test_tags_say_what_the_walk_reckons(name: str) -> None:
+    assert list(differing_records(imported(name), walked(name))) == []
 
 
 @needs_folder

@@ -67,14 +67,14 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
     """Read them; ``signals``: those that routes begin or end at, and that limit overlaps.
 
     Raises:
-        BadInput: one lies nowhere.
+        BadInput: one has no id, or lies nowhere.
     """
     found = Marks()
     for kind, cuts in CUTS.items():
         for element in source.all(kind):
-            name = element.get("id")
-            if name is None or (kind == "signalIS" and name not in signals):
+            if kind == "signalIS" and element.get("id") not in signals:
                 continue
+            name = source.attribute(element, "id")
             spots = spots_of(source, topology, element)
             if not spots:
                 if name in signals:

@@ -10,6 +10,8 @@ from typing import Any
 
 from tests.independent.layouts.crafted import NEAR, RING
 from tests.independent.layouts.danger import UNREAD, danger_of
+from tests.independent.layouts.dangerous_interlocking import DANGEROUS_INTERLOCKING
+from tests.independent.layouts.dangerous_places import DANGEROUS_PLACES
 from tests.independent.layouts.dangerous_railml import DANGEROUS_RAILML
 from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS
@@ -90,6 +92,9 @@ CD = [{"id": name, "track": "t", "position": at} for name, (_, at) in LINE_OF_FO
 
 
 BEYOND = [{"id": "stop", "track": "s", "position": 1.0}]
+AT_END = [{"id": "stop", "track": "t", "position": 900.0}]
+AT_STOP = '"release_detectors": ["stop"]'
+NO_GROUPS = [{"id": "empty", "ports": [], "groups": {}}]
 MIDDLE = [{"id": "stop", "track": "e", "position": 0.0}]
 
 # ---- native
@@ -106,6 +111,23 @@ three = { from = "w3", to = "e3", length_mm = 900_000, boundaries = { u = 300_00
 one = { from = "a", direction = "forward", to = "b+c" }
 two = { from = "a+b", direction = "forward", to = "c" }
 three = { from = "u", direction = "forward", to = "v" }
+"""
+
+ONE_POINT = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+[tracks]
+w = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 800_000 } }
+e = { from = "P.normal", to = "east", length_mm = 900_000, boundaries = { E = 100_000 } }
+s = { from = "P.reverse", to = "south", length_mm = 900_000, boundaries = { S = 100_000 } }
+[points]
+P = {}
+[blocks]
+before = { track = "w", at_mm = 300_001 }
+[routes]
+in = { from = "W", direction = "forward", to = "E", points = { P = "normal" }, release_at = ["V"] }
+out = { from = "V", direction = "backward", to = "W", points = { P = "normal" }, flank = {} }
 """
 
 # ---- railML 2
@@ -222,6 +244,93 @@ OTHERS = {
         "not in use",
         "T0",
     ),
+    "derailers.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "B")], derailers=[{"id": "der"}, {}, "odd"], locks={"l": {"on": "t"}}),
+        "derailers lie on the track, and locks that are no list: nothing knows of them",
+        UNREAD,
+        *("der", "derailers[1]", "derailers[2]", "locks"),
+    ),
+    "type without groups.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=NO_GROUPS),
+        "a type of switch has no position at all",
+        "has no groups",
+    ),
+    "port of another.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=kind("odd", ("A", "C"), ports="A B")),
+        "a type of switch joins a port that it has not: what lies there is not known",
+        "names a port it has not, or one twice",
+    ),
+    "port twice.json": danger_of(
+        railjson(
+            LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=kind("odd", ("A", "B"), ("A", "C"), ports="A B C")
+        ),
+        "a type of switch joins a port with two others at once",
+        "names a port it has not, or one twice",
+    ),
+    "stop for a detector.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "D")], buffer_stops=AT_END).replace(
+            '"exit_point": {"type": "Detector", "id": "D"}', '"exit_point": {"type": "Detector", "id": "stop"}'
+        ),
+        "a route ends at a detector of the name of a buffer stop: where it ends is not told",
+        "there is no detector 'stop'",
+    ),
+    "exit that is gone.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "D")]).replace(
+            '"type": "Detector", "id": "D"', '"type": "Detector", "id": "Z"'
+        ),
+        "a route ends at a detector that is not there",
+        "there is no detector 'Z'",
+    ),
+    "released at a stop.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "D")], buffer_stops=AT_END).replace('"release_detectors": []', AT_STOP),
+        "a route is released at a buffer stop",
+        "there is no detector 'stop'",
+    ),
+    "released at nothing.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "D")]).replace('"release_detectors": []', AT_STOP),
+        "a route is released at a detector that is not there",
+        "there is no detector 'stop'",
+    ),
+    "boundary at the beginning.toml": danger_of(
+        ONE_POINT.replace("E = 100_000", "E = 0"),
+        "a boundary lies at the very tips of a point: its tag is on which leg",
+        "0 mm is not within the track",
+    ),
+    "boundary at the end.toml": danger_of(
+        ONE_POINT.replace("V = 800_000", "V = 900_000"),
+        "a boundary lies at the very tips of a point, before it",
+        "900000 mm is not within the track",
+    ),
+    "block at a boundary.toml": danger_of(
+        ONE_POINT.replace("300_001", "300_000"),
+        "a block is named at the boundary of two: what is told of it may be of the other",
+        "300000 mm is at a boundary",
+    ),
+    "released at the end.toml": danger_of(
+        ONE_POINT.replace('["V"]', '["east"]'),
+        "a route is released at an end of track",
+        "there is no boundary 'east'",
+    ),
+    "released nowhere.toml": danger_of(
+        ONE_POINT.replace('["V"]', '["Z"]'),
+        "a route is released at a boundary that is not there",
+        "there is no boundary 'Z'",
+    ),
+    "flank of no position.toml": danger_of(
+        ONE_POINT.replace("flank = {}", 'flank = { P = "closed" }'),
+        "the flank of a route wants a point in a position that it has not",
+        "there is no position (of normal, reverse) 'closed'",
+    ),
 }
-DANGERS = DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_RAILML | OTHERS
+OTHERS_THAT_HOLD = {
+    "type of its own.json": railjson(
+        {"W": ("w", 800.0), "E": ("e", 100.0)},
+        [("r", "W", "E")],
+        extended_switch_types=kind("plain", ("A", "B"), ports="A B"),
+        switches=[switch("plain", A=("w", "END"), B=("e", "BEGIN"))],
+    ),
+    "one point.toml": ONE_POINT,
+}
+"""Files that look much like these and hold."""
+DANGERS = DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_RAILML | DANGEROUS_INTERLOCKING | DANGEROUS_PLACES | OTHERS
 """Every file with what must be said of it."""

@@ -106,8 +106,49 @@ P = { clear_mm = { normal = 45_000, reverse = 45_000 } }
 "to a" = { from = "W", direction = "forward", to = "A", points = { P = "normal" } }
 "to b" = { from = "W", direction = "forward", to = "B", points = { P = "reverse" } }
 """
+TIP_TO_TIP = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+[tracks]
+x = { from = "west", to = "P.normal", length_mm = 900_000, boundaries = { X0 = 300_000, X = 897_000 } }
+w = { from = "south", to = "P.reverse", length_mm = 900_000, boundaries = { W = 800_000 } }
+link = { from = "P.tip", to = "Q.tip", length_mm = 338 }
+y = { from = "Q.normal", to = "east", length_mm = 900_000, boundaries = { Y = 3_000 } }
+z = { from = "Q.reverse", to = "north", length_mm = 900_000, boundaries = { Z = 100_000 } }
+[points]
+P = {}
+Q = {}
+[routes]
+in = { from = "X0", direction = "forward", to = "X" }
+"""
+ENDS_AT_A_POINT = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+[tracks]
+line = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 899_000 } }
+a = { from = "P.normal", to = "stop a", length_mm = 1_712 }
+b = { from = "P.reverse", to = "stop b", length_mm = 300_000 }
+[points]
+P = {}
+[routes]
+in = { from = "W", direction = "forward", to = "V" }
+"""
 
 DANGEROUS_TRACKS = {
+    "tip to tip.toml": danger_of(
+        TIP_TO_TIP,
+        "two boundaries 6.338 m apart over two points, each with others far away: their tags come too close",
+        "is 6,338 mm from boundary to boundary",
+        *("X", "Y"),
+    ),
+    "ends at a point.toml": danger_of(
+        ENDS_AT_A_POINT,
+        "behind a boundary one leg of a point ends after 2.712 m, where its tag does not fit, the other goes on",
+        "is 2,712 mm from its boundary to the end of track",
+        "V",
+    ),
     "at the tips.toml": danger_of(
         AT_THE_TIPS,
         "a boundary lies 2.712 m before the tips: its tag, a millimetre farther on, lies on one leg alone",

@@ -3,6 +3,7 @@
 Run ``python -m tests.independent.layouts.mutants [module ...]``: what is noticed is counted, the rest is listed.  The
 files are the samples, the real layouts where their folder is, and stations and networks made up at random.  A
 mutant under which every file is imported as before is not noticed; of the others every differing file is looked at.
+Of a file that is dangerous it is noticed as well if its danger is no longer said, of one like it if it holds no more.
 """
 
 from __future__ import annotations
@@ -34,8 +35,13 @@ from tests.independent.edits import NATIVE, RAILJSON, TABLE
 from tests.independent.files import FOLDER, OTHERS, ROOT, SAMPLES
 from tests.independent.layouts import railml_2_pieces, railml_pieces
 from tests.independent.layouts.crafted import CRAFTED
-from tests.independent.layouts.dangerous import DANGERS
+from tests.independent.layouts.danger import Danger
+from tests.independent.layouts.dangerous import DANGERS, OTHERS_THAT_HOLD
+from tests.independent.layouts.dangerous_interlocking import INTERLOCKING_THAT_HOLDS
+from tests.independent.layouts.dangerous_places import PLACES_THAT_HOLD
+from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
+from tests.independent.layouts.dangerous_tracks import TRACKS_THAT_HOLD
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station
@@ -55,6 +61,11 @@ MODULES = (
     *("railml.sections", "railml.switches", "railml.topology", "railml.unread", "railml.version_2"),
 )
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
+WITHOUT_DANGER = (
+    *(TABLES_THAT_HOLD, TRACKS_THAT_HOLD, RAILML_THAT_HOLD, INTERLOCKING_THAT_HOLDS, PLACES_THAT_HOLD),
+    OTHERS_THAT_HOLD,
+)
+"""Files that are like dangerous ones, and hold."""
 STATIONS, MADE_UP, EDITED = 24, 60, 24
 SECONDS = 300
 """Of processor time: all files take a minute, and a mutant that takes so much longer comes to no end."""
@@ -184,7 +195,28 @@ class File:
 
     @cached_property
     def before(self) -> Imported | None:
-        return imported_or_refused(self)
+        found = imported_or_refused(self)
+        return None if isinstance(found, BadInput) else found
+
+    @cached_property
+    def loads(self) -> bool:
+        return loads(self)
+
+    @property
+    def is_of_use(self) -> bool:
+        """Whether anything can be noticed by it."""
+        return self.danger is not None or self.must_hold or self.loads
+
+    @property
+    def danger(self) -> Danger | None:
+        """What must be said of it, if it is dangerous."""
+        found = DANGERS.get(self.name)
+        return found if found is not None and found.text == self.text else None
+
+    @property
+    def must_hold(self) -> bool:
+        """Whether it is like a file that is dangerous, without its danger."""
+        return any(each.get(self.name) == self.text for each in WITHOUT_DANGER)
 
     @cached_property
     def verdict(self) -> CheckResult | None:
@@ -241,12 +273,12 @@ class File:
         return None
 
 
-def imported_or_refused(file: File) -> Imported | None:
-    """What a file is imported as; nothing where it is refused as no layout."""
+def imported_or_refused(file: File) -> Imported | BadInput:
+    """What a file is imported as, or why it is refused as no layout."""
     try:
         return load_text(file.name, file.text)
-    except BadInput:
-        return None
+    except BadInput as refusal:
+        return refusal
 
 
 def corpus() -> Iterator[File]:
@@ -255,7 +287,10 @@ def corpus() -> Iterator[File]:
         yield File(name, files.path_of(name).read_text(encoding="utf-8"))
     yield from itertools.starmap(
         File,
-        (*CRAFTED.items(), *TABLES_THAT_HOLD.items(), *dangerous(), *railml_pieces.files(), *railml_2_pieces.files()),
+        (
+            *(each for group in (CRAFTED, *WITHOUT_DANGER) for each in group.items()),
+            *(*dangerous(), *railml_pieces.files(), *railml_2_pieces.files()),
+        ),
     )
     for number in range(EDITED):
         what, data = edited("junction.toml", NATIVE, random.Random(number))
@@ -328,11 +363,18 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
         with planted(mutant):
             for file in known:
                 try:
-                    imported = imported_or_refused(file)
+                    found = imported_or_refused(file)
+                    imported = None if isinstance(found, BadInput) else found
                     verdict = None if imported is None else check(imported)
-                    follows = None if ask is None or file.unlike else file.follows(ask)
+                    if file.danger is not None and not file.danger.is_said(found):
+                        return "danger"
+                    follows = None if ask is None or not file.loads or file.unlike else file.follows(ask)
                 except Exception:  # whatever it is: a file that is a layout is refused
                     return "refused"
+                if file.must_hold and (verdict is None or verdict.verdict != "holds"):
+                    return "refused"
+                if not file.loads:
+                    continue
                 if follows:
                     return "walk"
                 if (imported is None) != (file.before is None):
@@ -351,7 +393,7 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
 
 def main() -> int:
     """Count who notices what; list what nobody does."""
-    known = [file for file in corpus() if loads(file)]
+    known = [file for file in corpus() if file.is_of_use]
     print(f"{len(known)} files")
     left = 0
     for module in sys.argv[1:] or MODULES:

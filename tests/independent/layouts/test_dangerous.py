@@ -10,9 +10,8 @@ import pytest
 from models.layouts import BadInput, check, load_text
 from tests.independent.compare import disagreements
 from tests.independent.layouts.dangerous import DANGERS
-from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
-from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS, TRACKS_THAT_HOLD
+from tests.independent.layouts.mutants import WITHOUT_DANGER
 from tests.independent.raw_native import enumerate_data
 
 REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"no train.toml"}
@@ -21,17 +20,12 @@ REFUSED = {name for name, danger in DANGERS.items() if not danger.elements} - {"
 
 @pytest.mark.parametrize("name", DANGERS)
 def test_the_danger_is_said_of_the_elements(name: str) -> None:
-    text, danger, said, elements = DANGERS[name]
+    danger = DANGERS[name]
     if name in REFUSED:
-        with pytest.raises(BadInput, match=re.escape(said)):
-            load_text(name, text)
+        with pytest.raises(BadInput, match=re.escape(danger.said)):
+            load_text(name, danger.text)
         return
-    result = check(load_text(name, text))
-    told = [(f"{each.axiom}: {each.text}", each.elements) for each in result.violations]
-    told += [(each.text, each.elements) for each in result.remarks]
-    found = {str(element) for text, named in told if said in text for element in named}
-    assert any(said in text for text, _ in told), danger
-    assert elements <= found, danger
+    assert danger.is_said(load_text(name, danger.text)), danger.danger
 
 
 @pytest.mark.parametrize("name", [name for name in DANGERS if "not read" in DANGERS[name].said])
@@ -41,7 +35,7 @@ def test_a_strict_verdict_does_not_rest_on_what_is_not_read(name: str) -> None:
     assert refused >= DANGERS[name].elements
 
 
-WITHOUT = [*TABLES_THAT_HOLD.items(), *TRACKS_THAT_HOLD.items(), *RAILML_THAT_HOLD.items()]
+WITHOUT = [each for group in WITHOUT_DANGER for each in group.items()]
 
 
 @pytest.mark.parametrize(("name", "text"), WITHOUT)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.independent.layouts.mutants import File, corpus, loads, mutants, reads, who_notices
+from tests.independent.layouts.mutants import File, corpus, mutants, reads, who_notices
 from tests.independent.test_verdicts import needs_folder
 
 LISTED = tomllib.loads((Path(__file__).parent / "mutants_left.toml").read_text(encoding="utf-8"))
@@ -18,7 +18,7 @@ SAMPLE_FILES, SAMPLE_MUTANTS = 12, 12
 
 @cache
 def known() -> tuple[File, ...]:
-    return tuple(file for file in corpus() if loads(file))
+    return tuple(file for file in corpus() if file.is_of_use)
 
 
 def left(module: str) -> set[str]:
@@ -35,7 +35,7 @@ def test_what_nobody_notices_is_listed(module: str) -> None:
 
 
 def test_of_the_first_mutants_of_the_track_a_few_files_notice_most() -> None:
-    files = [file for file, _ in zip(corpus(), range(SAMPLE_FILES), strict=False) if loads(file)]
+    files = [file for file, _ in zip(corpus(), range(SAMPLE_FILES), strict=False) if file.loads]
     tried = [mutant for mutant, _ in zip(mutants("track"), range(SAMPLE_MUTANTS), strict=False)]
     noticed = [mutant.name for mutant in tried if who_notices(mutant, files)]
     assert len(noticed) >= SAMPLE_MUTANTS // 2

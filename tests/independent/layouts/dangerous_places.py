@@ -1,0 +1,199 @@
+"""railML 3 files with a danger each in what their track is, and where things lie on it (:mod:`dangerous`)."""
+
+from __future__ import annotations
+
+from tests.independent.layouts.danger import danger_of
+from tests.independent.layouts.dangerous_railml import (
+    BACK,
+    BOTH,
+    LINES_END,
+    LONG_TRACK,
+    ON_LEGS,
+    SPOTS,
+    SWITCHES,
+    TURNOUT,
+    level,
+    railml,
+    relation,
+    spot,
+)
+
+APART_A = '<signalIS id="A">{}</signalIS><trainDetectionElement id="A tags">{}</trainDetectionElement>'
+NO_LENGTH = LONG_TRACK.format("", "500", "physical").replace('"T"', '"T1"').replace("<length", "<name")
+COLLECTS = '<netElement id="whole"><elementPart ref="w"/><elementPart ref="e"/></netElement>'
+ON_WHOLE = '<spotLocation netElementRef="whole" intrinsicCoord="0.6"/>'
+NAMELESS = '<bufferStop><spotLocation netElementRef="e" intrinsicCoord="0.1"/></bufferStop>'
+WHOLE = ' intrinsicCoordBegin="0" intrinsicCoordEnd="1"'
+TENTH = ' intrinsicCoordBegin="0" intrinsicCoordEnd="0.1"'
+OVER_BOTH = LONG_TRACK.format("", "1000", "physical").replace('"e"/>', '"e"/><associatedNetElement netElementRef="w"/>')
+NONE = relation("{}", "{}", "{}", "None")
+AGAIN = relation("we2", "w", "e", "None")
+BY_METRES = SPOTS.replace('netElementRef="e" intrinsicCoord="0.2"', 'netElementRef="e" pos="100"')
+A_METRE_OFF = SPOTS.replace(
+    'netElementRef="e" intrinsicCoord="0.2"', 'netElementRef="e" intrinsicCoord="0.2" pos="101"'
+)
+DRAWN = '<netElement id="e">{}</netElement>'
+POINT = '<geometricCoordinate x="{}" y="0"/>'
+FOUR = (
+    relation("we", "w", "e")
+    + relation("wn", "w", "n")
+    + relation("ws", "w", "s", "None")
+    + relation("es", "e", "s", "None").replace('positionOnA="1"', 'positionOnA="0"')
+)
+SPREAD = FOUR.replace("None", "Both")
+FAN = "".join(relation(f"w{end}", "w", end) for end in "ensx")
+
+
+def with_element(text: str, element: str) -> str:
+    """The file with one more net element."""
+    return text.replace("<netElements>", f"<netElements>{element}")
+
+
+def with_e(text: str, element: str) -> str:
+    """The file with another net element ``e``."""
+    return text.replace('<netElement id="e" length="500"/>', element)
+
+
+DANGEROUS_PLACES = {
+    "stop of no name.railml": danger_of(
+        railml(BOTH, SPOTS, NAMELESS),
+        "a buffer stop without an id stands between entry and exit of a route",
+        "has no attribute id",
+    ),
+    "signal nowhere.railml": danger_of(
+        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), '<signalIS id="B"/>')),
+        "a route ends at a signal of which nothing says where it stands",
+        "has no place on the track",
+    ),
+    "detector nowhere.railml": danger_of(
+        railml(BOTH, SPOTS, '<trainDetectionElement id="G"/>'),
+        "nothing says where a detector lies: the blocks beside it are one",
+        "has no place on the track: it is left out",
+        "G",
+    ),
+    "detector on the whole.railml": danger_of(
+        with_element(
+            railml(BOTH, SPOTS, f'<trainDetectionElement id="G">{ON_WHOLE}</trainDetectionElement>'), COLLECTS
+        ),
+        "a detector lies on two net elements together: where on either is not told",
+        "which is not of the finest level",
+    ),
+    "border of a taken name.railml": danger_of(
+        railml(BOTH, SPOTS, LINES_END.format("0.0") + '<trackGauge id="edge on n" value="1435"/>'),
+        "a border lies at two ends of track, and what it would go by at the second is the name of something else",
+        "an element lies in one place",
+        "edge",
+    ),
+    "two joints.railml": danger_of(
+        railml(BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "n", "1.0", BACK.format("w", "1.0", "normal")))),
+        "a signal and its detector lie at a joint of one line, and at that of another",
+        "an element lies in one place",
+        "B",
+    ),
+    "track shorter than its whole.railml": danger_of(
+        railml(BOTH, SPOTS, LONG_TRACK.format(WHOLE, "50", "physical")),
+        "a net element is told to be 500 m long, and the track that is all of it 50 m",
+        "a net element has one length",
+        *("e", "T"),
+    ),
+    "no length.railml": danger_of(
+        with_e(railml(BOTH, SPOTS), '<netElement id="e"/>'),
+        "how long a net element is stands nowhere",
+        "has no length, and no track or coordinates",
+    ),
+    "one coordinate.railml": danger_of(
+        with_e(railml(BOTH, SPOTS), DRAWN.format(POINT.format(0))),
+        "of a net element's drawing one end is told, and its length nowhere",
+        "has no length, and no track or coordinates",
+    ),
+    "drawn as a dot.railml": danger_of(
+        with_e(railml(BOTH, SPOTS), DRAWN.format(POINT.format(7) * 2)),
+        "a net element is drawn without any length",
+        "its length is 0.0 m",
+    ),
+    "leg that is closed.railml": danger_of(
+        railml(relation("we", "w", "e") + NONE.format("ws", "w", "s"), SPOTS.replace('"n"', '"w"')),
+        "three ends of track meet, and no train comes from one of them to another",
+        "3 ends of track meet here, and 1 ways lead",
+    ),
+    "triangle.railml": danger_of(
+        railml(TURNOUT.replace("None", "Both"), ON_LEGS),
+        "three ends of track meet, and a train comes from each to each of the others",
+        "3 ends of track meet here, and 3 ways lead",
+    ),
+    "four ends and two ways.railml": danger_of(
+        railml(FOUR, ON_LEGS),
+        "four ends of track meet, and one of them leads nowhere",
+        "4 ends of track meet here, and 2 ways lead",
+    ),
+    "four ends and a circle.railml": danger_of(
+        railml(SPREAD, ON_LEGS),
+        "four ends of track meet as no slip does: three of them lead to each other",
+        "4 ends of track meet here, and",
+    ),
+    "five ends.railml": danger_of(
+        with_element(railml(FAN, ON_LEGS), '<netElement id="x" length="500"/>'),
+        "five ends of track meet in one place, where no slip has as many",
+        "5 ends of track meet here, and",
+    ),
+    "branch of another place.railml": danger_of(
+        railml(TURNOUT + relation("nn", "n", "n"), ON_LEGS, SWITCHES.replace('"ws"', '"nn"')),
+        "the right branch of a switch is at another place: what is right there is not told",
+        "its branches are not the ways over this point",
+    ),
+    "branch of nothing.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES.replace('"ws"', '"gone"')),
+        "the right branch of a switch is a relation that is not there",
+        "which is not there",
+    ),
+}
+"""Every file with what must be said of it."""
+
+PLACES_THAT_HOLD = {
+    "point that no switch names.railml": railml(TURNOUT, ON_LEGS),
+    "exit of no direction.railml": railml(
+        BOTH, SPOTS.replace('intrinsicCoord="0.2" applicationDirection="normal"', 'intrinsicCoord="0.2"')
+    ),
+    "detector of both ways.railml": railml(
+        BOTH,
+        SPOTS.replace(
+            '<trainDetectionElement id="B tags"><spotLocation netElementRef="e" intrinsicCoord="0.2"/>',
+            '<trainDetectionElement id="B tags">'
+            + BACK.format("e", "0.2", "normal")
+            + BACK.format("e", "0.2", "reverse"),
+        ),
+    ),
+    "by metres.railml": railml(BOTH, BY_METRES),
+    "a metre off.railml": railml(BOTH, A_METRE_OFF),
+    "level of more.railml": with_element(
+        railml(
+            BOTH, SPOTS.replace(spot("B", "e", "0.2"), spot("B", "e", "0.2", ON_WHOLE)), networks=level(*"wens", "we")
+        ),
+        COLLECTS,
+    ).replace("<level ", '<level descriptionLevel="Macro"><networkResource ref="whole"/></level><level ', 1),
+    "collected.railml": with_element(railml(BOTH, SPOTS), COLLECTS),
+    "tracks over it.railml": railml(
+        BOTH,
+        SPOTS,
+        OVER_BOTH
+        + LONG_TRACK.format(TENTH, "50", "physical").replace('"T"', '"T2"')
+        + LONG_TRACK.format("", "50", "operational").replace('"T"', '"T3"'),
+    ),
+    "entry at a joint.railml": railml(
+        BOTH,
+        APART_A.format(BACK.format("e", "0.0", "normal"), BACK.format("w", "1.0", "normal"))
+        + SPOTS[len(spot("A", "w", "0.8")) :],
+    ),
+    "as long as its track.railml": with_e(
+        railml(BOTH, SPOTS, OVER_BOTH + NO_LENGTH + LONG_TRACK.format("", "500", "physical").replace('"T"', '"T2"')),
+        '<netElement id="e"/>',
+    ),
+    "drawn.railml": with_e(
+        railml(BOTH, SPOTS), DRAWN.format("<geometricCoordinate/>" + POINT.format(0) + POINT.format(500))
+    ),
+    "related again.railml": railml(AGAIN + BOTH + AGAIN.replace("we2", "we4"), SPOTS),
+    "branch without a relation.railml": railml(
+        TURNOUT, ON_LEGS, SWITCHES.replace("<leftBranch", "<straightBranch/><leftBranch")
+    ),
+}
+"""Files that look much like these and hold."""
