@@ -161,7 +161,7 @@ report: setup
 
 test: lint types
 	@mkdir -p out
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow" --junit-xml=out/test.xml $(TESTS)
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "not slow" --junit-xml=out/test.xml $(TESTS)
 
 # What takes longer; each has a sample of itself among the tests.
 slow: setup

@@ -218,7 +218,7 @@ def reproduce(
     Examples:
 
     * `heisoku reproduce 000 -o out/000`
-    * `heisoku reproduce 001 --runs 10 --json out/001.json`
+    * `heisoku reproduce 001 --runs 2 --json out/001.json`
     """
     from models.reproduce import PAPERS
     from models.reproduce.pictures import png
@@ -324,7 +324,7 @@ def days(
     Examples:
 
     * `heisoku days crossing --days 20`
-    * `heisoku days alarm --days 20 --beyond gps_creeps`
+    * `heisoku days alarm --days 2 --beyond gps_creeps`
     """
     from models.days.campaign import live_all, noticed, outcome
     from models.days.kept import KeptDays

@@ -57,7 +57,7 @@ def certify(
     name it, or it is on the path and HEISOKU_CPC names its rules.  What is no theorem is put to them first.
 
     Examples:
-    * `heisoku certify --only '^braking'`
+    * `heisoku certify --only '^tag_fix'`
     """
     from models.processes import spread
     from proofs.certificates.checking import certified, controls

@@ -162,6 +162,7 @@ def test_a_judge_that_finds_what_is_not_so_is_noticed() -> None:
     assert (AGREES,) in said
 
 
+@pytest.mark.slow
 def test_a_step_that_does_something_else_is_noticed() -> None:
     """Found with a fault planted in the engine and none in CPython: the two are not of one mind."""
     native = search(OLD_LIFE)[0].native

@@ -42,6 +42,7 @@ def test_the_worlds_have_what_is_to_be_tried() -> None:
     assert {sounds for line in lines for sounds, _near, _knows in line.heard} == set(Tone)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("duty", DUTIES[:2])
 def test_a_duty_that_is_not_done_is_heard(duty: str) -> None:
     """So the worlds are such that it matters."""
@@ -115,6 +116,7 @@ PLANTED: dict[str, tuple[Any, str, Any]] = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("fault", PLANTED)
 def test_a_planted_fault_is_heard(fault: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each rule that is left out lets a mild tone through in some world."""
