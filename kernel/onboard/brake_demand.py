@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kernel.onboard import braking
+from kernel.onboard import braking, ceiling
 from kernel.onboard.brake_watch import BrakeWatch
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.odometry import Motion, is_located, rear_least_mm
 from kernel.onboard.restriction_ahead import Ahead, is_too_fast
 from kernel.onboard.reverse_movement import Movement
@@ -33,6 +34,7 @@ class Known:
     """What the machines on board know at the end of a cycle.
 
     ``motion``: the odometry's, and ``watch``, ``movement``, ``limit``, ``wholeness``, ``window``, ``ahead`` others'.
+    ``ceiling``: what it has promised to keep to.
     """
 
     motion: Motion
@@ -42,14 +44,15 @@ class Known:
     wholeness: Split
     window: Window
     ahead: Ahead
+    ceiling: Ceiling
 
 
 def is_demanded(limits: TrainLimits, known: Known, may_proceed: bool) -> bool:
     """Tell whether anything wants the emergency brake (T5, T12, P5).
 
     A broken bound of motors or brake, reverse movement, an overspeed, which a train with a lost position may
-    always have, a restriction ahead that is near, a split, an overdue tag, or an order that does not let the train
-    proceed: ``kernel.authority.may_proceed`` for its run.
+    always have, a restriction ahead that is near, a ceiling that is, a split, an overdue tag, or an order that does not
+    let the train proceed: ``kernel.authority.may_proceed`` for its run.
     """
     motion = known.motion
     return (
@@ -63,6 +66,7 @@ def is_demanded(limits: TrainLimits, known: Known, may_proceed: bool) -> bool:
             motion.speed_most_mm_s,
         )
         or is_too_fast(limits.brake, limits.speeds, known.ahead, motion.front_most_mm, motion.speed_most_mm_s)
+        or not ceiling.is_kept(limits.brake, known.ceiling, motion.speed_most_mm_s)
         or demands_emergency_brake(known.wholeness)
         or known.window.passed
         or not may_proceed

@@ -37,12 +37,16 @@ class BrakeBounds:
     ``response_cycles``: from the command until then; and from when a cycle that is missed had to begin until the
     brake is effective that the watchdog commands.
     ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing.
+    ``cut_cycles``: from the command until the motors are cut off, no longer than the response.
+    ``falls_mm_s2``: the most that the train gains from then on, on the steepest descent; no more than ``gains_mm_s2``.
     """
 
     gains_mm_s2: int
     slows_mm_s2: int
     response_cycles: int
     standstill_mm_s: int
+    cut_cycles: int
+    falls_mm_s2: int
 
 
 @dataclass(frozen=True)

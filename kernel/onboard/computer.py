@@ -26,10 +26,12 @@ from kernel.onboard import (
     tag_window,
     train_length,
 )
+from kernel.onboard import ceiling as ceilings
 from kernel.onboard.antenna_spacing import Spacing
 from kernel.onboard.arithmetic import larger
 from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
+from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Motion, Readings
 from kernel.onboard.restriction_ahead import NONE_LISTED
@@ -67,10 +69,11 @@ class Computer:
     brake: Brake
 
 
-def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
+def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: int) -> Computer:
     """Begin with a train at rest that has been found whole, its brake on, and its front in a range (P5, P7, T8).
 
     With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
+    ``ceiling``: the lowest that it has promised to a crossing, in any of its lives, and was not let go from.
     """
     motion = odometry.located(least_mm, most_mm, 0)
     return Computer(
@@ -82,6 +85,7 @@ def put_into_service(limits: Limits, least_mm: int, most_mm: int) -> Computer:
             wholeness=split.made_up(limits.split),
             window=NONE_AWAITED,
             ahead=NONE_LISTED,
+            ceiling=ceiling,
         ),
         before=odometry.past(motion),
         from_mm=0,
@@ -145,6 +149,7 @@ def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailRead
             wholeness=split.note_cycle(limits.split, known.wholeness, tail),
             window=known.window,
             ahead=known.ahead,
+            ceiling=known.ceiling,
         ),
         before=known.motion,
     )
@@ -348,6 +353,19 @@ def note_place(limits: Limits, computer: Computer, least_mm: int, most_mm: int) 
     return note_fix(computer, least_mm, most_mm)
 
 
+def keep_to(limits: Limits, computer: Computer, ceiling: Ceiling) -> Computer:
+    """Keep to a ceiling of speed, if that can still be done; then, and no sooner, may it be promised (X2, T12, ours).
+
+    A higher one may always be taken, once the crossing has let the train go faster.  One that has lost its position
+    does not know its speed, and takes no lower one.
+    """
+    known = computer.known
+    if ceiling.most_mm_s < known.ceiling.most_mm_s and not odometry.is_located(known.motion):
+        return computer
+    taken = ceilings.take(limits.train.brake, known.ceiling, ceiling, known.motion.speed_most_mm_s)
+    return replace(computer, known=replace(known, ceiling=taken))
+
+
 def withhold_end(computer: Computer) -> Computer:
     """Brake, until an end of authority is taken (T4, T12)."""
     return replace(computer, brake=braking.withhold_end(computer.brake))
@@ -356,8 +374,8 @@ def withhold_end(computer: Computer) -> Computer:
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
 
-    What was found of motors, brake, wholeness, antennas and length stays.  Restrictions lay on the kilometrage of
-    before: until the next tag all of them hold.
+    What was found of motors, brake, wholeness, antennas and length stays, and so does the ceiling.  Restrictions lay on
+    the kilometrage of before: until the next tag all of them hold.
     """
     if not is_braked(standstill(limits, computer)):
         return computer

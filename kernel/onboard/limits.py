@@ -80,9 +80,15 @@ def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
 def is_brake_lawful(bounds: BrakeBounds) -> bool:
     """Tell whether the brake slows the train, a cycle after its command at the soonest, and motors do not (T12).
 
-    So it does in cycles of any length: one that slows by less than 2 mm/s² is none.
+    So it does in cycles of any length: one that slows by less than 2 mm/s² is none.  Motors are cut off before it
+    responds, and add to what a descent gives.
     """
-    return braking.slows_mm_s2(bounds) > 0 and bounds.gains_mm_s2 >= 0 and bounds.response_cycles >= 1
+    return (
+        braking.slows_mm_s2(bounds) > 0
+        and 0 <= bounds.falls_mm_s2 <= bounds.gains_mm_s2
+        and 0 <= bounds.cut_cycles <= bounds.response_cycles
+        and bounds.response_cycles >= 1
+    )
 
 
 def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
 from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time, longest_apart_ms
+from kernel.onboard.braking import BrakeBounds
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -46,9 +47,13 @@ OWN_WAY_M = 5.0
 """A train's own range reaches so far to either side of its head: a tag each few hundred metres, and a wheel."""
 OWN_SPEED_M_S = 0.3
 """And its speed's range so far to either side, by wheel and inertial sensor."""
+BRAKE = BrakeBounds(
+    gains_mm_s2=950, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700, cut_cycles=4, falls_mm_s2=150
+)
+"""What the trains of both sites are held to by their computers: motors cut off within 0.4 s (ours, typical)."""
 CEILING_OVER_M_S = 1.0
-"""A promised ceiling is so much above what the driver keeps to: 0.3 m/s of the speed's range, and what a train gains in
-the three quarters of a second until its supervision has cut traction off."""
+"""A promised ceiling is so much above what the driver keeps to: 0.3 m/s of the speed's range, and what a train gains
+before the brake responds that keeps it to the ceiling (`kernel.onboard.ceiling.gained_um_s`: 0.65 m/s)."""
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.onboard import braking, restriction_ahead
+from kernel.onboard import ceiling as machine
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.speed_limit import SpeedTable
+from models.onboard import ceiling as ceilings
 from models.onboard import slowing, speed_limit
+from models.onboard.ceiling import Keeping
 from models.onboard.slowing import Slowing
-from models.onboard.units import LONGEST_MS, NM_A_MM, SHORTEST_MS, UM_A_MM, larger, magnitude
+from models.onboard.units import LONGEST_MS, NM_A_MM, SHORTEST_MS, UM_A_MM, larger, magnitude, smaller
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,7 @@ class Approach:
     ``brake``: what the brake control knows.
     ``wanted``, ``wanted_mm``: the end of authority that the unit wants, if there is one.
     ``slowing``: the train as it comes to restrictions ahead.
+    ``ceiling``: it keeps to this.  ``keeping``: the train as it does so.
     """
 
     head_nm: int
@@ -52,6 +57,8 @@ class Approach:
     wanted: bool
     wanted_mm: int
     slowing: Slowing
+    ceiling: Ceiling
+    keeping: Keeping
 
 
 # ---- premises
@@ -67,6 +74,20 @@ def the_brake_slows(site: Vehicle) -> bool:
         and site.bounds.gains_mm_s2 >= 0
         and site.bounds.response_cycles >= 1
         and site.bounds.response_cycles * site.bounds.gains_mm_s2 >= 0
+    )
+
+
+def the_motors_are_cut_off_before_it_does(site: Vehicle) -> bool:
+    """Motors are cut off no later than the brake responds, and add to what a descent gives (T12).
+
+    The products follow from their factors, as above.
+    """
+    bounds = site.bounds
+    return (
+        0 <= bounds.cut_cycles <= bounds.response_cycles
+        and 0 <= bounds.falls_mm_s2 <= bounds.gains_mm_s2
+        and bounds.cut_cycles * bounds.gains_mm_s2 >= 0
+        and (bounds.response_cycles - bounds.cut_cycles) * bounds.falls_mm_s2 >= 0
     )
 
 
@@ -95,6 +116,14 @@ def the_train_gains_no_more(site: Vehicle, system: Approach, speed_um_s: int) ->
     One that rolls back may besides be stopped by its brakes.
     """
     return speed_um_s - larger(0, system.speed_um_s) <= LONGEST_MS * site.bounds.gains_mm_s2
+
+
+def motors_that_are_cut_off_give_nothing(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
+    """Once its motors are cut off, with the brake, the train gains no more than on the steepest descent (X2, T12).
+
+    Of a train whose bounds say that this takes as long as the brake's response, nothing more is assumed by it.
+    """
+    return speed_um_s - larger(0, system.speed_um_s) <= LONGEST_MS * site.bounds.falls_mm_s2
 
 
 def the_brake_keeps_its_bound(site: Vehicle, system: Approach, speed_um_s: int) -> bool:
@@ -128,7 +157,8 @@ def run_a_cycle(
 ) -> Approach:
     """The control decides, and the train runs for a cycle as the driver, the line and the brake let it (T12).
 
-    Whoever demands the brake may do so because nothing is known of place and speed.  A restriction ahead demands it.
+    Whoever demands the brake may do so because nothing is known of place and speed.  A restriction ahead and a
+    ceiling demand it.
     """
     if not demanded and not the_range_contains_the_head(system, front_most_mm, speed_least_mm_s, speed_most_mm_s):
         return system
@@ -136,19 +166,21 @@ def run_a_cycle(
         return system
     is_near = restriction_ahead.is_too_fast(
         site.bounds, site.table, system.slowing.ahead, front_most_mm, speed_most_mm_s
-    )
+    ) or not machine.is_kept(site.bounds, system.ceiling, speed_most_mm_s)
     brake = braking.supervise(
         site.bounds, system.brake, front_most_mm, speed_least_mm_s, speed_most_mm_s, demanded or is_near, acknowledged
     )
     responds = brake.applied and system.response_cycles == 0
-    if (responds or (brake.applied and system.slowing.response_cycles == 0)) and not the_brake_keeps_its_bound(
-        site, system, speed_um_s
-    ):
+    waited_cycles = smaller(system.slowing.response_cycles, ceilings.response_cycles(system.keeping))
+    if (responds or (brake.applied and waited_cycles == 0)) and not the_brake_keeps_its_bound(site, system, speed_um_s):
+        return system
+    is_cut = brake.applied and system.keeping.cut_cycles == 0
+    if is_cut and not motors_that_are_cut_off_give_nothing(site, system, speed_um_s):
         return system
     if not the_train_gains_no_more(site, system, speed_um_s):
         return system
     if not brake.applied:
-        begun = decided(site, system, front_most_mm, speed_most_mm_s, brake)
+        begun = let_run(site, system, front_most_mm, speed_most_mm_s, brake)
         amiss = system.brake.applied and (demanded or not acknowledged or not stands(site, system))
         return replace(
             begun,
@@ -156,9 +188,6 @@ def run_a_cycle(
             speed_um_s=speed_um_s,
             demanded=demanded,
             released_amiss=system.released_amiss or amiss,
-            slowing=slowing.let_run(
-                site.bounds, site.table, system.slowing, front_most_mm, speed_most_mm_s, brake.end_mm, system.speed_um_s
-            ),
         )
     slowed_um_s = larger(0, system.worst_um_s - LONGEST_MS * slowing.slows_mm_s2(site.bounds))
     return replace(
@@ -172,6 +201,7 @@ def run_a_cycle(
         demanded=demanded,
         brake=brake,
         slowing=slowing.held(system.slowing, system.speed_um_s),
+        keeping=ceilings.held(system.keeping),
     )
 
 
@@ -197,6 +227,30 @@ def list_none(site: Vehicle, system: Approach) -> Approach:
     return replace(system, slowing=slowing.unlisted(system.slowing))
 
 
+def keep_to(
+    site: Vehicle,
+    system: Approach,
+    front_most_mm: int,
+    speed_least_mm_s: int,
+    speed_most_mm_s: int,
+    ceiling: Ceiling,
+) -> Approach:
+    """The train is to keep to a ceiling of speed, any at all: a higher one, or a lower one that it still can (X2)."""
+    if not the_range_contains_the_head(system, front_most_mm, speed_least_mm_s, speed_most_mm_s):
+        return system
+    taken = machine.take(site.bounds, system.ceiling, ceiling, speed_most_mm_s)
+    if taken.most_mm_s >= system.ceiling.most_mm_s:
+        return replace(system, ceiling=taken)
+    return replace(system, ceiling=taken, keeping=ceilings.begun(site.bounds, speed_most_mm_s))
+
+
+def be_let_go(site: Vehicle, system: Approach, ceiling: Ceiling) -> Approach:
+    """The train is let go faster, whatever is known of its speed (X2)."""
+    if ceiling.most_mm_s < system.ceiling.most_mm_s:
+        return system
+    return replace(system, ceiling=ceiling)
+
+
 def stands(site: Vehicle, system: Approach) -> bool:
     """The train is at rest, or as slow as counts for that (T12)."""
     return magnitude(system.speed_um_s) <= UM_A_MM * site.bounds.standstill_mm_s
@@ -211,6 +265,17 @@ def decided(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s
         reach_nm=braking.reach_nm(site.bounds, front_most_mm, speed_most_mm_s),
         left_nm=braking.left_nm(site.bounds, front_most_mm, speed_most_mm_s, brake.end_mm),
         brake=brake,
+    )
+
+
+def let_run(site: Vehicle, system: Approach, front_most_mm: int, speed_most_mm_s: int, brake: Brake) -> Approach:
+    """The control has found besides that it is slow enough for what is ahead, and for its ceiling (X2, T12)."""
+    return replace(
+        decided(site, system, front_most_mm, speed_most_mm_s, brake),
+        slowing=slowing.let_run(
+            site.bounds, site.table, system.slowing, front_most_mm, speed_most_mm_s, brake.end_mm, system.speed_um_s
+        ),
+        keeping=ceilings.begun(site.bounds, speed_most_mm_s),
     )
 
 

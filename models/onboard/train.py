@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from kernel.onboard import brake_demand, computer
 from kernel.onboard import braking as brake_control
+from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
@@ -23,6 +24,7 @@ from models.onboard import (
     train_length,
 )
 from models.onboard.antenna_spacing import Trailing
+from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
 from models.onboard.train_length import Formation
 from models.onboard.train_nature import (
     Train,
@@ -41,6 +43,7 @@ from models.onboard.train_nature import (
     leaving_the_creep_takes_a_jolt,
     length_nm,
     line,
+    motors_that_are_cut_off_give_nothing,
     passage,
     profile,
     railway,
@@ -75,6 +78,8 @@ def run_a_cycle(
         return system
     decided = computer.decide(site.limits, system.computer, may_proceed, acknowledged)
     if not a_brake_that_has_responded_keeps_its_bound(site, system, decided.brake.applied, speed_um_s):
+        return system
+    if not motors_that_are_cut_off_give_nothing(site, system, decided.brake.applied, speed_um_s):
         return system
     at = system.computer.known.motion
     demanded = brake_demand.is_demanded(site.limits.train, decided.known, may_proceed)
@@ -199,6 +204,22 @@ def take_end(site: Train, system: Whole, end_mm: int) -> Whole:
     )
 
 
+def keep_to(site: Train, system: Whole, ceiling: Ceiling) -> Whole:
+    """The train is to keep to any ceiling of speed at all: what it means to promise, or may do once let go (X2)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    at, held = system.computer.known.motion, system.computer.known.ceiling
+    if ceiling.most_mm_s >= held.most_mm_s:
+        coming = braking.be_let_go(braked(site), approach(system), ceiling)
+    elif is_located(at):
+        coming = braking.keep_to(
+            braked(site), approach(system), at.front_most_mm, at.speed_least_mm_s, at.speed_most_mm_s, ceiling
+        )
+    else:
+        coming = approach(system)
+    return replace(system, approach=coming, computer=computer.keep_to(site.limits, system.computer, ceiling))
+
+
 def withhold_end(site: Train, system: Whole) -> Whole:
     """The orders give no end of authority, or the driver puts the brake on, at any moment (T4, T9)."""
     return replace(
@@ -258,7 +279,7 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         return system
     if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
         return system
-    begun = computer.put_into_service(site.limits, least_mm, most_mm)
+    begun = computer.put_into_service(site.limits, system.computer.known.ceiling, least_mm, most_mm)
     inspected = replace(
         system,
         watched=replace(system.watched, kept=True, too_fast=False),
@@ -285,6 +306,7 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             demanded=False,
             wanted=False,
             slowing=slowing.at_rest(braked(site).bounds, system.front_nm, system.computer.brake.end_mm),
+            keeping=KEEPING_AT_REST,
         ),
         watched=replace(watched(system), allowed_mm_s=0),
         asked=system.computer.brake,

@@ -168,7 +168,7 @@ def before(system: Whole) -> Running:
 
 
 def approach(system: Whole) -> Approach:
-    """Give it as the brake control's world sees it (T12)."""
+    """Give it as the brake control's world sees it; the ceiling there is what was promised last (X2, T12)."""
     seen = replace(system.approach.slowing, ahead=system.computer.known.ahead)
     return replace(coming(system), brake=system.computer.brake, slowing=seen)
 
@@ -233,7 +233,11 @@ def the_odometrys_bounds_fit(site: Train) -> bool:
 
 def the_brakes_bounds_fit(site: Train) -> bool:
     """What the proofs of brake control and brake watch ask of the written bounds (T12)."""
-    return braking.the_brake_slows(braked(site)) and brake_watch.motors_do_not_slow(watched_over(site))
+    return (
+        braking.the_brake_slows(braked(site))
+        and braking.the_motors_are_cut_off_before_it_does(braked(site))
+        and brake_watch.motors_do_not_slow(watched_over(site))
+    )
 
 
 def the_tags_bounds_fit(site: Train) -> bool:
@@ -309,6 +313,15 @@ def a_brake_that_has_responded_keeps_its_bound(site: Train, system: Whole, appli
         not applied
         or system.watched.cycles < site.limits.train.brake.response_cycles
         or braking.the_brake_keeps_its_bound(braked(site), coming(system), speed_um_s)
+    )
+
+
+def motors_that_are_cut_off_give_nothing(site: Train, system: Whole, applied: bool, speed_um_s: int) -> bool:
+    """Once the brake has been commanded for long enough to cut motors off, a train gains on a descent alone (T12)."""
+    return (
+        not applied
+        or system.watched.cycles < site.limits.train.brake.cut_cycles
+        or braking.motors_that_are_cut_off_give_nothing(braked(site), coming(system), speed_um_s)
     )
 
 

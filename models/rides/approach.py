@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from models.compiled import compiled
 from models.rides import tally
 from models.rides.onboard import (
@@ -101,8 +102,9 @@ def let_run(computer: Any, end_mm: int) -> Any:
     """The ride's computer, where nothing but the end of authority wants the brake (T12)."""
     motion = computer.known.motion
     known = Known(
-        motion, watching(motion.speed_most_mm_s), NOT_MOVED, UNKNOWN, made_up(SPLIT_LIMITS), NONE_AWAITED, NONE_LISTED
-    )
+        motion, watching(motion.speed_most_mm_s), NOT_MOVED, UNKNOWN, made_up(SPLIT_LIMITS), NONE_AWAITED, NONE_LISTED,
+        NO_CEILING,
+    )  # fmt: skip
     brake = Brake(False, end_mm, False)
     return Computer(known, computer.before, computer.from_mm, computer.spacing, computer.length, brake)
 

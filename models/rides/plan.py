@@ -61,7 +61,9 @@ class Plan:
 PLAN = Plan(
     sensors=BOUNDS,
     split=SPLIT_LIMITS,
-    brake=BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700),
+    brake=BrakeBounds(
+        gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700, cut_cycles=5, falls_mm_s2=350
+    ),
     reader=ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=8),
     window=WindowLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=1_000_000, tail_width_mm=25_000),
     spacing=SpacingLimits(tolerance_mm=2 * TAG_ERROR_MM, width_mm=18_000),

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kernel.onboard import tag_kind
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from models.compiled import compiled
 from models.rides import onboard, tally
 from models.rides.onboard import (
@@ -283,7 +284,7 @@ def with_end(computer: Any, end_mm: int) -> Any:
 def ride(trace: Any, out: Any) -> Any:
     """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and computer."""
     start_mm = int(trace.head_m[0] * 1000)
-    computer = put_into_service(LIMITS, start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM)
+    computer = put_into_service(LIMITS, NO_CEILING, start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM)
     computer = with_end(computer, start_mm + FAR_MM)
     ends, apart = Ends(mended(), mended(), 0, 0), Apart(False, 0, -1)
     curve, anchor_m, cycle = Curve(0, AWAITED, 0), trace.head_m[0], 0

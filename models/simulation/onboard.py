@@ -14,6 +14,7 @@ from kernel.names import Block, Run, TagList
 from kernel.onboard import authority_end, braking, odometry, split
 from kernel.onboard import computer as computing
 from kernel.onboard.brake_demand import TrainLimits
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits, are_lawful
 from kernel.onboard.tag_fix import TagLimits
@@ -205,4 +206,5 @@ def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> O
     )
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
-    return OnBoard(length_mm, limits, cycling(limits, computing.put_into_service(limits, least_mm, most_mm)))
+    begun = computing.put_into_service(limits, NO_CEILING, least_mm, most_mm)
+    return OnBoard(length_mm, limits, cycling(limits, begun))

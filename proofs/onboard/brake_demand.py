@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from kernel.onboard.braking import slows_before, stops_before
+from kernel.onboard.ceiling import is_kept
 from kernel.onboard.odometry import Loss, Motion
 from models.onboard.brake_demand import Deciding, Train, decide
 from proofs.theory import Theory, by_name
@@ -57,6 +58,12 @@ def slows_or_need_not(site: Train, motion: Motion, from_mm: int, restricted_mm_s
     )
 
 
+def a_ceiling_brakes(site: Train, system: Deciding) -> bool:
+    """A train that might get faster than it has promised before a later brake responds brakes (X2, T12)."""
+    known = system.known
+    return system.brake.applied or is_kept(site.limits.brake, known.ceiling, known.motion.speed_most_mm_s)
+
+
 def a_split_brakes(site: Train, system: Deciding) -> bool:
     """A train that has parted brakes (P5)."""
     return system.brake.applied or not system.known.wholeness.split
@@ -101,6 +108,7 @@ SAFETY = (
     reverse_movement_brakes,
     an_overspeed_brakes,
     a_restriction_ahead_brakes,
+    a_ceiling_brakes,
     a_split_brakes,
     an_overdue_tag_brakes,
     an_order_that_does_not_let_it_proceed_brakes,

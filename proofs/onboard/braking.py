@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from kernel.onboard import braking
-from models.onboard import slowing
+from models.onboard import ceiling, slowing
 from models.onboard.braking import (
     Approach,
     Vehicle,
+    be_let_go,
+    keep_to,
     list_none,
     list_tag,
     run_a_cycle,
     take_end,
     the_brake_slows,
+    the_motors_are_cut_off_before_it_does,
     withhold_end,
 )
 from models.onboard.slowing import Reckoned, slows_mm_s2
@@ -35,6 +38,8 @@ def the_train_stands_inside_its_authority(site: Vehicle, system: Approach) -> bo
         and not system.released_amiss
         and not system.wanted
         and system.slowing == slowing.at_rest(site.bounds, system.head_nm, system.brake.end_mm)
+        and system.ceiling.most_mm_s >= 0
+        and system.keeping == ceiling.AT_REST
     )
 
 
@@ -86,6 +91,11 @@ def no_head_passes_the_end_that_it_was_let_run_to(site: Vehicle, system: Approac
     return system.head_nm <= system.slowing.end.kept_nm
 
 
+def no_train_is_faster_than_the_ceiling_that_it_keeps_to(site: Vehicle, system: Approach) -> bool:
+    """Whatever becomes of it: also while the brake responds, and whoever demands it (X2, T12)."""
+    return system.speed_um_s <= UM_A_MM * system.ceiling.most_mm_s
+
+
 # ---- what they rest on
 
 
@@ -94,11 +104,6 @@ def a_withheld_end_keeps_the_brake_applied(site: Vehicle, system: Approach) -> b
     return (not system.brake.withheld or system.brake.applied) and (
         system.brake.withheld or (system.wanted and system.brake.end_mm <= system.wanted_mm)
     )
-
-
-def the_worst_speed_is_not_negative(site: Vehicle, system: Approach) -> bool:
-    """The worst that is reckoned with is a train that runs forward (T12)."""
-    return system.worst_um_s >= 0
 
 
 def the_response_ends(site: Vehicle, system: Approach) -> bool:
@@ -209,6 +214,38 @@ def the_way_to_stop_is_enough(site: Vehicle, system: Approach) -> bool:
     return slows.end.left_nm >= 0 and slows.worst_um_s * slows.worst_um_s <= 2 * slows.slows_mm_s2 * slows.end.left_nm
 
 
+# ---- what a ceiling rests on
+
+
+def the_worst_is_no_faster_than_the_ceiling(site: Vehicle, system: Approach) -> bool:
+    """What was reckoned with when the brake was last off, or the ceiling taken, is no faster than that (X2, T12)."""
+    return system.keeping.worst_um_s <= UM_A_MM * system.ceiling.most_mm_s
+
+
+def a_train_that_keeps_to_a_ceiling_gets_no_faster(site: Vehicle, system: Approach) -> bool:
+    """Until the brake has responded the speed stays below what was reckoned with, the motors cut off sooner (T12)."""
+    keeping, bounds = system.keeping, site.bounds
+    gained_um_s = keeping.cut_cycles * LONGEST_MS * bounds.gains_mm_s2
+    gained_on_um_s = keeping.falling_cycles * LONGEST_MS * bounds.falls_mm_s2
+    return larger(0, system.speed_um_s) + gained_um_s + gained_on_um_s <= keeping.worst_um_s
+
+
+def motors_are_cut_off_before_the_brake_responds(site: Vehicle, system: Approach) -> bool:
+    """Neither takes a negative time, and each its full time while the brake is off (T12)."""
+    keeping, bounds = system.keeping, site.bounds
+    return (
+        keeping.cut_cycles >= 0
+        and keeping.falling_cycles >= 0
+        and (
+            system.brake.applied
+            or (
+                keeping.cut_cycles == bounds.cut_cycles
+                and keeping.falling_cycles == bounds.response_cycles - bounds.cut_cycles
+            )
+        )
+    )
+
+
 INITIAL = (the_train_stands_inside_its_authority,)
 SAFETY = (
     head_stays_inside_authority,
@@ -217,11 +254,11 @@ SAFETY = (
     no_end_is_held_beyond_the_one_wanted,
     no_train_enters_a_listed_restriction_faster_than_permitted,
     no_head_passes_the_end_that_it_was_let_run_to,
+    no_train_is_faster_than_the_ceiling_that_it_keeps_to,
 )
 INVARIANTS = (
     *SAFETY,
     a_withheld_end_keeps_the_brake_applied,
-    the_worst_speed_is_not_negative,
     the_response_ends,
     it_gets_no_faster_before_the_response,
     it_gets_no_farther_before_the_response,
@@ -235,9 +272,12 @@ INVARIANTS = (
     it_is_reckoned_with_no_more_than_is_guaranteed,
     the_way_to_stop_lies_before_the_end,
     the_way_to_stop_is_enough,
+    the_worst_is_no_faster_than_the_ceiling,
+    a_train_that_keeps_to_a_ceiling_gets_no_faster,
+    motors_are_cut_off_before_the_brake_responds,
 )
-PREMISES = (the_brake_slows,)
-STEPS = (run_a_cycle, take_end, withhold_end, list_tag, list_none)
+PREMISES = (the_brake_slows, the_motors_are_cut_off_before_it_does)
+STEPS = (run_a_cycle, take_end, withhold_end, list_tag, list_none, keep_to, be_let_go)
 
 THEORY = Theory(
     "braking",

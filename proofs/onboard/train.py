@@ -21,6 +21,7 @@ from models.onboard.joint import (
 from models.onboard.train import (
     come_apart,
     find_whole,
+    keep_to,
     locate_anew,
     note_place,
     put_into_service,
@@ -33,7 +34,6 @@ from models.onboard.train import (
 from models.onboard.train_nature import (
     Train,
     Whole,
-    approach,
     before,
     braked,
     line,
@@ -126,6 +126,7 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and speed_limit.nothing_is_known_of_the_track(profile(site), system.passing)
         and system.computer.known.limit == system.passing.limit
         and system.computer.known.ahead == system.approach.slowing.ahead
+        and system.computer.known.ceiling == system.approach.ceiling
         and train_parts.no_list_has_more_where_the_front_may_be(site, system)
     )
 
@@ -242,11 +243,6 @@ def a_false_tail_is_found(site: Train, system: Whole) -> bool:
     return antenna_spacing.a_false_tail_is_found(track(site), system.trailing)
 
 
-def unhealthy_is_latched(site: Train, system: Whole) -> bool:
-    """Once a false tail was compared, or tail came before head, the line is not healthy until preset anew (T13)."""
-    return antenna_spacing.unhealthy_is_latched(track(site), system.trailing)
-
-
 def healthy_only_after_a_check(site: Train, system: Whole) -> bool:
     """Healthy: the tail has read since the preset, and its newest tag, any one, the head had read before (T13)."""
     return antenna_spacing.healthy_only_after_a_check(track(site), system.trailing)
@@ -275,14 +271,6 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> 
     """In a cycle that began faster than line, curve or turnout allows any part of the train the brake is on (T12)."""
     seen = replace(system.passing, front_nm=system.from_nm, speed_um_s=system.from_um_s)
     return not system.runs or system.computer.brake.applied or speed_limit.keeps_to_its_track(profile(site), seen)
-
-
-def no_train_enters_a_listed_restriction_faster_than_permitted(site: Train, system: Whole) -> bool:
-    """Beyond a listed curve or turnout the front is no faster than it allows, nor in the cycle in which it gets there.
-
-    It was listed before the brake was let off last (T12).
-    """
-    return braking.no_train_enters_a_listed_restriction_faster_than_permitted(braked(site), approach(system))
 
 
 def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
@@ -341,9 +329,13 @@ def the_computer_has_the_proved_odometry(site: Train, system: Whole) -> bool:
 
 
 def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
-    """Its brake, and what it knows of restrictions ahead, is that of the brake control's proof."""
+    """Its brake, what it knows of restrictions ahead, and its ceiling are those of the brake control's proof."""
     brake, ahead = system.computer.brake, system.computer.known.ahead
-    return brake == system.approach.brake and ahead == system.approach.slowing.ahead
+    return (
+        brake == system.approach.brake
+        and ahead == system.approach.slowing.ahead
+        and system.computer.known.ceiling == system.approach.ceiling
+    )
 
 
 def the_computer_has_the_proved_watch(site: Train, system: Whole) -> bool:
@@ -383,14 +375,15 @@ SAFETY = (
     a_missed_tag_is_overdue_before_the_tail_comes,
     no_tag_still_ahead_is_called_missing,
     a_false_tail_is_found,
-    unhealthy_is_latched,
+    train_parts.unhealthy_is_latched,
     healthy_only_after_a_check,
     healthy_only_after_a_preset,
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,
-    no_train_enters_a_listed_restriction_faster_than_permitted,
+    train_parts.no_train_enters_a_listed_restriction_faster_than_permitted,
     train_parts.no_head_passes_the_end_that_it_was_let_run_to,
+    train_parts.no_train_is_faster_than_the_ceiling_that_it_keeps_to,
     a_standstill_that_is_told_is_one,
     the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
@@ -433,6 +426,9 @@ INVARIANTS = (
     train_parts.it_is_reckoned_with_no_more_than_is_guaranteed,
     the_way_to_stop_lies_before_the_end,
     the_way_to_stop_is_enough,
+    train_parts.the_worst_is_no_faster_than_the_ceiling,
+    train_parts.a_train_that_keeps_to_a_ceiling_gets_no_faster,
+    train_parts.motors_are_cut_off_before_the_brake_responds,
     a_train_that_keeps_is_no_faster_than_the_limit,
     the_watch_counts_no_more_than_the_brake,
     what_is_not_preset_is_broken,
@@ -467,6 +463,7 @@ STEPS = (
     come_apart,
     take_end,
     withhold_end,
+    keep_to,
     locate_anew,
     note_place,
     recognise_a_feature,

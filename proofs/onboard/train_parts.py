@@ -6,6 +6,7 @@ from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
 from kernel.onboard.train_length import PointKind
 from models.onboard import antenna_spacing as world_of_antennas
+from models.onboard import ceiling
 from models.onboard.train_nature import (
     Train,
     Whole,
@@ -136,6 +137,34 @@ def the_way_to_stop_is_enough(site: Train, system: Whole) -> bool:
     return braking.the_way_to_stop_is_enough(braked(site), approach(system))
 
 
+def no_train_enters_a_listed_restriction_faster_than_permitted(site: Train, system: Whole) -> bool:
+    """Beyond a listed curve or turnout the front is no faster than it allows, nor in the cycle in which it gets there.
+
+    It was listed before the brake was let off last (T12).
+    """
+    return braking.no_train_enters_a_listed_restriction_faster_than_permitted(braked(site), approach(system))
+
+
+def no_train_is_faster_than_the_ceiling_that_it_keeps_to(site: Train, system: Whole) -> bool:
+    """At the end of each cycle: while the brake responds, lost, and after a restart, too (X2, T12)."""
+    return braking.no_train_is_faster_than_the_ceiling_that_it_keeps_to(braked(site), approach(system))
+
+
+def the_worst_is_no_faster_than_the_ceiling(site: Train, system: Whole) -> bool:
+    """What was reckoned with when the brake was last off, or the ceiling taken, is no faster than that (X2, T12)."""
+    return braking.the_worst_is_no_faster_than_the_ceiling(braked(site), approach(system))
+
+
+def a_train_that_keeps_to_a_ceiling_gets_no_faster(site: Train, system: Whole) -> bool:
+    """Until the brake has responded the speed stays below what was reckoned with, the motors cut off sooner (T12)."""
+    return braking.a_train_that_keeps_to_a_ceiling_gets_no_faster(braked(site), approach(system))
+
+
+def motors_are_cut_off_before_the_brake_responds(site: Train, system: Whole) -> bool:
+    """Neither takes a negative time, and each its full time while the brake is off (T12)."""
+    return braking.motors_are_cut_off_before_the_brake_responds(braked(site), approach(system))
+
+
 def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system: Whole) -> bool:
     """The response that the brake control still waits for is over when the command is as old (T12)."""
     response_cycles = site.limits.train.brake.response_cycles
@@ -144,6 +173,8 @@ def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system
         0 <= system.watched.cycles <= response_cycles
         and cycles + system.approach.response_cycles >= response_cycles
         and cycles + system.approach.slowing.response_cycles >= response_cycles
+        and cycles + ceiling.response_cycles(system.approach.keeping) >= response_cycles
+        and cycles + system.approach.keeping.cut_cycles >= site.limits.train.brake.cut_cycles
     )
 
 
@@ -162,6 +193,11 @@ def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -
 def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
     """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
     return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
+
+
+def unhealthy_is_latched(site: Train, system: Whole) -> bool:
+    """Once a false tail was compared, or tail came before head, the line is not healthy until preset anew (T13)."""
+    return antenna_spacing.unhealthy_is_latched(track(site), system.trailing)
 
 
 def what_is_not_preset_is_broken(site: Train, system: Whole) -> bool:

@@ -18,6 +18,7 @@ from models.onboard.train_nature import (
     Whole,
     a_brake_that_has_responded_keeps_its_bound,
     a_cycle_begins_when_the_one_before_was_sensed,
+    motors_that_are_cut_off_give_nothing,
     the_head_is_no_faster_than_at_the_ends_of_a_cycle,
     the_train_gains_no_more,
 )
@@ -33,7 +34,7 @@ def a_train_that_may_run_comes_to_its_end(site: Train, system: Whole, end_mm: in
 
     It may be on before since the orders do not let it proceed, since it has split, rolled back too far, lost its
     position or passed a tag unread, since motors or brake have broken a bound, or since it may be too fast for the
-    track that it is on or that is listed ahead.
+    track that it is on, for what is listed ahead, or for what it has promised.
     """
     return system.computer.brake.applied and (is_near(site, system, end_mm) or has_a_cause(site, system))
 
@@ -56,6 +57,7 @@ def has_a_cause(site: Train, system: Whole) -> bool:
         or not system.proceeds
         or may_be_too_fast_where_it_is(site, system)
         or may_be_too_fast_for_what_is_listed(site, system)
+        or may_get_faster_than_its_ceiling(site, system)
     )
 
 
@@ -79,6 +81,14 @@ def may_be_too_fast_for_what_is_listed(site: Train, system: Whole) -> bool:
     ) or (
         speeds.turnout_mm_s < speeds.line_mm_s and not slows_before(site, system, ahead.turnout_mm, speeds.turnout_mm_s)
     )
+
+
+def may_get_faster_than_its_ceiling(site: Train, system: Whole) -> bool:
+    """It has promised a ceiling that it is nearer to than what it may gain before a brake responds (X2, T12)."""
+    brake, known = site.limits.train.brake, system.computer.known
+    driven_cycles, falling_cycles = brake.cut_cycles + 1, brake.response_cycles - brake.cut_cycles
+    gained_um_s = LONGEST_MS * (driven_cycles * brake.gains_mm_s2 + falling_cycles * brake.falls_mm_s2)
+    return not 0 <= UM_A_MM * known.motion.speed_most_mm_s <= UM_A_MM * known.ceiling.most_mm_s - gained_um_s
 
 
 def is_near(site: Train, system: Whole, end_mm: int) -> bool:
@@ -157,6 +167,7 @@ def nature_lets_it_run(
         and the_head_is_no_faster_than_at_the_ends_of_a_cycle(system, to_nm, speed_um_s)
         and the_train_gains_no_more(site, system, speed_um_s)
         and a_brake_that_has_responded_keeps_its_bound(site, system, applied, speed_um_s)
+        and motors_that_are_cut_off_give_nothing(site, system, applied, speed_um_s)
     )
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from kernel.onboard.brake_watch import BrakeWatch, note_cycle, watching
 from kernel.onboard.braking import BrakeBounds
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=5, falls_mm_s2=200
+)
 
 
 def an_accusation_stays(speed_mm_s: int, cycles: int, applied: bool) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds, slows_before, stops_before, supervise, take_end
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=5, falls_mm_s2=200
+)
 ON, OFF = Brake(applied=True, end_mm=1_000_000), Brake(applied=False, end_mm=1_000_000)
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from kernel.onboard import brake_watch, odometry, reverse_movement, split, tag_window
 from kernel.onboard.brake_demand import Known, TrainLimits
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.odometry import Loss
 from kernel.onboard.restriction_ahead import NONE_LISTED
 from kernel.onboard.speed_limit import SpeedLimit, SpeedTable
@@ -17,7 +18,9 @@ from proofs.onboard.witnesses.play import Play
 
 SITE = Train(
     TrainLimits(
-        brake=BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25),
+        brake=BrakeBounds(
+            gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=15, falls_mm_s2=1_200
+        ),
         speeds=SpeedTable(line_mm_s=36_000, curve_mm_s=25_000, turnout_mm_s=11_000),
         length_mm=120_000,
     )
@@ -31,6 +34,7 @@ WELL = Known(
     wholeness=split.made_up(SplitLimits(500, 3_000, 500, 600, 1_000, 10_000)),
     window=tag_window.NONE_AWAITED,
     ahead=NONE_LISTED,
+    ceiling=NO_CEILING,
 )
 """A train at 20 m/s of which nothing bad is known."""
 AT_REST = replace(WELL, motion=replace(MOTION, speed_least_mm_s=-20, speed_most_mm_s=20))

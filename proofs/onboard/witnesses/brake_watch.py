@@ -8,7 +8,9 @@ from models.onboard.brake_watch import Vehicle, Watched
 from proofs.onboard.brake_watch import THEORY
 from proofs.onboard.witnesses.play import Play
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=750, response_cycles=3, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_000, slows_mm_s2=750, response_cycles=3, standstill_mm_s=25, cut_cycles=1, falls_mm_s2=300
+)
 """In a cycle of 102 ms motors gain 102 mm/s at most, and the brake takes 73.5 mm/s at least in one of 98."""
 SITE = Vehicle(BOUNDS)
 

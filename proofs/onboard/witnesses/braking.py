@@ -6,16 +6,20 @@ from dataclasses import replace
 
 from kernel.onboard import braking as machine
 from kernel.onboard.braking import FARTHEST_MM, Brake, BrakeBounds
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.speed_limit import SpeedTable
 from models.onboard import slowing
 from models.onboard.braking import Approach, Vehicle
+from models.onboard.ceiling import AT_REST
 from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
-from proofs.onboard.witnesses import braking_ahead, braking_history
+from proofs.onboard.witnesses import braking_ahead, braking_ceiling, braking_history
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=15, falls_mm_s2=1_200
+)
 TABLE = SpeedTable(line_mm_s=60_000, curve_mm_s=25_000, turnout_mm_s=12_000)
 SITE = Vehicle(BOUNDS, TABLE)
 END_MM = 3_000_000
@@ -36,6 +40,8 @@ def standing(head_mm: int = 0, end_mm: int = END_MM, bounds: BrakeBounds = BOUND
         wanted=False,
         wanted_mm=0,
         slowing=slowing.at_rest(bounds, head_mm * NM_A_MM, end_mm),
+        ceiling=NO_CEILING,
+        keeping=AT_REST,
     )
 
 
@@ -475,4 +481,5 @@ WITNESSES = (
     what_nature_does_not_do_does_not_happen,
     *braking_history.WITNESSES,
     *braking_ahead.WITNESSES,
+    *braking_ceiling.WITNESSES,
 )

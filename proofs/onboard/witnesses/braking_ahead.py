@@ -5,18 +5,22 @@ from __future__ import annotations
 from kernel.onboard import braking as machine
 from kernel.onboard import restriction_ahead
 from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.restriction_ahead import NONE_LISTED, Ahead
 from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.tag_kind import CURVE, GRADIENT, PLAIN, TURNOUT
 from kernel.onboard.tag_kind import UNKNOWN as UNTOLD
 from models.onboard.braking import Approach, Vehicle
+from models.onboard.ceiling import AT_REST
 from models.onboard.slowing import at_rest
 from models.onboard.units import NM_A_MM
 from proofs.onboard.braking import THEORY
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=15, falls_mm_s2=1_200
+)
 TABLE = SpeedTable(line_mm_s=60_000, curve_mm_s=25_000, turnout_mm_s=12_000)
 END_MM, CURVE_MM, TURNOUT_MM = 9_000_000, 3_000_000, 4_000_000
 
@@ -24,11 +28,11 @@ END_MM, CURVE_MM, TURNOUT_MM = 9_000_000, 3_000_000, 4_000_000
 class Train(Play[Vehicle, Approach]):
     """A train with its brake off, at rest far before its end."""
 
-    def __init__(self, table: SpeedTable = TABLE) -> None:
+    def __init__(self, table: SpeedTable = TABLE, bounds: BrakeBounds = BOUNDS) -> None:
         """Begin."""
         brake = machine.Brake(applied=True, end_mm=0, withheld=True)
-        begun = Approach(0, 0, 0, 0, 0, 0, False, False, brake, False, 0, at_rest(BOUNDS, 0, 0))
-        super().__init__(THEORY, Vehicle(BOUNDS, table), begun)
+        begun = Approach(0, 0, 0, 0, 0, 0, False, False, brake, False, 0, at_rest(bounds, 0, 0), NO_CEILING, AT_REST)
+        super().__init__(THEORY, Vehicle(bounds, table), begun)
         self.step("take_end", front_most_mm=0, speed_least_mm_s=0, speed_most_mm_s=0, end_mm=END_MM)
 
     def lists(self, kind: int, from_mm: int, *, curve: bool = False, turnout: bool = False, off_nm: int = 0) -> None:

@@ -10,13 +10,17 @@ from unittest.mock import patch
 
 from kernel.onboard import braking as machine
 from kernel.onboard.braking import Brake, BrakeBounds
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.speed_limit import SpeedTable
 from models.onboard import braking as world
 from models.onboard import slowing
 from models.onboard.braking import Approach, Vehicle
+from models.onboard.ceiling import AT_REST
 
 SITE = Vehicle(
-    BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25),
+    BrakeBounds(
+        gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=15, falls_mm_s2=1_200
+    ),
     SpeedTable(line_mm_s=60_000, curve_mm_s=25_000, turnout_mm_s=12_000),
 )
 END_MM = 3_000_000
@@ -34,6 +38,8 @@ BRAKED = Approach(
     wanted=True,
     wanted_mm=END_MM,
     slowing=slowing.at_rest(SITE.bounds, 0, END_MM),
+    ceiling=NO_CEILING,
+    keeping=AT_REST,
 )
 """A train at rest far before its end, its brake on."""
 

@@ -8,6 +8,7 @@ from kernel.onboard import computer, odometry
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import ReverseLimits
@@ -21,6 +22,7 @@ from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import UNMEASURED, LengthBounds
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
+from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
 from models.onboard.slowing import at_rest as slowing_at_rest
 from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
@@ -35,7 +37,9 @@ from proofs.onboard.witnesses.rolling_stock import AT_POWER_ON, BOUNDS, START_MM
 from proofs.onboard.witnesses.tag_window import AT_REST as NOTHING_AWAITED
 from proofs.onboard.witnesses.train_length import JUST_STARTED as NOTHING_MEASURED
 
-BRAKE = BrakeBounds(gains_mm_s2=1_300, slows_mm_s2=700, response_cycles=3, standstill_mm_s=50)
+BRAKE = BrakeBounds(
+    gains_mm_s2=1_300, slows_mm_s2=700, response_cycles=3, standstill_mm_s=50, cut_cycles=1, falls_mm_s2=300
+)
 LIMITS = Limits(
     sensors=BOUNDS,
     train=TrainLimits(BRAKE, SpeedTable(40_000, 20_000, 15_000), 133_000),
@@ -72,7 +76,7 @@ SHOWN_MM = AT_POWER_ON.motion.way_mm
 
 def at_rest() -> Whole:
     """A train that stands where it was located, its brake holding it."""
-    begun = computer.put_into_service(LIMITS, START_MM - 1_000, START_MM + 1_000)
+    begun = computer.put_into_service(LIMITS, NO_CEILING, START_MM - 1_000, START_MM + 1_000)
     motion = odometry.located(START_MM - 1_000, START_MM + 1_000, SHOWN_MM)
     watch = replace(begun.known.watch, cycles=BRAKE.response_cycles)
     known = replace(begun.known, motion=motion, watch=watch)
@@ -99,6 +103,8 @@ def at_rest() -> Whole:
             False,
             0,
             slowing_at_rest(SITE.limits.train.brake, front_nm, begun.brake.end_mm),
+            NO_CEILING,
+            KEEPING_AT_REST,
         ),
         watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
         expecting=NOTHING_AWAITED,

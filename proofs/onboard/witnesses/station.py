@@ -37,7 +37,9 @@ from proofs.witnesses.stations import (
     standing_at,
 )
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_200, slows_mm_s2=700, response_cycles=15, standstill_mm_s=25, cut_cycles=15, falls_mm_s2=1_200
+)
 BEGINS_MM = 340_000
 """Where the block in the west begins, in the train's kilometrage."""
 ENDS_MM = {WEST: 440_000, THROAT: 550_000, ONE: 750_000}

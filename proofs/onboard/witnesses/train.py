@@ -19,6 +19,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
+from proofs.onboard.witnesses import train_promising
 from proofs.onboard.witnesses.one_train import (
     BRAKE,
     END_MM,
@@ -477,4 +478,5 @@ WITNESSES = (
     no_length_is_measured_by_anothers_antenna,
     a_tail_does_not_count_once_its_train_is_another_than_written,
     the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
+    *train_promising.WITNESSES,
 )

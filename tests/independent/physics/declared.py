@@ -71,7 +71,9 @@ SENSORS = SensorBounds(
     pace_mm_s=40_000,
     locked_mm_s=3_000,
 )
-BRAKE = BrakeBounds(gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700)
+BRAKE = BrakeBounds(
+    gains_mm_s2=1_500, slows_mm_s2=600, response_cycles=15, standstill_mm_s=700, cut_cycles=5, falls_mm_s2=350
+)
 MULTIPLE_UNIT = SplitLimits(
     threshold_mm_s2=750, shock_mm_s2=3_000, disagreement_mm_s2=500, age_ms=600, gap_ms=1_000, lost_ms=10_000
 )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import antenna_spacing, braking, computer, limits, train_length
+from kernel.onboard.ceiling import NONE as NO_CEILING
+from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.odometry import Readings, is_located
 from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
@@ -22,8 +24,15 @@ class Host:
         """Put it into service at rest."""
         assert limits.are_lawful(kind.limits, kind.surveyed)
         self.limits = kind.limits
-        self.computer = computer.put_into_service(self.limits, least_mm, most_mm)
+        self.ceiling = NO_CEILING
+        self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
         self.awaited: int | None = None
+
+    def keep_to(self, ceiling_mm_s: int) -> None:
+        """Promise a ceiling of speed, if the computer says that it keeps to it."""
+        self.computer = computer.keep_to(self.limits, self.computer, Ceiling(ceiling_mm_s))
+        if self.computer.known.ceiling.most_mm_s <= ceiling_mm_s:
+            self.ceiling = Ceiling(ceiling_mm_s)
 
     # ---- what it claims
 
@@ -182,6 +191,6 @@ class Host:
             self.computer = computer.made_up(self.limits, self.computer)
         if inspected:
             way_mm = self.computer.known.motion.way_mm
-            self.computer = computer.put_into_service(self.limits, least_mm, most_mm)
+            self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
             motion = replace(self.computer.known.motion, way_mm=way_mm, anchor_way_mm=way_mm)
             self.computer = replace(self.computer, known=replace(self.computer.known, motion=motion))

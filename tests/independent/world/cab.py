@@ -7,7 +7,9 @@ from kernel.onboard.odometry import Loss, Motion
 from kernel.standstill import Standstill
 from tests.independent.world.sight import Sight
 
-BOUNDS = BrakeBounds(gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, standstill_mm_s=100)
+BOUNDS = BrakeBounds(
+    gains_mm_s2=1_000, slows_mm_s2=1_000, response_cycles=8, standstill_mm_s=100, cut_cycles=5, falls_mm_s2=200
+)
 """A brake of 1 m/s² within 0.8 s, and motors as strong."""
 
 
