@@ -79,6 +79,14 @@ RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
 }
 """The slots of a radio channel: all that is ordered may still be under way, and its number is not given again."""
 
+START_POINT: Mapping[str, tuple[Memory, str]] = {
+    "reader": (Memory.LOST, "nobody"),
+    "left_cycles": (Memory.LOST, "0"),
+    "struck_cycles": (Memory.LOST, "0"),
+    "owes": (Memory.LOST, "True"),
+}
+"""The terminal of a start point: nothing survives, and it tells of a strike that it may have missed."""
+
 TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),
     "opens_ms": (Memory.LOST, "now_ms + limits.coming_ms"),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from kernel.centre import Centre
-from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
+from kernel.crossing.crossing import Crossing, CrossingTrack, Settings, Train
 from kernel.crossing.ranging_schedule import ChannelSettings, Schedule
+from kernel.crossing.start_point import StartPoint
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -73,4 +74,14 @@ def restart_ranging_schedule(settings: ChannelSettings, number: int) -> Schedule
         pairs=0,
         number=number,
         taken_ms=settings.slot_ms,
+    )
+
+
+def restart_start_point(nobody: Train) -> StartPoint:
+    """Begin, or begin anew: no read waits, and a strike may have been missed (X3, T14)."""
+    return StartPoint(
+        reader=nobody,
+        left_cycles=0,
+        struck_cycles=0,
+        owes=True,
     )

@@ -18,6 +18,7 @@ from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
 from kernel.crossing.ranging_schedule import Schedule
+from kernel.crossing.start_point import StartPoint
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
@@ -78,6 +79,12 @@ RANGING_SCHEDULE = (
     " spare unit goes on from a number that is no lower, once the other is cut off from the radios; a train or a"
     " crossing that restarts changes nothing of it."
 )
+START_POINT = (
+    "Nothing survives: no read waits for its strike, and none that comes late counts before it is too old to be told."
+    " Who struck while it was without power was not noted, so it tells of one strike by a name that nobody has had;"
+    " the crossing warns until a person has released that name. Until it is heard its silence warns. A spare unit"
+    " starts in the same way."
+)
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
     " those to a unit that has been swapped for a spare one, which starts in the same way."
@@ -117,6 +124,7 @@ def persistence_page() -> str:
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),
+        ("The terminal of a start point", StartPoint, persistence.START_POINT, START_POINT),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),

@@ -10,6 +10,7 @@ from kernel import persistence
 from kernel.centre import Centre
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.ranging_schedule import Schedule
+from kernel.crossing.start_point import StartPoint
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.unit import Unit
@@ -19,8 +20,9 @@ HEAD = '''"""What each restart leaves.  Written by ``python -m proofs.restarts``
 from __future__ import annotations
 
 from kernel.centre import Centre
-from kernel.crossing.crossing import Crossing, CrossingTrack, Settings
+from kernel.crossing.crossing import Crossing, CrossingTrack, Settings, Train
 from kernel.crossing.ranging_schedule import ChannelSettings, Schedule
+from kernel.crossing.start_point import StartPoint
 from kernel.layout import Layout
 from kernel.names import Epoch, TerminalLife, UnitLife
 from kernel.terminal import Terminal
@@ -90,6 +92,14 @@ def source() -> str:
             "settings: ChannelSettings, number: int",
             "Begin, or begin anew: the channel is taken for a slot, and the next one has a new number (X1).",
             persistence.RANGING_SCHEDULE,
+        ),
+        restart_source(
+            "restart_start_point",
+            "point",
+            StartPoint,
+            "nobody: Train",
+            "Begin, or begin anew: no read waits, and a strike may have been missed (X3, T14).",
+            persistence.START_POINT,
         ),
     ]
     return "\n\n".join(parts)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
-from proofs.crossing import arrival, crossing, due, promise, ranging_schedule
+from proofs.crossing import arrival, crossing, due, promise, ranging_schedule, start_point
 from proofs.onboard import (
     antenna_spacing,
     brake_demand,
@@ -62,6 +62,7 @@ IN_ORDER: tuple[Theory, ...] = (
     due.THEORY,
     promise.THEORY,
     ranging_schedule.THEORY,
+    start_point.THEORY,
     crossing.THEORY,
 )
 """The theories, in the order of the matrix."""

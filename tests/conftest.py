@@ -24,7 +24,7 @@ LONGEST = (COMPILED, "tests/proofs/", "tests/evidence/", "tests/test_readme.py")
 """What takes longest is begun first, so that no process is left with it at the end."""
 
 
-class ByFile(LoadScopeScheduling):
+class ByFile(LoadScopeScheduling):  # type: ignore[misc]  # xdist tells no types
     """A file's tests in one process, and of what is compiled all files."""
 
     def _split_scope(self, nodeid: str) -> str:

@@ -13,13 +13,14 @@ CLAIMS: Mapping[str, str] = {
     "opened_before_rear": "a warning ended while a train that was warned of was not past (X4)",
     "unwarned_silence": "a start point's terminal was silent for too long without a warning (T14)",
     "beyond_ceiling": "seconds in which a train in contact was faster than the crossing held it to be (X2)",
+    "wrong_striker": "strikes put down to a train that did not make them (X3, T14)",
     "opened_unseen": "seconds with the road open and a track that nobody had seen empty since power failed (X3)",
 }
 ASSUMPTIONS: Mapping[str, str] = {
     "ranging_broken": "`the_ranging_bounds_the_train`: a train was nearer or faster than its ranging said",
     "age_broken": "`a_ranging_is_no_older_than_it_says`",
     "gain_broken": "`the_train_gains_no_more`, `the_train_keeps_to_its_ceiling`",
-    "strike_broken": "`the_terminal_tells_every_strike_first`: one was missed, or put down to another train",
+    "strike_broken": "`the_terminal_tells_every_strike_first`: one was missed",
     "rear_broken": "`a_whole_train_told_gone_is_gone`",
     "account_broken": "`a_person_accounts_for_a_track_seen_empty`: a train was there",
     "arms_broken": "`the_arms_come_down_in_time`",
@@ -30,6 +31,7 @@ MONITORS: Mapping[str, str] = {
     "contradicted": "rangings that contradicted the one before of a train that was not past: warned of at once (X1)",
     "silences": "warnings for a start point's silent terminal (T14)",
     "conventional": "trains under conventional control (X3)",
+    "unread": "strikes of trains in contact of which no read of the start tag was told: warned of at once (X3, T14)",
     "released": "trains that a person released (X4)",
     "forgotten": "trains between start point and road when power failed (X3)",
     "accounted": "tracks that a person accounted for after power had failed (X3)",

@@ -9,6 +9,7 @@ import numpy as np
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.crossing.faults import FAULTS
 from models.crossing.sites import HOURS, TRIALS, lawful
+from models.crossing.start_points import note_read
 from models.crossing.traffic import NEVER, drawn
 from models.crossing.watch import SET, decide, watched
 from models.days.system import Numbers, System
@@ -16,17 +17,24 @@ from models.days.system import Numbers, System
 FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
 
 
-def one_day(seed: int, day: int, beyond: tuple[str, ...] = (), decides: Any = decide, settings: Any = SET) -> Numbers:
+def one_day(
+    seed: int,
+    day: int,
+    beyond: tuple[str, ...] = (),
+    decides: Any = decide,
+    settings: Any = SET,
+    reads: Any = note_read,
+) -> Numbers:
     """Simulate one day and give its row; even days at the first crossing, odd ones at the second.
 
-    ``beyond``: faults that break an assumption, by name.  ``decides``, ``settings``: the machine's own; tests
-    plant faults there, and the truth is held against what is right.
+    ``beyond``: faults that break an assumption, by name.  ``decides``, ``settings``, ``reads``: the machines'
+    own; tests plant faults there, and the truth is held against what is right.
     """
     assert lawful()
     out = np.zeros(len(COLUMNS), np.int64)
     trial = TRIALS[day % len(TRIALS)]
     began = drawn(seed, day, trial, beyond)
-    watched(trial, began, out, decides, settings)
+    watched(trial, began, out, decides, settings, reads)
     out[FIRST_FAULT : FIRST_FAULT + len(FAULTS)] = began.faults["begin_s"] != NEVER
     return out
 

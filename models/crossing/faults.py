@@ -31,13 +31,20 @@ FAULTS = (
           "the_arms_come_down_in_time"),
     Fault("strong", "a train gained more than any should", 0.0, 0, 0, "m", 300, 1_100, "ours: a locomotive alone",
           "the_train_gains_no_more"),
-    # ---- power: a day's other draws are the same with these and without
+    # ---- drawn apart: a day's other draws are the same with these and without
     Fault("power", "power failed at the crossing", 0.2, 1, 900, "s", 60, 900, "practice: lightning, a battery"),
     Fault("unlooked", "power failed, and nobody looked at the tracks", 0.0, 1, 60, "-", 0, 0, "ours: a hurried person",
           "a_person_accounts_for_a_track_seen_empty"),
+    # ---- start points, and who comes to them
+    Fault("start_tags", "heads missed start tags", 0.4, 600, 7_200, "-", 0, 0, "practice: dirt, a tag that came off"),
+    Fault("late_reads", "reads of start tags were told late, and again", 0.5, 600, 7_200, "s", 1, 2, "ours: retries"),
+    Fault("beside", "trains without radio ran beside trains in contact", 0.3, 3_600, 10_800, "-", 0, 0,
+          "practice: two tracks"),
+    Fault("close_behind", "trains without radio came close behind trains in contact", 0.3, 3_600, 10_800, "-", 0, 0,
+          "practice: a late train"),
 )  # fmt: skip
 """In the order of the simulation's windows.  ``power`` is as large as a person takes to come once it is back."""
 
-OF_POWER = ("power", "unlooked")
+DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind")
 
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

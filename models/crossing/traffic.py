@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from models.crossing.faults import FAULTS, KIND, OF_POWER
+from models.crossing.faults import DRAWN_APART, FAULTS, KIND
 from models.crossing.sites import HOURS, PEAK, Trial
 
 Ints = npt.NDArray[np.int64]
@@ -100,6 +100,7 @@ def drawn(
     trains["traction_m_s2"] = source.uniform(*TRACTION_M_S2, count)
     trains["person_s"] = source.integers(*PERSON_S, count)
     trick(source, trains, windows)
+    accompany(trains, windows)
     promised(generator(seed, day, 2), trains, promise, quiet)
     arms_cycles = int(source.integers(8, 11))
     return Day(
@@ -113,6 +114,33 @@ def promised(source: np.random.Generator, trains: Records, promise: float, quiet
     trains["promises"] = (source.random(count) < promise) & (trains["radio"] == 1)
     asks = source.random(count) < (0.0 if quiet else ASKS)
     trains["asks_um"] = np.where(asks, np.round(1e6 * source.uniform(*ASKS_M, count)), NEVER)
+
+
+def accompany(trains: Records, windows: Records) -> None:
+    """Let trains without radio run beside trains with radio on the other track, or close behind them on one."""
+    beside, behind = windows[KIND["beside"]], windows[KIND["close_behind"]]
+    theirs, others = (np.flatnonzero(is_in(trains, beside) & (trains["track"] == track)) for track in range(TRACKS))
+    pairs = min(len(theirs), len(others))
+    alike(trains, theirs[:pairs], others[:pairs])
+    row = np.flatnonzero(is_in(trains, behind) & (trains["track"] == behind["track_of"]))
+    pairs = len(row) // 2
+    alike(trains, row[0 : 2 * pairs : 2], row[1 : 2 * pairs : 2])
+    for track in range(TRACKS):
+        on_it = trains["track"] == track
+        trains["at_s"][on_it] = np.maximum.accumulate(trains["at_s"][on_it])
+
+
+def is_in(trains: Records, window: np.void) -> npt.NDArray[np.bool_]:
+    """Tell which trains come in a fault's time."""
+    within: npt.NDArray[np.bool_] = (trains["at_s"] >= window["begin_s"]) & (trains["at_s"] < window["end_s"])
+    return within
+
+
+def alike(trains: Records, heard: Ints, unheard: Ints) -> None:
+    """Let trains without radio come with others that have one, as fast as those."""
+    for name in ("at_s", "local", "share", "traction_m_s2"):
+        trains[name][unheard] = trains[name][heard]
+    trains["radio"][heard], trains["radio"][unheard] = 1, 0
 
 
 def timetable(source: np.random.Generator, trial: Trial) -> tuple[Ints, Ints]:
@@ -131,11 +159,11 @@ def timetable(source: np.random.Generator, trial: Trial) -> tuple[Ints, Ints]:
     return track_of[order], at_s[order]
 
 
-def faults(source: np.random.Generator, of_power: np.random.Generator, beyond: tuple[str, ...], quiet: bool) -> Records:
+def faults(source: np.random.Generator, apart: np.random.Generator, beyond: tuple[str, ...], quiet: bool) -> Records:
     """Give each fault's window; those of power have chances of their own."""
     for name in beyond:
         KIND[name]
-    chances = np.concatenate([source.random((len(FAULTS) - len(OF_POWER), 5)), of_power.random((len(OF_POWER), 5))])
+    chances = np.concatenate([source.random((len(FAULTS) - len(DRAWN_APART), 5)), apart.random((len(DRAWN_APART), 5))])
     windows = np.zeros(len(FAULTS), WINDOW)
     for window, fault, (happens, long, when, large, where) in zip(windows, FAULTS, chances, strict=True):
         window["begin_s"] = window["end_s"] = NEVER

@@ -27,13 +27,13 @@ from models.crossing.motion import (
 from models.crossing.radio import KEPT, is_on, likely, ranging
 from models.crossing.sites import SETTINGS, Trial
 from models.crossing.staff import OTHER_NAME, account, forget, has_no_power, prove_rear, stays_s
+from models.crossing.start_points import hear, note_read, points_of, strikes
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 SET = packed(SETTINGS)
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
-note_contact, note_struck, note_heard = MADE.crossing.note_contact, MADE.crossing.note_struck, MADE.crossing.note_heard
-note_empty = MADE.crossing.note_empty
+note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
 Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
@@ -43,9 +43,7 @@ LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENC
         "late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence", "opened_unseen"
     )
 )  # fmt: skip
-GAIN_BROKEN, STRIKE_BROKEN, ARMS_BROKEN, START_BROKEN = (
-    NUMBER[name] for name in ("gain_broken", "strike_broken", "arms_broken", "start_broken")
-)
+GAIN_BROKEN, ARMS_BROKEN, START_BROKEN = (NUMBER[name] for name in ("gain_broken", "arms_broken", "start_broken"))
 LOST, CONTRADICTED, SILENCES, CONVENTIONAL = (
     NUMBER[name] for name in ("lost", "contradicted", "silences", "conventional")
 )
@@ -58,7 +56,7 @@ LIKELY_LATE = NUMBER["likely_late"]
 TRAINS, ARRIVALS, IN_CONTACT, WARNINGS, RANGINGS, SECONDS_COUNT = (
     NUMBER[name] for name in ("trains", "arrivals", "in_contact", "warnings", "rangings", "seconds")
 )
-TERMINAL, UNSTRUCK, SLOW_ARMS = KIND["terminal"], KIND["unstruck"], KIND["slow_arms"]
+TERMINAL, SLOW_ARMS = KIND["terminal"], KIND["slow_arms"]
 LEAST_DOWN_S = 15
 CLEAR_UM = 600_000_000
 """A train comes onto the line when the one before is so far."""
@@ -91,6 +89,7 @@ RUN = np.dtype(
         *((name, np.int64) for name in ("held_number", "held_mm_s", "held_asked_mm_s", "asks", "hurries")),
         *((name, np.int64) for name in ("noted_number", "noted_mm_s", "noted_asked_mm_s", "heard_asking")),
         *((name, np.int64) for name in ("sent_number", "last_number", "brought_place")),
+        *((name, np.int64) for name in ("read_s", "has_read", "told_late_s")),
         *((name, np.int64) for name in ("followed_way_mm", "followed_mm_s")),
         ("bias", np.float64),
     ]
@@ -100,6 +99,7 @@ RUN = np.dtype(
 ``near_um`` to ``followed_mm_s``, ``warns``: what is followed of it.  ``asked_s``: when the warning was first
 asked for.  ``old_s``: when the old crossing's start point was struck; ``struck_s``: ours.
 ``name``: by which the strike is told, -1 if nothing is to be told.
+``read_s``: when its head passed the start point's tag; ``has_read``: and read it; ``told_late_s``: it tells so late.
 ``likely_s``: when the paper's reckoning would have warned.
 ``arrived_s``, ``out_s``: head at the crossing; rear past it, or turned back.
 """
@@ -157,7 +157,7 @@ def bounds_of(line: Any, kind: Any) -> Any:
 def run_of(day: Day, line: Any) -> Records:
     """Give a day's trains before anything happens."""
     run = np.zeros(len(day.trains), RUN)
-    for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s", "name", "told_s"):
+    for name in ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "out_s", "name", "told_s", "read_s"):
         run[name] = NEVER
     for name in ("way_um", "before_um", "last_um"):
         run[name] = COMES_UM
@@ -168,11 +168,16 @@ def run_of(day: Day, line: Any) -> Records:
     return run
 
 
-def watched(trial: Trial, day: Day, out: Any, decides: Any = decide, settings: Any = SET) -> Records:
-    """Watch a day; counts go into ``out``.  ``decides``, ``settings``: the machine's own, where tests plant faults."""
+def watched(
+    trial: Trial, day: Day, out: Any, decides: Any = decide, settings: Any = SET, reads: Any = note_read
+) -> Records:
+    """Watch a day; counts go into ``out``.
+
+    ``decides``, ``settings``, ``reads``: the machines' own, where tests plant faults.
+    """
     line = line_of(trial)
     run = run_of(day, line)
-    live(day, run, line, decides, settings, packed(OPEN), packed(START), NO_DUES, out)
+    live(day, run, line, points_of(), decides, settings, reads, packed(OPEN), packed(START), NO_DUES, out)
     return run
 
 
@@ -227,50 +232,6 @@ def run_trains(day: Any, run: Any, line: Any, window: Any, track: int, out: Any)
 
 
 @compiled
-def strikes(day: Any, run: Any, line: Any, window: Any, track: int, now: int, out: Any) -> None:
-    """Let trains strike start points, and put each strike down to a train in contact, or to none (X3)."""
-    for train in range(window[track, 0], window[track, 1]):
-        kind, way_um = day.trains[train].local, run[train].way_um
-        if run[train].old_s < 0 and way_um <= line.old_um[kind]:
-            run[train].old_s = now
-        if run[train].struck_s >= 0 or way_um > line.start_um[kind]:
-            continue
-        run[train].struck_s = now
-        if day.on[UNSTRUCK] and track == day.faults[UNSTRUCK].track_of:
-            out[STRIKE_BROKEN] += 1
-            continue
-        by = NEVER
-        for other in range(window[track, 0], window[track, 1]):
-            able = run[other].contact == 1 and (run[other].struck_s < 0 or other == train)
-            if able and day.trains[other].local == kind and may_be_at(run, line, other, kind):
-                by = other
-        if by == NEVER:
-            run[train].name = OTHER_NAME + train if run[train].contact == 1 else train
-        elif by != train:
-            out[STRIKE_BROKEN] += 1
-
-
-@compiled
-def may_be_at(run: Any, line: Any, train: int, kind: int) -> Any:
-    """Tell whether a train in contact may be at its start point, by its rangings (X3)."""
-    near_um, age = run[train].near_um, run[train].age_cycles
-    reach_um = round(2e6 * line.way_error_m) + (age + 2) * line.line_um[kind]
-    return near_um <= line.start_um[kind] <= near_um + reach_um
-
-
-@compiled
-def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -> Any:
-    """Hear a start point's terminal: first what it has to tell, and then that it is there (X3, T14)."""
-    if day.on[TERMINAL] and day.faults[TERMINAL].track_of == track:
-        return crossing
-    for train in range(window[track, 0], window[track, 1]):
-        if run[train].name >= 0:
-            crossing = note_struck(crossing, run[train].name)
-            run[train].name = NEVER
-    return note_heard(crossing, track)
-
-
-@compiled
 def followed_of(run: Any, train: int) -> Any:
     """Give what is followed of a train."""
     held = run[train]
@@ -318,8 +279,7 @@ def follow_train(
 def tell(
     day: Any, run: Any, line: Any, window: Any, track: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
 ) -> Any:
-    """Tell the crossing all of a track (X1 to X4)."""
-    strikes(day, run, line, window, track, now, out)
+    """Tell the crossing all of a track, once its start points have been struck (X1 to X4)."""
     crossing = hear(day, run, window, track, now, crossing)
     for train in range(window[track, 0], window[track, 1]):
         if run[train].state != UNDER_WAY:
@@ -446,7 +406,17 @@ def end_cycle(day: Any, moment: Any, now: int, out: Any) -> Any:
 
 @compiled
 def live(
-    day: Any, run: Any, line: Any, decides: Any, settings: Any, crossing: Any, start: Any, dues: Any, out: Any
+    day: Any,
+    run: Any,
+    line: Any,
+    points: Any,
+    decides: Any,
+    settings: Any,
+    reads: Any,
+    crossing: Any,
+    start: Any,
+    dues: Any,
+    out: Any,
 ) -> None:
     """Let a day pass; it begins with both tracks accounted for."""
     window, ends = np.zeros((TRACKS, 2), np.int64), np.zeros(TRACKS, np.int64)
@@ -466,6 +436,7 @@ def live(
             day.on[fault] = is_on(day, fault, now)
         for track in range(TRACKS):
             enter(day, run, line, window, ends, track, now)
+            strikes(day, run, line, window, points, track, now, reads, out)
             crossing = tell(day, run, line, window, track, now, crossing, dues, settings, out)
             is_silent = day.on[TERMINAL] and day.faults[TERMINAL].track_of == track
             unheard[track] = unheard[track] + 1 if is_silent else 0

@@ -14,7 +14,7 @@ from kernel.crossing.crossing import Crossing, Due, Train
 from models.compiled import compiled, packed, unpacked
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
 from models.crossing.days import SYSTEM, one_day
-from models.crossing.faults import FAULTS
+from models.crossing.faults import FAULTS, KIND
 from models.crossing.made import MADE, NO_DUES
 from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
 from models.crossing.traffic import SECONDS, drawn
@@ -111,6 +111,40 @@ def test_a_machine_that_forgets_is_seen() -> None:
     broken = counted(days(2, decides=careless), CLAIMS)
     assert "late_warning" in broken
     assert "short_closure" in broken
+
+
+Point = MADE.start_point.StartPoint
+
+
+@compiled
+def believing(settings: Any, point: Any, train: Any, tag: Any) -> Any:
+    """Whatever is told of any tag waits for the next strike, whoever has struck since."""
+    return Point(train, settings.waits_cycles, point.struck_cycles, point.owes)
+
+
+def test_a_strike_put_down_to_another_train_is_seen() -> None:
+    """On days on which trains without radio run beside others, or close behind; with the machine itself there is none.
+
+    A train that nobody warns of finds the road open.
+    """
+    named = ("beside", "late_reads")
+    rows = days(4, beyond=named)
+    assert counted(rows, CLAIMS) == {}
+    assert rows[:, NUMBER["fault_beside"]].all()
+    assert rows[:, NUMBER["unread"]].sum() > 0
+    broken = counted(days(4, beyond=named, reads=believing), CLAIMS)
+    assert {"wrong_striker", "late_warning"} <= set(broken)
+
+
+def test_trains_run_side_by_side_and_close_behind() -> None:
+    """One of each two has a radio and the other one none (X3)."""
+    for name in ("beside", "close_behind"):
+        day = drawn(2, 0, STRAIGHT, beyond=(name,))
+        window = day.faults[KIND[name]]
+        within = day.trains[(day.trains["at_s"] >= window["begin_s"]) & (day.trains["at_s"] < window["end_s"])]
+        assert 0.3 < within["radio"].mean() < 0.8
+        pairs = {(int(at_s), int(radio)) for at_s, radio in zip(within["at_s"], within["radio"], strict=True)}
+        assert sum((at_s, 1) in pairs and (at_s, 0) in pairs for at_s, _ in pairs) > 12
 
 
 # ---- what the days are made of

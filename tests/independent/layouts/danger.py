@@ -28,7 +28,9 @@ class Danger(NamedTuple):
 
 def said_in(result: CheckResult) -> list[tuple[str, tuple[object, ...]]]:
     """Violations, with their rules, and remarks, each with its elements."""
-    told = [(f"{each.axiom}: {each.text}", tuple(each.elements)) for each in result.violations]
+    told: list[tuple[str, tuple[object, ...]]] = [
+        (f"{each.axiom}: {each.text}", tuple(each.elements)) for each in result.violations
+    ]
     return told + [(each.text, tuple(each.elements)) for each in result.remarks]
 
 

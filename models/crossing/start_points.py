@@ -1,0 +1,142 @@
+"""The start points of a day: tags that heads pass, what is told of them, strikes, and whose they are (X3, T14).
+
+There is one for each track and kind of train.  Whatever a train tells of a tag comes to the terminals of all of them.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from models.compiled import compiled
+from models.crossing.columns import NUMBER
+from models.crossing.faults import KIND
+from models.crossing.made import MADE
+from models.crossing.radio import RADIO_OUT
+from models.crossing.staff import OTHER_NAME
+from models.crossing.traffic import NEVER, TRACKS
+
+StartPoint, StartPointSettings = MADE.start_point.StartPoint, MADE.start_point.StartPointSettings
+note_read, note_strike, striker = MADE.start_point.note_read, MADE.start_point.note_strike, MADE.start_point.striker
+aged_point = MADE.start_point.aged
+note_struck, note_heard = MADE.crossing.note_struck, MADE.crossing.note_heard
+START_TAGS, LATE_READS, UNSTRUCK, TERMINAL = (
+    KIND[name] for name in ("start_tags", "late_reads", "unstruck", "terminal")
+)
+STRIKE_BROKEN, WRONG_STRIKER, UNREAD = (NUMBER[name] for name in ("strike_broken", "wrong_striker", "unread"))
+KINDS = 2
+TAG_UM = 30_000_000
+"""The tag lies so far before the detector: less than the shortest train, and no stop lies between (ours)."""
+TOLD_S = 2
+"""What is told of a tag is no older."""
+WAITS_S = 20
+"""A read waits so long for its strike: from the tag to the detector at 3 m/s."""
+CHANGES_S = 60
+"""No train is there sooner after one that has turned back (practice)."""
+POINT = np.dtype([(name, np.int64) for name in ("reader", "left_cycles", "struck_cycles", "owes")])
+
+
+def points_of() -> Any:
+    """Give the terminals of a day; long before it nobody had struck, and what they owed was told."""
+    points = np.zeros((TRACKS, KINDS), POINT)
+    points["struck_cycles"] = CHANGES_S
+    return points
+
+
+@compiled
+def point_of(points: Any, track: Any, kind: Any) -> Any:
+    """Give what a terminal knows."""
+    held = points[track, kind]
+    return StartPoint(held.reader, held.left_cycles, held.struck_cycles, held.owes == 1)
+
+
+@compiled
+def keep_point(points: Any, track: Any, kind: Any, point: Any) -> None:
+    """Keep what a terminal knows."""
+    points[track, kind].reader = point.reader
+    points[track, kind].left_cycles = point.left_cycles
+    points[track, kind].struck_cycles = point.struck_cycles
+    points[track, kind].owes = int(point.owes)
+
+
+@compiled
+def tag_of(track: Any, kind: Any) -> Any:
+    """Give the name of a start point's tag."""
+    return track * KINDS + kind
+
+
+@compiled
+def pass_tag(day: Any, run: Any, line: Any, train: int, now: int) -> None:
+    """Let a head pass the tag; it is read if there is a radio to tell of it, and no dirt upon it (T14)."""
+    kind = day.trains[train].local
+    if run[train].read_s == NEVER and run[train].way_um <= line.start_um[kind] + TAG_UM:
+        run[train].read_s = now
+        run[train].has_read = int(day.trains[train].radio == 1 and not day.on[START_TAGS])
+        run[train].told_late_s = int(day.faults[LATE_READS].size) if day.on[LATE_READS] else 0
+
+
+@compiled
+def is_told(day: Any, run: Any, train: int, now: int) -> Any:
+    """Tell whether a read is heard now: at once; or late, and again as late as may be (T11)."""
+    if run[train].has_read == 0 or day.on[RADIO_OUT]:
+        return False
+    age_s, late_s = now - run[train].read_s, run[train].told_late_s
+    return age_s == late_s or (late_s > 0 and age_s == TOLD_S)
+
+
+@compiled
+def strikes(
+    day: Any, run: Any, line: Any, window: Any, points: Any, track: int, now: int, reads: Any, out: Any
+) -> None:
+    """Let trains pass tags and strike detectors; the terminals say whose each strike is (X3, T14).
+
+    ``reads``: the terminals' way to take what is told of a tag.
+    """
+    for kind in range(KINDS):
+        keep_point(points, track, kind, aged_point(point_of(points, track, kind)))
+    for train in range(window[track, 0], window[track, 1]):
+        kind = day.trains[train].local
+        if run[train].old_s < 0 and run[train].way_um <= line.old_um[kind]:
+            run[train].old_s = now
+        pass_tag(day, run, line, train, now)
+        if is_told(day, run, train, now):
+            hear_read(points, train, tag_of(track, kind), reads)
+        if run[train].struck_s < 0 and run[train].way_um <= line.start_um[kind]:
+            run[train].struck_s = now
+            strike(day, run, points, track, train, out)
+
+
+@compiled
+def hear_read(points: Any, train: int, tag: Any, reads: Any) -> None:
+    """Let the terminals of all start points hear what a train tells (T14)."""
+    for track in range(TRACKS):
+        for kind in range(KINDS):
+            settings = StartPointSettings(tag_of(track, kind), TOLD_S, WAITS_S, CHANGES_S)
+            keep_point(points, track, kind, reads(settings, point_of(points, track, kind), train, tag))
+
+
+@compiled
+def strike(day: Any, run: Any, points: Any, track: int, train: int, out: Any) -> None:
+    """Let a train strike a detector, and its terminal name the strike."""
+    if day.on[UNSTRUCK] and track == day.faults[UNSTRUCK].track_of:
+        out[STRIKE_BROKEN] += 1
+        return
+    kind = day.trains[train].local
+    point = point_of(points, track, kind)
+    run[train].name = striker(point, OTHER_NAME + train)
+    keep_point(points, track, kind, note_strike(point))
+    out[WRONG_STRIKER] += run[train].name != train and run[train].name != OTHER_NAME + train
+    out[UNREAD] += run[train].contact == 1 and run[train].name != train
+
+
+@compiled
+def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -> Any:
+    """Hear a start point's terminal: first what it has to tell, and then that it is there (X3, T14)."""
+    if day.on[TERMINAL] and day.faults[TERMINAL].track_of == track:
+        return crossing
+    for train in range(window[track, 0], window[track, 1]):
+        if run[train].name >= 0:
+            crossing = note_struck(crossing, run[train].name)
+            run[train].name = NEVER
+    return note_heard(crossing, track)

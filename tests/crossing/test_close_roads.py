@@ -1,0 +1,276 @@
+"""Two crossings close together: a world of its own, in mm and seconds, with named days (X2 to X5).
+
+Nothing of models or proofs is in it but the kernel's public functions, and the settings of the days.  The start points
+of each road lie beyond the other road.  A train passes the first road, stands between both, and goes on over the second
+or turns back over the first; one without radio runs over both on the other track, from the other side.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isqrt
+from random import Random
+
+import pytest
+
+from kernel.crossing import arrival
+from kernel.crossing import crossing as machine
+from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
+from kernel.restarts import restart_crossing
+from models.crossing.sites import SETTINGS
+
+UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
+LINE_MM_S, GAIN_MM_S2, BRAKES_MM_S2 = 28_000, 950, 800
+LENGTH_MM = 120_000
+START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
+BOUNDS = ArrivalBounds(LINE_MM_S * 1_000, GAIN_MM_S2 * 1_000, 1_000, SETTINGS.warning_cycles, 3, 1, 3_000)
+NEVER_MM = 10**9
+"""A train that is to stand there runs on."""
+STANDS, PASSES = Train("stands between"), Train("passes")
+
+
+@dataclass
+class Road:
+    """A crossing at ``at_mm`` of the line, and what road users see of it."""
+
+    at_mm: int
+    crossing: Crossing = field(default_factory=lambda: restart_crossing(SETTINGS, frozenset((UP, DOWN))))
+    followed: Followed | None = None
+    warned_s: int = 0
+    down_s: int = 0
+    open_s: int = 0
+    heads: list[tuple[Train, int, int]] = field(default_factory=list)
+    gone: set[Train] = field(default_factory=set)
+    struck: set[Train] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        for track in (UP, DOWN):
+            self.crossing = machine.note_heard(machine.note_empty(self.crossing, track), track)
+        self.decide({})
+        assert not self.crossing.warns
+
+    def decide(self, dues: dict[Train, Due]) -> None:
+        for track in (UP, DOWN):
+            self.crossing = machine.note_heard(self.crossing, track)
+        self.crossing = machine.decide(SETTINGS, self.crossing, dues)
+        lowered = machine.arms_are_to_be_down(SETTINGS, self.crossing)
+        self.warned_s = self.warned_s + 1 if self.crossing.warns else 0
+        self.down_s = self.down_s + 1 if lowered else 0
+        self.open_s += not self.crossing.warns
+        self.crossing = machine.aged(self.crossing)
+
+    def meet(self, train: Train, before_mm: int, now_mm: int) -> None:
+        """Note a head that has come to the road, by where it was a second ago."""
+        if before_mm < self.at_mm <= now_mm or now_mm <= self.at_mm < before_mm:
+            self.heads.append((train, self.warned_s - 1, self.down_s - 1 - SETTINGS.lowering_cycles))
+
+    def tell_gone(self, train: Train) -> None:
+        self.crossing = machine.note_gone(self.crossing, train, True)
+        self.followed = None
+        self.gone.add(train)
+
+
+@dataclass
+class Two:
+    """Two roads ``apart_mm`` from each other, and the trains.
+
+    ``stands_mm``: so far beyond the first road the train stands, for ``stands_s``; ``turns``: then it turns back.
+    ``radio``: it is in contact.  ``passes_s``: when the other one comes, from beyond the second road; never, if -1.
+    ``forgets``: whoever is past one road is told gone to both.
+    """
+
+    apart_mm: int
+    stands_mm: int
+    stands_s: int
+    turns: bool
+    radio: bool = True
+    passes_s: int = -1
+    forgets: bool = False
+    now_s: int = 0
+    head_mm: int = -2_500_000
+    speed_mm_s: int = 20_000
+    direction: int = 1
+    stood_s: int = 0
+    asked: bool = False
+    let_go: bool = False
+    other_mm: int = 10**8
+    roads: tuple[Road, Road] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.roads = (Road(0), Road(self.apart_mm))
+
+    @property
+    def ahead(self) -> Road:
+        """The road that the train runs over when it leaves where it stands."""
+        return self.roads[0 if self.turns else 1]
+
+    def second(self) -> None:
+        for road in self.roads:
+            dues = self.follow(road)
+            self.strike(road)
+            road.decide(dues)
+        self.stand()
+        self.run()
+        self.pass_by()
+        self.now_s += 1
+
+    def way_mm(self, road: Road) -> int:
+        return (road.at_mm - self.head_mm) * self.direction
+
+    def follow(self, road: Road) -> dict[Train, Due]:
+        """Range a train that is in contact and runs towards a road; who stands has promised to, until it is let go."""
+        way_mm = self.way_mm(road)
+        if not self.radio or not 0 < way_mm < 2_000_000 or STANDS in road.gone or self.stands():
+            return {}
+        road.crossing = machine.note_contact(road.crossing, STANDS)
+        told = Ranging(True, way_mm, self.speed_mm_s, 0)
+        known = road.followed or Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False)
+        now = arrival.taken(BOUNDS, known, told) if road.followed is None else arrival.follow(BOUNDS, known, told)
+        road.followed = arrival.aged(BOUNDS, now)
+        return {STANDS: machine.due(BOUNDS, now, SETTINGS.reopening_cycles)}
+
+    def strike(self, road: Road) -> None:
+        """Strike a start point: of the train with radio the terminal knows that it is that one."""
+        if STANDS not in road.struck and self.direction == 1 and self.way_mm(road) <= START_MM:
+            road.struck.add(STANDS)
+            road.crossing = machine.note_struck(road.crossing, STANDS)
+        if PASSES not in road.struck and self.other_mm - road.at_mm <= START_MM:
+            road.struck.add(PASSES)
+            road.crossing = machine.note_struck(road.crossing, PASSES)
+
+    def stands(self) -> bool:
+        return self.speed_mm_s == 0 and not self.let_go
+
+    def stand(self) -> None:
+        """Promise to stand, to both roads; ask the one ahead, and go when that one says so."""
+        if not self.stands():
+            return
+        self.stood_s += 1
+        for road in self.roads:
+            road.followed = None
+            road.crossing = machine.note_standing(road.crossing, STANDS)
+        if self.stood_s < self.stands_s:
+            return
+        if self.turns and not self.asked:
+            self.direction = -1
+            self.head_mm -= LENGTH_MM
+            self.roads[0].gone.discard(STANDS)
+        self.asked = True
+        run_cycles = isqrt(2 * max(0, self.way_mm(self.ahead)) // GAIN_MM_S2)
+        self.ahead.crossing = machine.note_start(self.ahead.crossing, STANDS, run_cycles)
+        self.let_go = machine.may_start(SETTINGS, self.ahead.crossing, STANDS)
+
+    def run(self) -> None:
+        """Brake to where it is to stand, or gain what it can up to 20 m/s."""
+        before_mm, left_mm = self.head_mm, self.stands_mm - self.head_mm
+        if self.let_go:
+            faster_mm_s = min(20_000, self.speed_mm_s + GAIN_MM_S2)
+        elif self.asked or left_mm <= 1_000:
+            faster_mm_s = 0
+        else:
+            faster_mm_s = min(20_000, max(500, isqrt(2 * BRAKES_MM_S2 * max(0, left_mm - 12_000))))
+        self.head_mm += self.direction * (min(left_mm, faster_mm_s) if not self.let_go else faster_mm_s)
+        self.speed_mm_s = faster_mm_s
+        for road in self.roads:
+            road.meet(STANDS, before_mm, self.head_mm)
+            if self.way_mm(road) <= -LENGTH_MM and self.passed(road) and STANDS not in road.gone:
+                for each in self.roads if self.forgets else (road,):
+                    each.tell_gone(STANDS)
+
+    def passed(self, road: Road) -> bool:
+        return any(train == STANDS for train, _, _ in road.heads)
+
+    def pass_by(self) -> None:
+        if self.now_s == self.passes_s:
+            self.other_mm = self.apart_mm + START_MM + 100_000
+        if not 0 <= self.passes_s <= self.now_s:
+            return
+        before_mm, self.other_mm = self.other_mm, self.other_mm - LINE_MM_S
+        for road in self.roads:
+            road.meet(PASSES, before_mm, self.other_mm)
+            if self.other_mm + LENGTH_MM < road.at_mm and PASSES not in road.gone:
+                road.crossing = machine.note_gone(road.crossing, PASSES, True)
+                road.gone.add(PASSES)
+
+    def seconds(self, count: int) -> Two:
+        for _ in range(count):
+            self.second()
+        return self
+
+
+def late(world: Two) -> list[tuple[Train, int, int]]:
+    """Heads that came to a road too soon after the warning, or with the arms down for too short a time."""
+    return [
+        head
+        for road in world.roads
+        for head in road.heads
+        if head[1] < SETTINGS.warning_cycles or head[2] < SETTINGS.least_down_cycles
+    ]
+
+
+def judge(world: Two) -> None:
+    """Every head found warning and arms as written; who ran over a road was met there, and nothing latches."""
+    world.seconds(1_200)
+    assert late(world) == []
+    over = [sum(train == STANDS for train, _, _ in road.heads) for road in world.roads]
+    assert over == ([2, 0] if world.turns else [1, 1])
+    assert [not road.crossing.warns for road in world.roads] == [True, True]
+
+
+# ---- named days
+
+
+@pytest.mark.parametrize("radio", [True, False])
+def test_a_train_stands_between_the_roads_and_goes_on(radio: bool) -> None:
+    """While it stands neither road is closed for it; the second one opens, and closes again when it asks."""
+    world = Two(apart_mm=400_000, stands_mm=340_000, stands_s=200, turns=False, radio=radio)
+    judge(world)
+    assert world.roads[1].open_s > 900
+
+
+@pytest.mark.parametrize("radio", [True, False])
+def test_a_train_turns_back_between_the_roads(radio: bool) -> None:
+    """The first road warns anew before it comes; the second one was warned of it, and opens though it never comes."""
+    judge(Two(apart_mm=400_000, stands_mm=340_000, stands_s=100, turns=True, radio=radio))
+
+
+@pytest.mark.parametrize("turns", [True, False])
+def test_another_train_passes_over_both_roads_meanwhile(turns: bool) -> None:
+    """Its start point before the first road lies beyond the second one (X3)."""
+    for passes_s in range(0, 400, 25):
+        judge(Two(400_000, 340_000, 100, turns, passes_s=passes_s))
+
+
+def test_who_is_past_one_road_is_not_past_the_other() -> None:
+    """A rear that is told gone to both roads leaves the second one open under a train that runs on."""
+    for radio in (True, False):
+        assert late(Two(400_000, NEVER_MM, 0, turns=False, radio=radio).seconds(300)) == []
+        assert late(Two(400_000, NEVER_MM, 0, turns=False, radio=radio, forgets=True).seconds(300)) != []
+
+
+# ---- worlds at random
+
+
+def random_world(number: int) -> Two:
+    chance = Random(number)
+    apart_mm = chance.randrange(250_000, 900_000)
+    return Two(
+        apart_mm=apart_mm,
+        stands_mm=chance.randrange(LENGTH_MM + 20_000, apart_mm - 20_000),
+        stands_s=chance.randrange(1, 200),
+        turns=chance.random() < 0.5,
+        radio=chance.random() < 0.7,
+        passes_s=chance.choice((-1, chance.randrange(1, 500))),
+    )
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_worlds_at_random(number: int) -> None:
+    judge(random_world(number))
+
+
+@pytest.mark.slow
+def test_a_thousand_worlds_at_random() -> None:
+    for number in range(20, 1_020):
+        judge(random_world(number))
