@@ -150,7 +150,7 @@ class Imported:
     beside: Mapping[Route, Mapping[Point, BesidePath]] = field(default_factory=dict)
     legs: tuple[Leg, ...] = ()
     loop: Loop | None = None
-    sha256: str = ""
+    sha256: str = field(default="", compare=False)
 
     @property
     def longest_route(self) -> Route | None:

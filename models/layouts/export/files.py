@@ -104,7 +104,8 @@ def _otherwise(imported: Imported, again: Imported) -> list[str]:
     """In what a layout differs from the one that was written; between formats, of what is not a format's word."""
     if imported.kind == again.kind:
         one, other = _as_read(imported), _as_read(again)
-        return [field.name for field in fields(one) if getattr(one, field.name) != getattr(other, field.name)]
+        told = [field.name for field in fields(one) if field.compare]
+        return [name for name in told if getattr(one, name) != getattr(other, name)]
     ours, theirs = imported.layout, again.layout
     same = {
         "routes": ours.routes == theirs.routes,
