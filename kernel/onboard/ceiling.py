@@ -42,7 +42,7 @@ def is_kept(bounds: BrakeBounds, ceiling: Ceiling, speed_most_mm_s: int) -> bool
 
     ``speed_most_mm_s``: as fast as it may be (P1); below 0 it is no speed.
     """
-    return 0 <= 1000 * speed_most_mm_s <= 1000 * ceiling.most_mm_s - gained_um_s(bounds)
+    return speed_most_mm_s >= 0 and 1000 * speed_most_mm_s <= 1000 * ceiling.most_mm_s - gained_um_s(bounds)
 
 
 def take(bounds: BrakeBounds, held: Ceiling, ceiling: Ceiling, speed_most_mm_s: int) -> Ceiling:

@@ -142,6 +142,15 @@ def motors_that_are_cut_off_pull_no_more() -> None:
     assert train.step("run_a_cycle", **told, speed_um_s=speed_um_s + 102 * 200) != held
 
 
+def a_train_that_rolls_back_with_its_motors_cut_off_is_stopped_at_once() -> None:
+    """What it gains by that is no motor's (T12)."""
+    train = Train(bounds=BOUNDS)
+    train.system = replace(train.system, speed_um_s=-1_000_000)
+    still = {"demanded": False, "acknowledged": False, "to_nm": train.system.head_nm, "speed_um_s": 0}
+    train.step("run_a_cycle", front_most_mm=0, speed_least_mm_s=-1_000, speed_most_mm_s=-1_000, **still)
+    assert train.system.speed_um_s == 0
+
+
 def every_number_fits_into_64_bits() -> None:
     """Whatever the speed and the ceiling (T12)."""
     checked = with_ints(Checked, BOUNDS)
@@ -159,5 +168,6 @@ WITNESSES = (
     a_train_that_runs_well_below_its_ceiling_is_not_braked,
     a_lower_ceiling_begins_the_reckoning_anew,
     motors_that_are_cut_off_pull_no_more,
+    a_train_that_rolls_back_with_its_motors_cut_off_is_stopped_at_once,
     every_number_fits_into_64_bits,
 )

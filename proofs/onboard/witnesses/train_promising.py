@@ -89,6 +89,7 @@ def motors_are_cut_off_once_the_brake_was_on_for_so_long() -> None:
     ride.cycle(5_000, may_proceed=False)
     cut, most_um_s = ride.system, ride.system.speed_um_s + 102 * BRAKE.falls_mm_s2
     assert cut.watched.cycles == BRAKE.cut_cycles
+    assert motors_that_are_cut_off_give_nothing(SITE, cut, False, 10_000_000), "in the cycle in which it is let off"
     assert motors_that_are_cut_off_give_nothing(SITE, cut, True, most_um_s)
     assert not motors_that_are_cut_off_give_nothing(SITE, cut, True, most_um_s + 1)
     event = {"may_proceed": False, "acknowledged": False, "to_nm": cut.front_nm}
