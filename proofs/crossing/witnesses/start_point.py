@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.crossing import start_point as machine
 from kernel.crossing.crossing import Train
 from kernel.crossing.start_point import StartPoint, StartPointSettings
 from kernel.names import Tag
+from models.crossing import start_point as world
 from models.crossing.start_point import AtStartPoint, Place, Told
 from proofs.crossing.start_point import THEORY
 from proofs.onboard.witnesses.play import Play
@@ -221,6 +224,52 @@ def every_number_fits_into_64_bits() -> None:
     assert machine.are_lawful(settings)
 
 
+def a_train_strikes_once_and_a_read_waits_no_longer_than_nothing() -> None:
+    """Who has struck is beyond the detector (X3)."""
+    point = Point()
+    point.come(HEARD)
+    point.strike(HEARD)
+    before = point.system
+    assert point.step("strike", train=HEARD, new=THIRD) is before
+    assert machine.aged(StartPoint(NOBODY, 0, 0, False)).left_cycles == 0
+
+
+def what_trains_may_tell_of_a_tag() -> None:
+    """Of another track anything; of this one who passed it last, or anybody while a telegram may be late (T14)."""
+    point = Point()
+    point.come(HEARD, tells=False)
+    site, system = point.site, point.system
+    assert world.a_read_is_told_in_time(site, system, HEARD, HERE)
+    assert world.a_read_is_told_in_time(site, system, THIRD, BESIDE)
+    assert not world.a_read_is_told_in_time(site, system, THIRD, HERE)
+    point.strike(HEARD)
+    point.cycles(2)
+    assert world.a_read_is_told_in_time(site, point.system, THIRD, HERE)
+    point.cycles(1)
+    assert not world.a_read_is_told_in_time(site, point.system, THIRD, HERE)
+
+
+def without_power_a_terminal_hears_and_tells_nothing() -> None:
+    """Nor does anybody strike who has not passed the tag (X3)."""
+    point = Point(quiet=False)
+    point.cycles(10)
+    point.step("pass_tag", train=HEARD)
+    point.step("lose_power")
+    before = point.system
+    assert before.point.owes
+    assert point.step("hear_read", train=HEARD, tag=HERE) is before
+    assert point.step("tell_what_may_be_missed") is before
+    assert point.step("strike_without_power", train=UNHEARD) is before
+
+
+def what_is_not_owed_is_not_told() -> None:
+    """A terminal that owes nothing has missed nothing; of one that has, history would not be rid of it so (X3)."""
+    point = Point()
+    lost = replace(point.system, missed=True)
+    assert not lost.point.owes
+    assert world.tell_what_may_be_missed(point.site, lost) is lost
+
+
 WITNESSES = (
     a_train_that_told_of_the_tag_is_left_to_its_rangings,
     who_tells_nothing_has_a_name_of_its_own,
@@ -234,4 +283,8 @@ WITNESSES = (
     settings_are_checked,
     what_nature_does_not_do_does_not_happen,
     every_number_fits_into_64_bits,
+    a_train_strikes_once_and_a_read_waits_no_longer_than_nothing,
+    what_trains_may_tell_of_a_tag,
+    without_power_a_terminal_hears_and_tells_nothing,
+    what_is_not_owed_is_not_told,
 )
