@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kernel.onboard.arithmetic import LONGEST_CYCLE_MS
+from kernel.onboard.arithmetic import GREATEST_SPEED_MM_S, LONGEST_CYCLE_MS, smaller
 from kernel.onboard.braking import BrakeBounds
 
 
@@ -40,9 +40,11 @@ def gained_um_s(bounds: BrakeBounds) -> int:
 def is_kept(bounds: BrakeBounds, ceiling: Ceiling, speed_most_mm_s: int) -> bool:
     """Tell whether a train that brakes a cycle from now gets no faster than the ceiling (X2, T12).
 
-    ``speed_most_mm_s``: as fast as it may be (P1); below 0 it is no speed.
+    ``speed_most_mm_s``: as fast as it may be (P1); below 0, or beyond 200 m/s, it is no speed.
     """
-    return speed_most_mm_s >= 0 and 1000 * speed_most_mm_s <= 1000 * ceiling.most_mm_s - gained_um_s(bounds)
+    if not 0 <= speed_most_mm_s <= smaller(ceiling.most_mm_s, GREATEST_SPEED_MM_S):
+        return False
+    return 1000 * speed_most_mm_s <= 1000 * smaller(ceiling.most_mm_s, NONE.most_mm_s) - gained_um_s(bounds)
 
 
 def take(bounds: BrakeBounds, held: Ceiling, ceiling: Ceiling, speed_most_mm_s: int) -> Ceiling:

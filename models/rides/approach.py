@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from kernel.onboard.ceiling import NONE as NO_CEILING
 from models.compiled import compiled
 from models.rides import tally
 from models.rides.onboard import (
@@ -30,6 +29,7 @@ PULSE_MM = round(PULSE_M * 1000)
 
 Computer, decide, sense = MADE.computer.Computer, MADE.computer.decide, MADE.computer.sense
 stops_before, Brake, Known = MADE.braking.stops_before, MADE.braking.Brake, MADE.brake_demand.Known
+NO_CEILING = MADE.ceiling.NONE
 NOT_MOVED, UNKNOWN = MADE.reverse_movement.LOCATED, MADE.speed_limit.UNKNOWN
 NONE_AWAITED, NONE_LISTED = MADE.tag_window.NONE_AWAITED, MADE.restriction_ahead.NONE_LISTED
 made_up, watching, Readings = MADE.split.made_up, MADE.brake_watch.watching, MADE.odometry.Readings

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kernel.onboard import tag_kind
-from kernel.onboard.ceiling import NONE as NO_CEILING
 from models.compiled import compiled
 from models.rides import onboard, tally
 from models.rides.onboard import (
@@ -51,7 +50,7 @@ Computer, put_into_service, decide, sense = (
 await_tag, await_none = MADE.computer.await_tag, MADE.computer.await_none
 reads_in_window, fix_of = MADE.computer.reads_in_window, MADE.computer.fix
 read_by_head, read_by_tail = MADE.computer.read_by_head, MADE.computer.read_by_tail
-take_end = MADE.braking.take_end
+take_end, NO_CEILING = MADE.braking.take_end, MADE.ceiling.NONE
 note_fix, rear_least_mm = MADE.computer.note_fix, MADE.odometry.rear_least_mm
 way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings

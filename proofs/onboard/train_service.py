@@ -27,6 +27,8 @@ from proofs.promise import Link, Promise
 
 FARTHEST_MM = 10**9
 """Places are within 1000 km of the kilometrage's origin, and what is farther ahead counts as so far."""
+NO_CEILING_MM_S = 2 * 10**9
+"""Who has promised nothing keeps to this; what is faster is none either."""
 
 
 def a_train_that_may_run_comes_to_its_end(site: Train, system: Whole, end_mm: int) -> bool:
@@ -88,7 +90,11 @@ def may_get_faster_than_its_ceiling(site: Train, system: Whole) -> bool:
     brake, known = site.limits.train.brake, system.computer.known
     driven_cycles, falling_cycles = brake.cut_cycles + 1, brake.response_cycles - brake.cut_cycles
     gained_um_s = LONGEST_MS * (driven_cycles * brake.gains_mm_s2 + falling_cycles * brake.falls_mm_s2)
-    return not 0 <= UM_A_MM * known.motion.speed_most_mm_s <= UM_A_MM * known.ceiling.most_mm_s - gained_um_s
+    fast_mm_s, ceiling_mm_s = known.motion.speed_most_mm_s, known.ceiling.most_mm_s
+    return not (
+        0 <= fast_mm_s <= smaller(ceiling_mm_s, NO_SPEED_MM_S)
+        and UM_A_MM * fast_mm_s <= UM_A_MM * smaller(ceiling_mm_s, NO_CEILING_MM_S) - gained_um_s
+    )
 
 
 def is_near(site: Train, system: Whole, end_mm: int) -> bool:
