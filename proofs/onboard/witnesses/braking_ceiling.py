@@ -70,6 +70,8 @@ def to_the_micrometre_a_ceiling_is_kept_or_not() -> None:
     assert not machine.is_kept(BOUNDS, Ceiling(least_mm_s - 1), 15_000)
     assert not machine.is_kept(BOUNDS, Ceiling(least_mm_s), -1)
     assert machine.is_kept(BOUNDS, machine.NONE, 200_000)
+    assert not machine.is_kept(BOUNDS, machine.NONE, 200_001), "nor is a speed beyond 200 m/s one"
+    assert machine.is_kept(replace(BOUNDS, gains_mm_s2=0, falls_mm_s2=0), Ceiling(0), 0)
 
 
 def a_ceiling_that_cannot_be_kept_any_more_is_not_taken() -> None:
@@ -155,7 +157,7 @@ def every_number_fits_into_64_bits() -> None:
     """Whatever the speed and the ceiling (T12)."""
     checked = with_ints(Checked, BOUNDS)
     for speed_mm_s in (0, 200_000, -200_000):
-        for ceiling_mm_s in (0, 60_000, 2**50, -(2**50)):
+        for ceiling_mm_s in (0, 60_000, 2**62, -(2**62)):
             answer = machine.is_kept(checked, Ceiling(Checked(ceiling_mm_s)), Checked(speed_mm_s))
             assert answer == machine.is_kept(BOUNDS, Ceiling(ceiling_mm_s), speed_mm_s)
 
