@@ -8,10 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from kernel.crossing import start_point
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
 from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time, longest_apart_ms
+from kernel.crossing.start_point import StartPointSettings
+from kernel.names import Tag
 from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.ceiling import gained_um_s
 
 CYCLE_S = 1
 """The ground unit decides once a second (ours; the paper does not say)."""
@@ -37,6 +41,9 @@ CHANNEL = ChannelSettings(tick_ms=10, slot_ms=100, most_pairs=17)
 
 So many pairs may wait for their turn and a ranging that counts for three cycles is not lost.
 """
+START_POINT = StartPointSettings(Tag("before the detector"), told_cycles=2, waits_cycles=20, changes_cycles=60)
+"""What is told of a tag is no older than 2 s; 20 s is from the tag to the detector at 3 m/s; no train is there within a
+minute of one that has turned back (practice)."""
 EXCESS = 1.05
 """A driver may exceed a limit by so much before the line's train protection brakes (ours, typical)."""
 
@@ -226,8 +233,12 @@ TRIALS = (STRAIGHT, CURVED)
 
 
 def lawful() -> bool:
-    """Tell whether the settings pass the kernel's own checks, with what each kind of train is held to (X5)."""
-    return all(is_lawful(trial) for trial in TRIALS)
+    """Tell whether the settings pass the kernel's own checks, with what each kind of train is held to (X5).
+
+    And whether a train's computer can keep what it promises here (X2).
+    """
+    keeps = OWN_SPEED_M_S + gained_um_s(BRAKE) / 1e6 <= CEILING_OVER_M_S
+    return keeps and start_point.are_lawful(START_POINT) and all(is_lawful(trial) for trial in TRIALS)
 
 
 def is_lawful(trial: Trial) -> bool:

@@ -14,6 +14,7 @@ from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE
 from models.crossing.radio import RADIO_OUT
+from models.crossing.sites import START_POINT
 from models.crossing.staff import OTHER_NAME
 from models.crossing.traffic import NEVER, TRACKS
 
@@ -25,15 +26,10 @@ START_TAGS, LATE_READS, UNSTRUCK, TERMINAL = (
     KIND[name] for name in ("start_tags", "late_reads", "unstruck", "terminal")
 )
 STRIKE_BROKEN, WRONG_STRIKER, UNREAD = (NUMBER[name] for name in ("strike_broken", "wrong_striker", "unread"))
+TOLD_S, WAITS_S, CHANGES_S = START_POINT.told_cycles, START_POINT.waits_cycles, START_POINT.changes_cycles
 KINDS = 2
 TAG_UM = 30_000_000
 """The tag lies so far before the detector: less than the shortest train, and no stop lies between (ours)."""
-TOLD_S = 2
-"""What is told of a tag is no older."""
-WAITS_S = 20
-"""A read waits so long for its strike: from the tag to the detector at 3 m/s."""
-CHANGES_S = 60
-"""No train is there sooner after one that has turned back (practice)."""
 POINT = np.dtype([(name, np.int64) for name in ("reader", "left_cycles", "struck_cycles", "owes")])
 
 

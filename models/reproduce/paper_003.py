@@ -360,7 +360,7 @@ def parameters() -> dict[str, str]:
         " (2.1, 3.1); no margin",
         "the kernel's decision": f"each {SETTINGS.cycle_ms} ms; errors, age and two cycles are taken off (ours)",
         "promises": f"a ceiling {CEILING_OVER_M_S} m/s above what the driver keeps to: the speed's range, and what is"
-        f" gained until the supervision acts; own range ±{OWN_WAY_M:.0f} m, ±{OWN_SPEED_M_S} m/s (ours)",
+        f" gained until the brake responds that keeps it; own range ±{OWN_WAY_M:.0f} m, ±{OWN_SPEED_M_S} m/s (ours)",
         "excess": f"{100 * (STRAIGHT.excess - 1):.0f} % over the limit is reckoned with by the kernel alone (ours)",
         "lines": "100 km/h, 20 trains an hour and track at the peak (Isesaki line); 85 km/h for expresses and 65 km/h"
         " for locals, 21 (Oimachi line): public, or practice",

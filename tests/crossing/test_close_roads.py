@@ -16,11 +16,10 @@ import pytest
 from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
-from kernel.restarts import restart_crossing
+from kernel.crossing.crossing import Due, Train
 from models.crossing.sites import SETTINGS
+from tests.crossing.road import DOWN, UP, Road
 
-UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
 LINE_MM_S, GAIN_MM_S2, BRAKES_MM_S2 = 28_000, 950, 800
 LENGTH_MM = 120_000
 START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
@@ -31,15 +30,11 @@ STANDS, PASSES = Train("stands between"), Train("passes")
 
 
 @dataclass
-class Road:
-    """A crossing at ``at_mm`` of the line, and what road users see of it."""
+class RoadAt(Road):
+    """A crossing at ``at_mm`` of the line."""
 
     at_mm: int
-    crossing: Crossing = field(default_factory=lambda: restart_crossing(SETTINGS, frozenset((UP, DOWN))))
     followed: Followed | None = None
-    warned_s: int = 0
-    down_s: int = 0
-    open_s: int = 0
     heads: list[tuple[Train, int, int]] = field(default_factory=list)
     gone: set[Train] = field(default_factory=set)
     struck: set[Train] = field(default_factory=set)
@@ -51,14 +46,8 @@ class Road:
         assert not self.crossing.warns
 
     def decide(self, dues: dict[Train, Due]) -> None:
-        for track in (UP, DOWN):
-            self.crossing = machine.note_heard(self.crossing, track)
-        self.crossing = machine.decide(SETTINGS, self.crossing, dues)
-        lowered = machine.arms_are_to_be_down(SETTINGS, self.crossing)
-        self.warned_s = self.warned_s + 1 if self.crossing.warns else 0
-        self.down_s = self.down_s + 1 if lowered else 0
-        self.open_s += not self.crossing.warns
-        self.crossing = machine.aged(self.crossing)
+        self.hear_the_terminals()
+        super().decide(dues)
 
     def meet(self, train: Train, before_mm: int, now_mm: int) -> None:
         """Note a head that has come to the road, by where it was a second ago."""
@@ -95,13 +84,13 @@ class Two:
     asked: bool = False
     let_go: bool = False
     other_mm: int = 10**8
-    roads: tuple[Road, Road] = field(init=False)
+    roads: tuple[RoadAt, RoadAt] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.roads = (Road(0), Road(self.apart_mm))
+        self.roads = (RoadAt(0), RoadAt(self.apart_mm))
 
     @property
-    def ahead(self) -> Road:
+    def ahead(self) -> RoadAt:
         """The road that the train runs over when it leaves where it stands."""
         return self.roads[0 if self.turns else 1]
 
@@ -115,10 +104,10 @@ class Two:
         self.pass_by()
         self.now_s += 1
 
-    def way_mm(self, road: Road) -> int:
+    def way_mm(self, road: RoadAt) -> int:
         return (road.at_mm - self.head_mm) * self.direction
 
-    def follow(self, road: Road) -> dict[Train, Due]:
+    def follow(self, road: RoadAt) -> dict[Train, Due]:
         """Range a train that is in contact and runs towards a road; who stands has promised to, until it is let go."""
         way_mm = self.way_mm(road)
         if not self.radio or not 0 < way_mm < 2_000_000 or STANDS in road.gone or self.stands():
@@ -130,7 +119,7 @@ class Two:
         road.followed = arrival.aged(BOUNDS, now)
         return {STANDS: machine.due(BOUNDS, now, SETTINGS.reopening_cycles)}
 
-    def strike(self, road: Road) -> None:
+    def strike(self, road: RoadAt) -> None:
         """Strike a start point: of the train with radio the terminal knows that it is that one."""
         if STANDS not in road.struck and self.direction == 1 and self.way_mm(road) <= START_MM:
             road.struck.add(STANDS)
@@ -178,7 +167,7 @@ class Two:
                 for each in self.roads if self.forgets else (road,):
                     each.tell_gone(STANDS)
 
-    def passed(self, road: Road) -> bool:
+    def passed(self, road: RoadAt) -> bool:
         return any(train == STANDS for train, _, _ in road.heads)
 
     def pass_by(self) -> None:

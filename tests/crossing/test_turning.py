@@ -16,11 +16,10 @@ import pytest
 from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
-from kernel.restarts import restart_crossing
+from kernel.crossing.crossing import Crossing, Due, Settings, Train
 from models.crossing.sites import SETTINGS
+from tests.crossing.road import DOWN, UP, Road, restarted
 
-UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
 LINE_MM_S, GAIN_MM_S2 = 28_000, 950
 LENGTH_MM = 120_000
 START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
@@ -31,7 +30,7 @@ MayStart = Callable[[Settings, Crossing, Train], bool]
 
 
 @dataclass
-class World:
+class World(Road):
     """A crossing, a train that stands ``signal_mm`` before it and wants to start at ``asks_s``, and one that passes.
 
     ``lost``: the share of messages lost.  ``warned_s``, ``down_s``: by what road users see.
@@ -46,7 +45,6 @@ class World:
     may_start: MayStart = machine.may_start
     passes_s: int = -1
     fails_s: int = -1
-    crossing: Crossing = field(init=False)
     now_s: int = 0
     air: list[tuple[int, str]] = field(default_factory=list)
     way_mm: int = 0
@@ -58,11 +56,8 @@ class World:
     followed: Followed | None = None
     other_mm: int = 10**7
     struck: bool = False
-    warned_s: int = 0
-    down_s: int = 0
     least_warned_s: int = 10**6
     least_down_s: int = 10**6
-    open_s: int = 0
 
     def __post_init__(self) -> None:
         self.way_mm = self.signal_mm
@@ -77,7 +72,7 @@ class World:
         return isqrt(2 * self.signal_mm // GAIN_MM_S2)
 
     def restart(self) -> None:
-        self.crossing = restart_crossing(SETTINGS, frozenset((UP, DOWN)))
+        self.crossing = restarted()
         self.followed = None
 
     def look(self) -> None:
@@ -86,8 +81,7 @@ class World:
             self.crossing = machine.note_empty(self.crossing, UP)
         if not -LENGTH_MM < self.other_mm <= START_MM:
             self.crossing = machine.note_empty(self.crossing, DOWN)
-        for track in (UP, DOWN):
-            self.crossing = machine.note_heard(self.crossing, track)
+        self.hear_the_terminals()
 
     def say(self, what: str) -> None:
         if self.chance.random() >= self.lost:
@@ -97,8 +91,7 @@ class World:
         self.talk()
         dues = self.follow()
         self.hear_the_other()
-        for track in (UP, DOWN):
-            self.crossing = machine.note_heard(self.crossing, track)
+        self.hear_the_terminals()
         if 0 <= self.fails_s <= self.now_s < self.fails_s + 5:
             self.restart()
         if self.fails_s >= 0 and self.now_s >= self.fails_s + 60:
@@ -141,14 +134,6 @@ class World:
         if self.other_mm <= START_MM and not self.struck:
             self.struck = True
             self.crossing = machine.note_struck(self.crossing, PASSES)
-
-    def decide(self, dues: dict[Train, Due]) -> None:
-        self.crossing = machine.decide(SETTINGS, self.crossing, dues)
-        lowered = machine.arms_are_to_be_down(SETTINGS, self.crossing)
-        self.warned_s = self.warned_s + 1 if self.crossing.warns else 0
-        self.down_s = self.down_s + 1 if lowered else 0
-        self.open_s += not self.crossing.warns
-        self.crossing = machine.aged(self.crossing)
 
     def arrives(self) -> None:
         self.least_warned_s = min(self.least_warned_s, self.warned_s - 1)
