@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
-from typing import Annotated, NoReturn, TextIO
+from typing import TYPE_CHECKING, Annotated, NoReturn, TextIO
 
 import typer
 from rich.console import Console
@@ -19,6 +19,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from models.exit_codes import BAD_INPUT, HOLDS
 from models.streams import STANDARD_OUTPUT
+
+if TYPE_CHECKING:
+    from models.processes import Workers
 
 COLUMNS_OF_A_FILE = 120
 """Columns to write where the output is not a terminal."""
@@ -47,6 +50,9 @@ Json = Annotated[
     ),
 ]
 Jobs = Annotated[int, typer.Option(metavar="N", min=1, help="Processes to use.")]
+Scheduler = Annotated[
+    str | None, typer.Option(metavar="ADDRESS", help="Use the processes of this Dask scheduler.", show_default=False)
+]
 Seed = Annotated[int, typer.Option(metavar="N", min=0, max=2**31 - 1, help="What everything is drawn from.")]
 EVERY_CORE = os.cpu_count() or 1
 
@@ -106,6 +112,25 @@ def bad_input_refused() -> Iterator[None]:
         yield
     except BadInput as bad:
         refuse(str(bad))
+
+
+@contextmanager
+def workers(scheduler: str | None, jobs: int, same: Callable[[], str]) -> Iterator[Workers]:
+    """Give who works for a command; a scheduler that cannot be used, or is gone meanwhile, is told of in one line.
+
+    ``same``: gives what the processes of other machines and this one must agree on.
+    """
+    from models.scheduler import SchedulerError, scheduled
+
+    if scheduler is None:
+        yield jobs
+        return
+    try:
+        with scheduled(scheduler, same) as others:
+            yield others
+    except SchedulerError as error:
+        complain(str(error))
+        raise typer.Exit(error.code) from error
 
 
 def pattern(only: str | None) -> re.Pattern[str]:

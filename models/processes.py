@@ -11,10 +11,39 @@ from contextlib import contextmanager
 from multiprocessing import active_children, parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from multiprocessing.resource_tracker import ensure_running
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 Work = TypeVar("Work")
 Found = TypeVar("Found")
+
+
+class Elsewhere(Protocol):
+    """Processes that are not this machine's to begin and to end."""
+
+    def spread(self, do: Callable[[Work], Found], todo: Sequence[Work]) -> Iterator[Found]:
+        """Do each piece of work in one of them; what comes of them, in order."""
+        ...
+
+    def as_they_end(self, do: Callable[[Work], Found], todo: Sequence[Work]) -> Iterator[Found]:
+        """Do each piece of work in one of them; what comes of them, whichever ends first."""
+        ...
+
+
+Workers = int | Elsewhere
+"""Who works: so many processes of this machine, or others."""
+
+_given: list[int] = []
+
+
+def number() -> int:
+    """Tell this process from all that work with it: its number here, or the one given among those of other machines."""
+    return _given[0] if _given else os.getpid()
+
+
+def be_numbered(number: int) -> None:
+    """Take a number among the processes of other machines, if this process has none yet."""
+    if not _given:
+        _given.append(number)
 
 
 @contextmanager
@@ -70,8 +99,11 @@ def processes(jobs: int, *, one_each: bool = False) -> Iterator[ProcessPoolExecu
         pool.shutdown(cancel_futures=True)
 
 
-def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iterator[Found]:
+def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: Workers) -> Iterator[Found]:
     """Do each piece of work in one of so many processes; what comes of them, in order."""
+    if not isinstance(jobs, int):
+        yield from jobs.spread(do, todo)
+        return
     if jobs <= 1 or len(todo) <= 1:
         yield from map(do, todo)
         return
@@ -79,8 +111,11 @@ def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iter
         yield from pool.map(do, todo)
 
 
-def as_they_end(do: Callable[[Work], Found], todo: Sequence[Work], jobs: int) -> Iterator[Found]:
+def as_they_end(do: Callable[[Work], Found], todo: Sequence[Work], jobs: Workers) -> Iterator[Found]:
     """Do each piece of work in one of so many processes; what comes of them, whichever ends first."""
+    if not isinstance(jobs, int):
+        yield from jobs.as_they_end(do, todo)
+        return
     if jobs <= 1 or len(todo) <= 1:
         yield from map(do, todo)
         return

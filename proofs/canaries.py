@@ -9,7 +9,6 @@ same lifter.
 
 from __future__ import annotations
 
-import os
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,6 +17,7 @@ from pathlib import Path
 
 import z3
 
+from models.processes import number
 from proofs import scripts, smtlib
 from proofs.lift import Mismatch, OutsideSubset
 from proofs.mutants.edits import named
@@ -119,7 +119,7 @@ def _told(solver: str, canary: str, answer: str) -> CanarySeen:
         "canary": canary,
         "solver": solver,
         "solver_version": version(solver),
-        "process": os.getpid(),
+        "process": number(),
         "answer": answer,
         "noticed": answer == "sat",
     }

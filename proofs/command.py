@@ -12,12 +12,14 @@ from models.commands import (
     EVERY_CORE,
     Jobs,
     Json,
+    Scheduler,
     bad_input_refused,
     complain,
     console,
     pattern,
     progress,
     refuse,
+    workers,
     writable,
 )
 from proofs.records import write_json
@@ -53,6 +55,7 @@ def prove(
     junit: JUnit = None,
     solver: Annotated[Solvers, typer.Option(help="Which solver to ask.")] = Solvers.z3,
     jobs: Jobs = EVERY_CORE,
+    scheduler: Scheduler = None,
     seeds: Annotated[int, typer.Option(metavar="N", min=1, help="Seeds to repeat every obligation with.")] = 1,
     only: Annotated[
         str | None,
@@ -67,6 +70,7 @@ def prove(
     """Prove the kernel: every transition keeps every invariant, on every layout.
 
     With --kept F only what a change has made another is asked; report and verify take no such record for evidence.
+    With --scheduler the processes of other machines are asked, if their sources, solvers and packages are the same.
 
     Examples:
     * `heisoku prove`
@@ -75,6 +79,7 @@ def prove(
     * `heisoku prove --kept out/proofs.sqlite`
     * `heisoku prove --whole`
     """
+    from proofs import contents
     from proofs.chain import print_chain
     from proofs.junit import write_junit
     from proofs.matrix import print_matrix
@@ -87,9 +92,11 @@ def prove(
         refuse(f"--whole: what the theorem rests on is all of it, asked now; leave out {which}")
     if keep and kept:
         refuse("--keep: texts are made of what is asked, and --kept leaves most of it out; leave out one of them")
-    with bad_input_refused(), progress("proving") as step:
+    if keep and scheduler:
+        refuse("--keep: processes of other machines write no files here; leave out --scheduler")
+    with bad_input_refused(), progress("proving") as step, workers(scheduler, jobs, contents.whole) as crew:
         report = prove_all(
-            solver=solver.value, jobs=jobs, seeds=seeds, only=only, progress=step, keep=keep, answers=kept
+            solver=solver.value, jobs=crew, seeds=seeds, only=only, progress=step, keep=keep, answers=kept
         )
     for line in report.said:
         complain(line)

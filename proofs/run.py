@@ -14,7 +14,7 @@ from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
 
-from models.processes import spread
+from models.processes import Workers, spread
 from models.streams import write_whole
 from proofs import canaries, lints_apart, lookups, promised, scripts, smtlib, solvers
 from proofs.kept import Answered, Keeping, Laid, opened
@@ -31,7 +31,8 @@ NOTHING_TO_ASK = "nothing is asked: nothing is looked up there"
 class Task:
     """A few obligations of one row, for one process.
 
-    ``keep``: the folder in which their texts are kept; ``answers``: the file of answers from earlier runs.
+    ``keep``: the folder in which their texts are kept; ``answers``: the file of answers from earlier runs, where the
+    process can read it.
     """
 
     row: str
@@ -202,7 +203,7 @@ def tasks(cells: Iterable[tuple[str, str]], like: Task) -> Iterator[Task]:
 def prove_all(
     *,
     solver: str = "z3",
-    jobs: int = 2,
+    jobs: Workers = 2,
     seeds: int = 1,
     only: str | None = None,
     keep: Path | None = None,
@@ -221,7 +222,8 @@ def prove_all(
     found = {
         cell: [recorded(cell, by, laid, answer) for by, answer in of.items()] for cell, (laid, of) in known.items()
     }
-    todo = list(tasks((cell for cell in cells if cell not in found), Task("", (), asked, seeds, keep, answers)))
+    beside = answers if isinstance(jobs, int) else None
+    todo = list(tasks((cell for cell in cells if cell not in found), Task("", (), asked, seeds, keep, beside)))
     seen: dict[tuple[int, str, str], CanarySeen] = {}
     lifting = 0.0
     try:

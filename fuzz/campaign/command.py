@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from fuzz.campaign.problems import CampaignError
-from models.commands import EVERY_CORE, Jobs, Json, complain
+from models.commands import EVERY_CORE, Jobs, Json, Scheduler, complain
 
 BATCH_SECONDS = 600.0
 """Far more than any batch takes, compilation of its target included."""
@@ -31,9 +31,6 @@ Seed = Annotated[
 ]
 Targets = Annotated[
     list[str] | None, typer.Option(metavar="T", help="What to run; may be repeated.", show_default="all")
-]
-Scheduler = Annotated[
-    str | None, typer.Option(metavar="ADDRESS", help="Use the processes of this Dask scheduler.", show_default=False)
 ]
 BatchSeconds = Annotated[float, typer.Option(metavar="S", min=0.1, help="A batch that takes longer hangs.")]
 Merge = Annotated[bool, typer.Option("--merge", help="Put campaigns together in a new folder.")]

@@ -7,7 +7,6 @@ to others, as often as its option ``allowed-failures`` says.
 
 from __future__ import annotations
 
-import logging
 import queue
 import time
 from collections.abc import Callable, Iterator
@@ -19,9 +18,8 @@ from fuzz.campaign.pool import TRIES
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.worker import Answer, Work, answered_in_time
 from fuzz.targets.target import Batch
-from models.exit_codes import UNDECIDED
+from models.scheduler import REACHED_WITHIN_S, SchedulerError, connected, lost, words_of
 
-REACHED_WITHIN_S = 10
 COUNTED_EVERY_S = 2.0
 BATCHES_A_THREAD = 2
 """So many under way, so that a process need not wait for the next one to be sent."""
@@ -37,7 +35,10 @@ class Scheduled:
         self._failed: dict[Batch, int] = {}
         self._threads, self._counted = 0, 0.0
         self._alone_said = False
-        self._client: Any = connected(address)
+        try:
+            self._client: Any = connected(address)
+        except SchedulerError as error:
+            raise CampaignError(str(error), error.code) from error
 
     def wanted(self) -> int:
         """Two for each thread of the scheduler's workers, counted now and then."""
@@ -72,7 +73,7 @@ class Scheduled:
         except queue.Empty:
             pass
         if self._client.status != "running":
-            raise lost(self._address)
+            raise self._lost()
         return found
 
     def close(self) -> None:
@@ -85,7 +86,11 @@ class Scheduled:
         try:
             yield
         except (OSError, TimeoutError) as error:
-            raise lost(self._address) from error
+            raise self._lost() from error
+
+    def _lost(self) -> CampaignError:
+        error = lost(self._address)
+        return CampaignError(str(error), error.code)
 
     def _hear(self, future: Any) -> list[Outcome]:
         from distributed import KilledWorker
@@ -93,7 +98,7 @@ class Scheduled:
         if future.key not in self._under_way:
             return []
         if future.status not in ("finished", "error"):
-            raise lost(self._address)
+            raise self._lost()
         with self._reaching():
             error = future.exception()
             answer: Answer = future.result() if error is None else Answer("failed", words=words_of(error))
@@ -117,41 +122,3 @@ class Scheduled:
         line = f"batch {batch.number} of {batch.target} {how}: {words}; it is left out"
         self._say(line)
         return Outcome(batch, None, how, line)
-
-
-def connected(address: str) -> Any:
-    """Reach a scheduler.
-
-    Raises:
-        CampaignError: Dask is not installed, or there is no scheduler at the address.
-    """
-    try:
-        import distributed
-    except ImportError as error:
-        line = "--scheduler needs Dask, which is not installed; pip install heisoku[distributed], or leave it out"
-        raise CampaignError(line) from error
-    _quieten()
-    try:
-        made: Any = distributed.Client
-        return made(address, timeout=REACHED_WITHIN_S, set_as_default=False)
-    except (OSError, TimeoutError, ValueError) as error:
-        line = f"--scheduler {address}: cannot be reached; start one with dask scheduler, or leave it out"
-        raise CampaignError(line) from error
-
-
-def _quieten() -> None:
-    """Keep Dask from writing to the terminal what is said here in one line."""
-    names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] == "distributed"]
-    for name in ("distributed", *names):
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
-
-
-def lost(address: str) -> CampaignError:
-    """The scheduler is gone: that decides nothing."""
-    line = f"the scheduler at {address} is gone; start it and then the same command: what was finished is kept"
-    return CampaignError(line, UNDECIDED)
-
-
-def words_of(error: BaseException) -> str:
-    """An exception in one line."""
-    return f"{type(error).__name__}: {error}".splitlines()[0]

@@ -10,7 +10,19 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
+from models.commands import (
+    EVERY_CORE,
+    Jobs,
+    Json,
+    Scheduler,
+    console,
+    pattern,
+    print_line,
+    progress,
+    refuse,
+    workers,
+    writable,
+)
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from proofs.records import about, write_json
 
@@ -31,6 +43,7 @@ def mutate(
         bool, typer.Option("--joints", help="Joints between machines, and assumptions below the theorem, instead.")
     ] = False,
     jobs: Jobs = EVERY_CORE,
+    scheduler: Scheduler = None,
     json: Json = None,
 ) -> None:
     """Drop each guard, condition and update, one after the other: a proof or a witness must notice.
@@ -41,11 +54,13 @@ def mutate(
 
     With --joints each guarantee by which one machine discharges what another assumes is replaced by true, and by each
     other invariant, and each assumption below the theorem is dropped.  One that is not needed is 1, an open one 3.
+    With --scheduler processes of other machines try them, if their sources, solvers and packages are the same.
 
     Examples:
     * `heisoku mutate --only braking --sample 8`
     * `heisoku mutate --joints --json out/joints.json`
     """
+    from proofs import contents
     from proofs.mutants import joints as between
     from proofs.mutants.record import Trials
     from proofs.mutants.targets import mutants
@@ -61,16 +76,16 @@ def mutate(
 
     given = {"only": only, "sample": sample, **about()}
     if joints:
-        with progress("tried") as step:
-            tried = between.record(names, jobs, telling(step))
+        with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
+            tried = between.record(names, crew, telling(step))
         if json:
             write_json(json, {**tried, **given})
         between.print_record(console(), tried)
         raise typer.Exit(between.exit_code(tried))
     trials = Trials()
     kept = len(trials.before.intersection(names))
-    with progress("tried") as step:
-        verdicts = try_all(names, jobs, trials, telling(step))
+    with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
+        verdicts = try_all(names, crew, trials, telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, **given})

@@ -20,7 +20,7 @@ from rich.console import Console
 
 from models.commands import print_line
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
-from models.processes import as_they_end
+from models.processes import Workers, as_they_end
 from proofs.joints import BY_NAME
 from proofs.mutants import assumed, guarantees
 
@@ -64,7 +64,7 @@ def trial(name: str) -> tuple[str, dict[str, Any]]:
     return name, {**asdict(use), **asdict(found), "became": became}
 
 
-def record(todo: Sequence[str], jobs: int, progress: Progress = lambda *_: None) -> dict[str, Any]:
+def record(todo: Sequence[str], jobs: Workers, progress: Progress = lambda *_: None) -> dict[str, Any]:
     """Try all of these; what is written of it."""
     began, found = time.perf_counter(), dict[str, dict[str, Any]]()
     for done, (name, told) in enumerate(as_they_end(trial, todo, jobs), 1):

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from models.processes import as_they_end
+from models.processes import Workers, as_they_end
 from proofs.mutants.classes import SERVICE, objection, table
 from proofs.mutants.record import Trials
 from proofs.mutants.targets import mutants, of_interlocking, rows_of, theories_with
@@ -18,7 +18,7 @@ Progress = Callable[[int, int, str, dict[str, Any]], object]
 """Told of each trial as it ends: how many have ended, of how many, the mutant, its verdict."""
 
 
-def try_all(names: list[str], jobs: int, trials: Trials, progress: Progress = lambda *_: None) -> Verdicts:
+def try_all(names: list[str], jobs: Workers, trials: Trials, progress: Progress = lambda *_: None) -> Verdicts:
     """Try those that have no verdict yet, judge all, and keep it."""
     todo = [name for name in names if name not in trials.verdicts]
     for done, (name, verdict) in enumerate(as_they_end(trial, todo, jobs), 1):

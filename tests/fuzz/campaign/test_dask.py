@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import signal
-import socket
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -19,37 +15,11 @@ from fuzz.campaign.session import Options, go_on
 from models.exit_codes import BAD_INPUT, DOES_NOT_HOLD, HOLDS, UNDECIDED
 from tests.fuzz.campaign.quick import Quick
 from tests.fuzz.campaign.totals import everything, wait_for_batches
+from tests.host.scheduling import needs_dask, scheduled
 
 ROOT = Path(__file__).resolve().parents[3]
 BATCHES = 60
 PAUSE_S = 0.1
-
-needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="dask is not installed")
-
-
-def dask(*words: str) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-m", "dask", *words]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    quiet = subprocess.DEVNULL
-    return subprocess.Popen(command, cwd=ROOT, env=environment, stdout=quiet, stderr=quiet, start_new_session=True)
-
-
-@contextmanager
-def scheduled(folder: Path, workers: int = 2) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
-    """A scheduler with workers of one process each; every process ends with it."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
-    started = [dask("scheduler", "--host", address, "--no-dashboard", "--no-jupyter", "--no-show")]
-    try:
-        for number in range(workers):
-            words = ["--nthreads", "1", "--no-dashboard", "--local-directory", str(folder / f"worker{number}")]
-            started.append(dask("worker", address, "--name", f"worker{number}", *words))
-        yield address, started
-    finally:
-        for process in started:
-            os.killpg(process.pid, signal.SIGKILL)
-            process.wait()
 
 
 def program(folder: Path, address: str) -> subprocess.Popen[str]:
