@@ -74,18 +74,18 @@ def mutate(
         refuse(f"--only {only}: no {what} is named so; heisoku mutate --help")
     began = time.perf_counter()
 
-    given = {"only": only, "sample": sample, **about()}
-    if joints:
-        with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
+    given, trials = {"only": only, "sample": sample, **about()}, Trials()
+    kept = len(trials.before.intersection(names))
+    with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
+        if joints:
             tried = between.record(names, crew, telling(step))
+        else:
+            verdicts = try_all(names, crew, trials, telling(step))
+    if joints:
         if json:
             write_json(json, {**tried, **given})
         between.print_record(console(), tried)
         raise typer.Exit(between.exit_code(tried))
-    trials = Trials()
-    kept = len(trials.before.intersection(names))
-    with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
-        verdicts = try_all(names, crew, trials, telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, **given})
