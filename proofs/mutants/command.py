@@ -5,7 +5,8 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
@@ -75,17 +76,13 @@ def mutate(
     began = time.perf_counter()
 
     given, trials = {"only": only, "sample": sample, **about()}, Trials()
+    if joints:
+        with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
+            tried = between.record(names, crew, telling(step))
+        _end_with_joints(json, {**tried, **given})
     kept = len(trials.before.intersection(names))
     with progress("tried") as step, workers(scheduler, jobs, contents.whole) as crew:
-        if joints:
-            tried = between.record(names, crew, telling(step))
-        else:
-            verdicts = try_all(names, crew, trials, telling(step))
-    if joints:
-        if json:
-            write_json(json, {**tried, **given})
-        between.print_record(console(), tried)
-        raise typer.Exit(between.exit_code(tried))
+        verdicts = try_all(names, crew, trials, telling(step))
     found = record(verdicts, len(mutants()), time.perf_counter() - began)
     if json:
         write_json(json, {**found, **given})
@@ -93,6 +90,15 @@ def mutate(
     if kept:
         print_line(console(), f"{kept:,} of them as an earlier run kept them in {trials.file}: no evidence of today")
     raise typer.Exit(exit_code(found))
+
+
+def _end_with_joints(json: Path | None, tried: Mapping[str, Any]) -> NoReturn:
+    from proofs.mutants import joints as between
+
+    if json:
+        write_json(json, tried)
+    between.print_record(console(), tried)
+    raise typer.Exit(between.exit_code(tried))
 
 
 def telling(step: Callable[[int, int, str], None]) -> Callable[[int, int, str, Mapping[str, Any]], None]:
