@@ -127,7 +127,7 @@ def check_command(
     from models.layouts import BadInput, as_json, load
     from models.layouts import check as check_layout
 
-    writable(json)
+    writable(json, given=layouts)
     clearance_mm = metres("--clearance", clearance)
     found: list[tuple[Imported, CheckResult] | BadInput] = []
     with progress("checking") as step:
@@ -183,7 +183,7 @@ def draw(
     from models.layouts import draw as draw_layout
     from models.layouts import load
 
-    writable(output)
+    writable(output, given=(layout,))
     with bad_input_refused():
         imported = load(layout)
         shown = imported.longest_route if route is None else route
@@ -398,7 +398,7 @@ def replay(
     """
     from fuzz.failures.command import replay_file
 
-    writable(html, json)
+    writable(html, json, given=(trace,))
     with bad_input_refused(), progress("replaying") as step:
         found = replay_file(trace, html is not None, step)
     raise typer.Exit(found.report(console(), html, json))

@@ -7,7 +7,7 @@ import re
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from importlib import metadata
 from pathlib import Path
@@ -152,8 +152,17 @@ def metres(option: str, text: str) -> int:
     return distance_mm
 
 
-def writable(*paths: Path | None) -> None:
-    """Find out before the work, not after it, that a record cannot be written."""
+def writable(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
+    """Find out before the work, not after it, that a record cannot be written, or would take the place of a file.
+
+    ``given``: the files that the command reads; none of them is written over, and no two records go into one file.
+    """
+    taken = {path.resolve(): "is read by this command" for path in given if path is not None}
+    for path in paths:
+        if path is not None and path != STANDARD_OUTPUT and (not path.exists() or path.is_file()):
+            if path.resolve() in taken:
+                refuse(f"{path}: {taken[path.resolve()]}; name another file")
+            taken[path.resolve()] = "is to be written twice"
     for path in paths:
         if path is None or path == STANDARD_OUTPUT:
             continue

@@ -16,6 +16,7 @@ from proofs.records import Obligation, Report, Verdict
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLES = sorted((ROOT / "layouts").glob("*.toml"))
+PASSING_STATION = (ROOT / "layouts" / "passing_station.toml").read_text("utf-8")
 
 
 def answer(verdict: Verdict) -> Obligation:
@@ -118,6 +119,35 @@ def test_nothing_is_proved_before_it_is_known_that_the_record_can_be_written(
         assert in_one_line(error)
         assert str(target) in error
     assert "asked" not in prover
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("check", "{layout}", "--json", "{layout}"),
+        ("check", "layouts/terminus.toml", "{layout}", "--json", "{link}"),
+        ("draw", "{layout}", "-o", "{layout}"),
+        ("export", "{layout}", "-o", "{folder}"),
+        ("simulate", "{layout}", "--html", "{layout}"),
+        ("fuzz", "{layout}", "--target", "lines", "--batches", "1", "--out", "{folder}/fuzz", "--json", "{layout}"),
+        ("replay", "{layout}", "--json", "{layout}"),
+        ("prove", "--only", "^display", "--json", "{folder}/a.xml", "--junit", "{folder}/a.xml"),
+    ],
+    ids=" ".join,
+)
+def test_no_file_that_is_read_is_written_over_and_none_is_written_twice(
+    words: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    layout, link = tmp_path / "layout.toml", tmp_path / "link.toml"
+    layout.write_text(PASSING_STATION, "utf-8")
+    link.symlink_to(layout)
+    given = {"layout": layout, "link": link, "folder": tmp_path}
+    assert heisoku.run([word.format(**given) for word in words]) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert in_one_line(said.err)
+    assert layout.read_text("utf-8") == PASSING_STATION
+    assert sorted(tmp_path.iterdir()) == [layout, link]
 
 
 @pytest.mark.parametrize(

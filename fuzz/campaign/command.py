@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from fuzz.campaign.problems import CampaignError
-from models.commands import EVERY_CORE, Jobs, Json, Scheduler, complain
+from models.commands import EVERY_CORE, Jobs, Json, Scheduler, complain, writable
 
 BATCH_SECONDS = 600.0
 """Far more than any batch takes, compilation of its target included."""
@@ -60,6 +60,7 @@ def fuzz(
     """
     from fuzz.campaign.session import Options, go_on, put_together
 
+    writable(json, given=places or ())
     try:
         if out is None:
             raise CampaignError("--out is missing; name the campaign's folder")

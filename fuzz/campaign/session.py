@@ -110,7 +110,6 @@ def go_on(options: Options, targets: Sequence[Target] | None = None) -> int:
         raise CampaignError("how long is not said; give --hours H, or --batches N")
     if options.hours is not None and not options.hours > 0:
         raise CampaignError(f"--hours {options.hours:g}: is no time; give more than 0")
-    ready_for(options.json)
     run_on = list(targets) if targets is not None else chosen(options.targets, options.layouts)
     twice = [each.name for each in run_on if [other.name for other in run_on].count(each.name) > 1]
     if twice:
@@ -148,7 +147,6 @@ def put_together(folder: Path, folders: Sequence[Path], json: Path | None) -> in
     """
     if len(folders) < 2:
         raise CampaignError("--merge needs two folders of campaigns or more, and a new one with --out")
-    ready_for(json)
     merge(folder, folders)
     with Store(folder) as store:
         code = summary.verdict(store)
@@ -190,20 +188,6 @@ def workers_of(
     if options.scheduler is not None:
         return Scheduled(work, options.scheduler, options.batch_seconds, say)
     return Pool(work, options.workers, options.batch_seconds, say)
-
-
-def ready_for(json: Path | None) -> None:
-    """Find out before the work that the record can be written.
-
-    Raises:
-        CampaignError: it cannot.
-    """
-    if json is None:
-        return
-    with said(json):
-        json.parent.mkdir(parents=True, exist_ok=True)
-    if json.is_dir():
-        raise CampaignError(f"{json}: is a folder; name a file")
 
 
 @contextmanager

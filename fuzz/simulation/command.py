@@ -73,7 +73,7 @@ def simulate(
     from models.simulation.faults import EVERY_FAULT, read_faults
     from models.simulation.roads import read_roads
 
-    writable(html, json)
+    writable(html, json, given=(layout, faults, crossings))
     with bad_input_refused():
         imported = load(layout)
         chosen = EVERY_FAULT if faults is None else read_faults(faults)

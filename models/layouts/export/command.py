@@ -43,13 +43,16 @@ def export(layout: Layout, output: Folder, file: Files = None) -> None:
             refuse(f"--file {name}: no export has that; name one of {', '.join(NAMES)}")
     if output.exists() and not output.is_dir():
         refuse(f"{output}: is no folder; name another")
+    asked = [name for name in NAMES if not file or name in file]
+    for name in asked:
+        if (output / name).resolve() == layout.resolve():
+            refuse(f"{output / name}: is the layout that is exported; name another folder")
     try:
         with bad_input_refused(), console(sys.stderr).status("exporting"):
             imported = load(layout)
             result = check(imported)
             files = [each for each in written(imported, result) if not file or each.name in file]
             output.mkdir(parents=True, exist_ok=True)
-            asked = [name for name in NAMES if not file or name in file]
             for name in asked:
                 (output / name).unlink(missing_ok=True)
             for each in files:

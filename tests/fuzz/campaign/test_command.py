@@ -39,7 +39,10 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
         (["--out", "{}", "--batches", "0"], "--batches"),
         (["--out", "{}", "--batches", "1", "--target", "sheep"], "--target sheep: there is no such target; one of"),
         (["{}/none.toml", "--out", "{}", "--batches", "1", "--target", "rides"], "runs on no layout; leave it out"),
-        (["--out", "{}", "--batches", "1", "--target", "rides", "--json", "{}"], "is a folder; name a file"),
+        (
+            ["--out", "{}", "--batches", "1", "--target", "rides", "--json", "{}"],
+            "cannot be written; name another file",
+        ),
         (["--merge", "{}", "--out", "{}/both"], "--merge needs two folders of campaigns or more"),
         (["--merge", "{}/one", "{}/other", "--out", "{}/both"], "one: holds no campaign"),
         (
