@@ -47,6 +47,9 @@ BATCHES ?= 8
 HOURS ?= 240
 LINES ?= $(foreach seed,1 2 3,out/networks/$(seed).toml)
 
+# Thousands of processes are begun here: each would compile every source anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DELETE_ON_ERROR:
 .PHONY: help interruptions assure record prove certify certificates check ride days fuzz lines beyond papers kept mutate mutants joints cores pdf malformed report test slow lint types format pages bench crosshair setup lock clean distclean
 
