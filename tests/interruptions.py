@@ -29,6 +29,7 @@ from typing import Any
 from lxml import etree
 
 from fuzz.failures.trace import text_of
+from models.exit_codes import UNDECIDED
 from tests.fuzz.failures.samples import LAYOUTS, failing
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -37,8 +38,13 @@ STATION = "layouts/passing_station.toml"
 ENDS_AFTER_S = 120.0
 """A command that is interrupted or ended does end, and all its processes do, in this time; else it is a finding."""
 TELLS_EVERY_S = 10.0
+HEEDED_WITHIN_S = 10.0
+"""A command that hears an interruption gives no verdict that it reaches later than this."""
 GOES_ON = 4
 """A command that goes on has so many times as long as it takes undisturbed: others may use the machine by then."""
+
+ENDED = (-signal.SIGINT, -signal.SIGTERM)
+"""How a command ends that such a signal has ended."""
 
 COMMANDS: tuple[tuple[str, ...], ...] = (
     ("check", STATION, "layouts/terminus.toml", "--json", "{out}/check.json"),
@@ -117,7 +123,9 @@ def disturbances(rng: random.Random) -> list[Disturbance]:
 
 
 def begun(words: tuple[str, ...], out: Path, how: Disturbance) -> subprocess.Popen[bytes]:
-    """Begin a command in a group of its own."""
+    """Begin a command in a group of its own; it hears interruptions though a shell runs this in the background."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     full = Path("/dev/full").open("wb") if how.full else None  # noqa: SIM115
     try:
         process = subprocess.Popen(
@@ -163,11 +171,13 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
     """Disturb a command once: its exit code, and everything that is not as it should be."""
     usual, out = undisturbed(words), folder()
     process, told, complaints = begun(words, out, how), b"", b""
+    disturbed_at = None
     try:
         process.wait(moment * usual.seconds)
     except subprocess.TimeoutExpired:
         if how.to_process is not None:
             how.to_process(process)
+            disturbed_at = time.monotonic()
     try:
         if process.stdout is not None and process.stdout.closed:
             process.stdout = None
@@ -178,6 +188,8 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
         process.communicate()
         return process.returncode, ["it did not end"]
     found = list(_judged(process.returncode, (told or b"") + complaints, usual.code))
+    if how.to_process in (interrupted, ended) and disturbed_at is not None:
+        found += _unheeded(process.returncode, time.monotonic() - disturbed_at)
     found += _left_running(process.pid)
     found += _damaged(out)
     shutil.rmtree(out)
@@ -185,12 +197,18 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
 
 
 def _judged(code: int, said: bytes, usual: int) -> Iterator[str]:
-    if code >= 0 and code not in (usual, 3):
+    if code >= 0 and code not in (usual, UNDECIDED):
         yield f"exit {code}, undisturbed {usual}"
-    if code < 0 and code not in (-signal.SIGINT, -signal.SIGTERM):
+    if code < 0 and code not in ENDED:
         yield f"ended by signal {-code}"
     if b"Traceback" in said or b"Exception ignored" in said:
         yield said.decode("utf-8", "replace")[-600:]
+
+
+def _unheeded(code: int, seconds: float) -> list[str]:
+    """A verdict long after it should have ended."""
+    heeded = code in (UNDECIDED, *ENDED) or seconds <= HEEDED_WITHIN_S
+    return [] if heeded else [f"went on for {seconds:.0f} s, to exit {code}"]
 
 
 def _left_running(group: int) -> list[str]:
@@ -223,11 +241,12 @@ def _damaged(out: Path) -> Iterator[str]:
             yield f"{path.name}: {error}"
 
 
-def drawn(seed: int, runs: int) -> Iterator[tuple[tuple[str, ...], Disturbance, float]]:
-    """Commands, each with a disturbance and the share of its usual time at which it comes."""
+def drawn(seed: int, runs: int, kind: str | None = None) -> Iterator[tuple[tuple[str, ...], Disturbance, float]]:
+    """Commands, each with a disturbance, of one kind alone if it is named, and when it comes, by its usual time."""
     rng = random.Random(seed)
     for number in range(runs):
-        yield COMMANDS[number % len(COMMANDS)], rng.choice(disturbances(rng)), rng.random()
+        offered = [each for each in disturbances(rng) if kind in (None, each.name)]
+        yield COMMANDS[number % len(COMMANDS)], rng.choice(offered), rng.random()
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -235,10 +254,11 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.interruptions", description=__doc__)
     parser.add_argument("--runs", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--kind", choices=[each.name for each in disturbances(random.Random(0))])
     given = parser.parse_args(arguments)
     came: Counter[Any] = Counter()
     bad, told = 0, time.monotonic()
-    for words, how, moment in drawn(given.seed, given.runs):
+    for words, how, moment in drawn(given.seed, given.runs, given.kind):
         if time.monotonic() - told > TELLS_EVERY_S:
             told = time.monotonic()
             print(f"{came.total()} of {given.runs} disturbed", file=sys.stderr, flush=True)
