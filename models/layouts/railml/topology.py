@@ -7,7 +7,7 @@ the relations gives its name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -145,7 +145,36 @@ def _micro(source: Document, findings: Findings) -> list[str]:
         findings.remark(unlisted, text, "unread")
     if not found:
         raise source.bad(None, "has no netElement: there is no track", "give the topology at the level Micro")
+    _refuse_track_twice(source, found)
     return list(dict.fromkeys(found))
+
+
+def _refuse_track_twice(source: Document, micro: Iterable[str]) -> None:
+    """Of the net elements of the finest level none collects another, and no two collect one and the same.
+
+    Raises:
+        BadInput: two do; trains on the one would be on the rails of the other.
+    """
+    whole: dict[str, str] = {}
+    for name in micro:
+        for part in sorted(_collected(source, name)):
+            other = whole.setdefault(part, name)
+            if other != name:
+                what = f"has the track of '{part}', which '{other}' of the level Micro has as well"
+                raise source.bad(source.by_id[name], what, "list there what collects others, or its parts")
+
+
+def _collected(source: Document, name: str) -> set[str]:
+    """A net element, what it collects, and what that collects."""
+    found: set[str] = set()
+    todo = [source.by_id[name]]
+    while todo:
+        element = todo.pop()
+        part = source.attribute(element, "id")
+        if part not in found:
+            found.add(part)
+            todo += [source.referred(each) for each in source.all("elementPart", element)]
+    return found
 
 
 def _listed(source: Document, level: Element) -> Iterator[str]:

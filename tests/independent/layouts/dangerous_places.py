@@ -24,6 +24,9 @@ APART_A = '<signalIS id="A">{}</signalIS><trainDetectionElement id="A tags">{}</
 NO_LENGTH = LONG_TRACK.format("", "500", "physical").replace('"T"', '"T1"').replace("<length", "<name")
 COLLECTS = '<netElement id="whole"><elementPart ref="w"/><elementPart ref="e"/></netElement>'
 ON_WHOLE = '<spotLocation netElementRef="whole" intrinsicCoord="0.6"/>'
+AS_LONG_AS_BOTH = COLLECTS.replace('"whole">', '"whole" length="1000">')
+ON_BOTH = spot("A", "w", "0.4") + spot("B", "e", "0.8") + spot("C", "whole", "0.2") + spot("D", "whole", "0.9")
+ON_MESO = '<level descriptionLevel="Meso"><networkResource ref="w"/><networkResource ref="e"/></level><level '
 NAMELESS = '<bufferStop><spotLocation netElementRef="e" intrinsicCoord="0.1"/></bufferStop>'
 WHOLE = ' intrinsicCoordBegin="0" intrinsicCoordEnd="1"'
 TENTH = ' intrinsicCoordBegin="0" intrinsicCoordEnd="0.1"'
@@ -122,6 +125,27 @@ DANGEROUS_PLACES = {
         "a border stands at the tips of a switch, with track behind it: a train there is foul of what runs over it",
         "no track goes on behind a buffer stop at a joint",
         *("edge", "w", "P"),
+    ),
+    "whole and part.railml": danger_of(
+        with_element(railml(BOTH, ON_BOTH, networks=level(*"wens", "whole")), AS_LONG_AS_BOTH),
+        "a net element and what it collects are both on the level Micro: one line is there twice, with a train on each",
+        "'whole': has the track of 'e', which 'e' of the level Micro has as well",
+    ),
+    "part of a part.railml": danger_of(
+        with_element(
+            railml(BOTH, ON_BOTH, networks=level(*"wens", "whole")),
+            AS_LONG_AS_BOTH.replace('"w"', '"half"') + '<netElement id="half"><elementPart ref="w"/></netElement>',
+        ),
+        "the same, where a net element of no level Micro lies between the two",
+        "'whole': has the track of 'e', which 'e' of the level Micro has as well",
+    ),
+    "part of two.railml": danger_of(
+        with_element(
+            railml(BOTH, ON_BOTH, networks=level(*"ns", "whole", "east")).replace("<level ", ON_MESO, 1),
+            AS_LONG_AS_BOTH + '<netElement id="east" length="500"><elementPart ref="e"/></netElement>',
+        ),
+        "two net elements of the level Micro collect one and the same: its track is there twice",
+        "'east': has the track of 'e', which 'whole' of the level Micro has as well",
     ),
     "drawn alone.railml": danger_of(
         with_e(railml(BOTH, SPOTS), DRAWN.format("<geometricCoordinate/>" + POINT.format(0) + POINT.format(500))),
