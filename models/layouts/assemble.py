@@ -56,7 +56,7 @@ def assemble(blocks: Blocks, paths: Iterable[Path], told: Told, findings: Findin
     layout = _layout(blocks, granted, told, tags)
     ground = _ground(blocks, granted, told, tags, neighbours, opens)
     if told.held is not None:
-        wanted = {pair for route in granted for pair in unshielded(route, neighbours, opens)}
+        wanted = {pair for route in granted for pair in unshielded(route, neighbours)}
         for block, target in sorted(told.held - wanted):
             text = f"no route needs block '{block}' to be held out of '{target}' by authority: needless"
             findings.remark((block, target), text)
@@ -177,7 +177,7 @@ def _ground(
         }
         turnout[name] = {block: turned_from(route, leads[name][block], route.way[block]) for block in route.way}
         if told.held is None:
-            for block, target in unshielded(route, neighbours, opens):
+            for block, target in unshielded(route, neighbours):
                 held.setdefault(block, set()).add(target)
     return Ground(
         leads=leads,
@@ -225,12 +225,12 @@ def turned_from(route: Granted, leads: Mapping[Block, Mapping[Point, Position]],
     return found
 
 
-def unshielded(route: Granted, neighbours: Neighbours, opens: Opens) -> Iterable[tuple[Block, Block]]:
-    """The pairs (from outside, into the route) that track leads over and no point of the route closes."""
+def unshielded(route: Granted, neighbours: Neighbours) -> Iterable[tuple[Block, Block]]:
+    """The pairs (from outside, into the route) that share a boundary and that no point of the route closes."""
     claims = frozenset(route.claims)
     for target in route.claims[1:]:
         for block in neighbours[target] - claims:
-            if target in opens[block] and target not in route.flank.get(block, {}):
+            if target not in route.flank.get(block, {}):
                 yield block, target
 
 

@@ -63,7 +63,7 @@ class Spare:
         """The track up to the next mark or point that a position joins, and whole tracks; less comes later."""
         segments, junction = self.blocks.segments, self.blocks.segments.station.junctions[point]
         ports = {port for pair in junction.kind.positions[position] for port in pair}
-        joined = [segments.segments[segments.leaving[junction.ports[p]][0]] for p in ports if p in junction.ports]
+        joined = [segments.segments[segments.leaving[junction.ports[port]][0]] for port in ports]
         tracks_mm = sum(segments.station.tracks[each.track] for each in joined)
         return -sum(each.long_mm for each in joined), -tracks_mm
 

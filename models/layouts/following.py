@@ -153,7 +153,7 @@ class Follower:
             return None
         if position is not None and position not in junction.kind.positions:
             known = ", ".join(sorted(junction.kind.positions))
-            self._wrong(path, joint.junction, f"wants it in '{position}', which it has not (it has {known})")
+            self._wrong(path, joint.junction, f"wants it in '{position}', which it has not (it has {known})", {})
             return None
         led = [onward for _, positions, onward in ways if position is None or position in positions]
         if not led:
@@ -177,18 +177,17 @@ class Follower:
         mending = [point for point in {**passed, Point(junction): None} if self._mends(path.wanted, point)]
         self._wrong(path, junction, text, {p: at for p, at in passed.items() if p in mending or not mending})
 
-    def _wrong(self, path: Path, junction: str, text: str, doubted: Mapping[Point, Position] | None = None) -> None:
+    def _wrong(self, path: Path, junction: str, text: str, doubted: Mapping[Point, Position]) -> None:
         """Note a wrong position, and those passed before that may be wrong in its stead."""
-        name, before = path.wanted.name, [point for point in doubted or () if point != junction]
-        over = f", having passed {_listed({p: (doubted or {})[p] for p in before})}" if before else ""
+        name, before = path.wanted.name, [point for point in doubted if point != junction]
+        over = f", having passed {_listed({p: doubted[p] for p in before})}" if before else ""
         full = f"{self.findings.point_word} '{junction}': route '{name}' {text}{over}"
         self.findings.violation("a route is led over its points", (name, junction, *before), full)
 
     def _mends(self, wanted: Wanted, point: str) -> bool:
-        """Whether a route comes to its end if one of its points lies otherwise."""
-        others = self.blocks.segments.station.junctions[point].kind.positions
-        given = wanted.positions.get(point)
-        return any(self._arrives(wanted, {**wanted.positions, point: at}) for at in others if at != given)
+        """Whether a route, which does not come to its end as its points lie, does if one of them lies otherwise."""
+        positions = self.blocks.segments.station.junctions[point].kind.positions
+        return any(self._arrives(wanted, {**wanted.positions, point: at}) for at in positions)
 
     def _arrives(self, wanted: Wanted, positions: Mapping[str, str]) -> bool:
         """Whether a route comes to its end over points in these positions."""

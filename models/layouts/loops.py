@@ -69,7 +69,7 @@ def _out_and_back(blocks: Blocks, fouls: Mapping[Block, frozenset[Block]]) -> Lo
             if _is_open(blocks, out, end.beyond):
                 found_mm = so_far_mm
                 found.add(block)
-        elif isinstance(end, Cut) and _comes_foul(blocks, fouls.get(block, frozenset()) | {block}, heading, lies):
+        elif isinstance(end, Cut) and _comes_foul(blocks, fouls.get(block, frozenset()) | {block}, heading, end, lies):
             found_mm = so_far_mm
             found.add(block)
         elif isinstance(end, Cut) and blocks.of[end.beyond[0]] != blocks.of[heading[0]]:
@@ -79,13 +79,12 @@ def _out_and_back(blocks: Blocks, fouls: Mapping[Block, frozenset[Block]]) -> Lo
     return Loop(found_mm, tuple(sorted(found))) if found else None
 
 
-def _comes_foul(blocks: Blocks, closed: frozenset[Block], heading: Heading, lies: Lies) -> bool:
-    """Whether a train comes foul of its own rear behind a boundary, from a block that is not foul of it.
+def _comes_foul(blocks: Blocks, closed: frozenset[Block], heading: Heading, end: Cut, lies: Lies) -> bool:
+    """Whether a train that runs to a boundary comes foul of its own rear behind it, from a block not foul of it.
 
     From one that is it comes in line: a point's block fouls those behind boundaries that lie near on its legs.
     """
-    end = blocks.segments.at[heading]
-    if not isinstance(end, Cut) or blocks.of[heading[0]] in closed or blocks.of[end.beyond[0]] not in closed:
+    if blocks.of[heading[0]] in closed or blocks.of[end.beyond[0]] not in closed:
         return False
     ways = list(islice(_through(blocks, end.beyond), MOST_TRACKS))
     return len(ways) == MOST_TRACKS or any(len(way | lies) == len(dict(way | lies)) for way in ways)

@@ -7,7 +7,7 @@ the relations gives its name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -24,7 +24,7 @@ from models.layouts.track import HIGH, LOW, Junction, Kind
 End = tuple[str, int]
 """A net element, and the end of it (``LOW`` or ``HIGH``)."""
 MM_A_METRE = 1_000
-LONGEST_M = LONGEST_DISTANCE_MM / MM_A_METRE
+SHORTEST_M, LONGEST_M = 0.001, LONGEST_DISTANCE_MM / MM_A_METRE
 BY_POSITION = {0.0: LOW, 1.0: HIGH}
 FARTHEST_M = 1e9
 TOLERANCE = 0.01
@@ -55,7 +55,7 @@ class Topology:
         """For each end of track at a plain joint, by net element and mm, the two ends that meet there."""
         found: dict[tuple[str, int], tuple[End, End]] = {}
         for junction in self.junctions.values():
-            if len(junction.ports) == 2 and len(set(junction.ports.values())) == 2:
+            if len(junction.ports) == 2:
                 one, other = sorted(junction.ports.values())
                 found |= {(end[0], self._at_mm(end)): (one, other) for end in (one, other)}
         return found
@@ -66,9 +66,14 @@ class Topology:
         return (track, at_mm) if ends is None else (ends[0][0], self._at_mm(ends[0]))
 
     def side_from(self, track: str, at_mm: int, side: int, seen: str) -> int:
-        """The side of a place that is told on one track, by the track of the mark that stands there."""
-        ends = self._meets.get((track, at_mm))
-        return 1 - side if ends is not None and seen != track and ends[0][1] == ends[1][1] else side
+        """The side of a place that is told on one track, by the track of the mark that stands there.
+
+        Where these are two, they meet there.
+        """
+        if seen == track:
+            return side
+        one, other = self._meets[track, at_mm]
+        return 1 - side if one[1] == other[1] else side
 
     def _at_mm(self, end: End) -> int:
         return self.lengths_mm[end[0]] if end[1] == HIGH else 0
@@ -140,7 +145,36 @@ def _micro(source: Document, findings: Findings) -> list[str]:
         findings.remark(unlisted, text, "unread")
     if not found:
         raise source.bad(None, "has no netElement: there is no track", "give the topology at the level Micro")
+    _refuse_track_twice(source, found)
     return list(dict.fromkeys(found))
+
+
+def _refuse_track_twice(source: Document, micro: Iterable[str]) -> None:
+    """Of the net elements of the finest level none collects another, and no two collect one and the same.
+
+    Raises:
+        BadInput: two do; trains on the one would be on the rails of the other.
+    """
+    whole: dict[str, str] = {}
+    for name in micro:
+        for part in sorted(_collected(source, name)):
+            other = whole.setdefault(part, name)
+            if other != name:
+                what = f"has the track of '{part}', which '{other}' of the level Micro has as well"
+                raise source.bad(source.by_id[name], what, "list there what collects others, or its parts")
+
+
+def _collected(source: Document, name: str) -> set[str]:
+    """A net element, what it collects, and what that collects."""
+    found: set[str] = set()
+    todo = [source.by_id[name]]
+    while todo:
+        element = todo.pop()
+        part = source.attribute(element, "id")
+        if part not in found:
+            found.add(part)
+            todo += [source.referred(each) for each in source.all("elementPart", element)]
+    return found
 
 
 def _listed(source: Document, level: Element) -> Iterator[str]:
@@ -155,23 +189,22 @@ def _length_mm(source: Document, name: str, tracks: Sequence[Over], findings: Fi
     element = source.by_id[name]
     drawn_m = _drawn_m(source, element)
     if element.get("length") is not None:
-        told_m: float | None = source.number(element, "length", 0.001, LONGEST_M)
+        told_m: float | None = source.number(element, "length", SHORTEST_M, LONGEST_M)
     else:
         told_m = _of_track_m(source, tracks)
     if told_m is not None:
         _compare_track(source, name, told_m, tracks, findings)
-    if told_m is None and drawn_m is None:
+        if drawn_m is not None and abs(drawn_m - told_m) > TOLERANCE * told_m:
+            text = f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long"
+            findings.remark([name], text, "derived")
+        return round(told_m * MM_A_METRE)
+    if drawn_m is None:
         raise source.bad(element, "has no length, and no track or coordinates that give one", "add the length")
-    if told_m is None:
-        text = f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}"
-        findings.remark([name], text, "derived")
-    elif drawn_m is not None and abs(drawn_m - told_m) > TOLERANCE * told_m:
-        text = f"net element '{name}' is {told_m:g} m long, and drawn {drawn_m:.1f} long"
-        findings.remark([name], text, "derived")
-    length_m = told_m if told_m is not None else drawn_m
-    if length_m is None or not 0.001 <= length_m <= LONGEST_M:
-        raise source.bad(element, f"its length is {length_m!r:.40} m", f"give 0.001 to {LONGEST_M} m")
-    return round(length_m * MM_A_METRE)
+    if not SHORTEST_M <= drawn_m <= LONGEST_M:
+        raise source.bad(element, f"its length is {drawn_m!r:.40} m", f"give {SHORTEST_M} to {LONGEST_M} m")
+    text = f"net element '{name}' has no length: that of its drawing is taken, {drawn_m:.3f}"
+    findings.remark([name], text, "derived")
+    return round(drawn_m * MM_A_METRE)
 
 
 def _drawn_m(source: Document, element: Element) -> float | None:
@@ -198,7 +231,7 @@ def _of_track_m(source: Document, tracks: Sequence[Over]) -> float | None:
     """The length of the track that is this net element and no other."""
     lengths = (source.first("length", over.track) for over in tracks if over.alone)
     length = next((each for each in lengths if each is not None), None)
-    return None if length is None else source.number(length, "value", 0.001, LONGEST_M)
+    return None if length is None else source.number(length, "value", SHORTEST_M, LONGEST_M)
 
 
 def _compare_track(source: Document, name: str, told_m: float, tracks: Sequence[Over], findings: Findings) -> None:
@@ -217,7 +250,7 @@ def _compare_track(source: Document, name: str, told_m: float, tracks: Sequence[
                 run = f"track '{track}', the only one there, runs over {span_m:g} m of it"
                 findings.remark(named, f"net element '{name}' is {told_m:g} m long, and {run}", "derived")
         elif over.alone and not within and length is not None and length.get("type", "physical") == "physical":
-            track_m = source.number(length, "value", 0.001, LONGEST_M)
+            track_m = source.number(length, "value", SHORTEST_M, LONGEST_M)
             if abs(track_m - told_m) > TOLERANCE * told_m:
                 text = f"net element '{name}' is {told_m:g} m long, and track '{track}', which is all of it, is"
                 findings.violation(ONE_LENGTH, named, f"{text} {track_m:g} m long: correct one of the two")
@@ -329,7 +362,10 @@ def _junction(source: Document, meeting: Meeting, named: Mapping[str, Named], fi
 def _kind(
     source: Document, element: Element, ways: list[tuple[str, str]], by: Named | None, port_of: Mapping[End, str]
 ) -> Kind | None:
-    """The kind of a junction, by which ends lead to which; positions of a point are railML's words."""
+    """The kind of a junction, by which ends lead to which; positions of a point are railML's words.
+
+    Four ends that are no crossing lead from one side to the other, as over a slip or a three-way point.
+    """
     ports = tuple(port_of.values())
     met = [port for way in ways for port in way]
     if len(ports) == len(met) and len(set(met)) == len(met):
@@ -339,15 +375,9 @@ def _kind(
         if set(sides.values()) != set(ways):
             raise source.bad(element, "its branches are not the ways over this point", "correct its branches")
         return Kind(ports, {side: (way,) for side, way in sides.items()})
-    if len(ports) == 4 and len(ways) in (3, 4) and all(port in met for port in ports) and _is_slip(ways):
+    if len(ports) == 4 and all(port in met for port in ports) and networkx.is_bipartite(networkx.Graph(ways)):
         return Kind(ports, {f"{one}_{other}": ((one, other),) for one, other in ways})
     return None
-
-
-def _is_slip(ways: list[tuple[str, str]]) -> bool:
-    """Whether the ways of four ends lead from two on one side to two on the other."""
-    graph: networkx.Graph[str] = networkx.Graph(ways)
-    return networkx.is_connected(graph) and networkx.is_bipartite(graph)
 
 
 def _sides(

@@ -13,6 +13,7 @@ from tests.independent.layouts.danger import UNREAD, danger_of
 from tests.independent.layouts.dangerous_interlocking import DANGEROUS_INTERLOCKING
 from tests.independent.layouts.dangerous_places import DANGEROUS_PLACES
 from tests.independent.layouts.dangerous_railml import DANGEROUS_RAILML
+from tests.independent.layouts.dangerous_routes import DANGEROUS_ROUTES
 from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS
 from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
@@ -332,5 +333,8 @@ OTHERS_THAT_HOLD = {
     "one point.toml": ONE_POINT,
 }
 """Files that look much like these and hold."""
-DANGERS = DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_RAILML | DANGEROUS_INTERLOCKING | DANGEROUS_PLACES | OTHERS
+DANGERS = {
+    **(DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_ROUTES),
+    **(DANGEROUS_RAILML | DANGEROUS_INTERLOCKING | DANGEROUS_PLACES | OTHERS),
+}
 """Every file with what must be said of it."""

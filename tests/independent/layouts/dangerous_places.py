@@ -5,7 +5,9 @@ from __future__ import annotations
 from tests.independent.layouts.danger import danger_of
 from tests.independent.layouts.dangerous_railml import (
     BACK,
+    BORDER,
     BOTH,
+    FOULED,
     LINES_END,
     LONG_TRACK,
     ON_LEGS,
@@ -22,10 +24,17 @@ APART_A = '<signalIS id="A">{}</signalIS><trainDetectionElement id="A tags">{}</
 NO_LENGTH = LONG_TRACK.format("", "500", "physical").replace('"T"', '"T1"').replace("<length", "<name")
 COLLECTS = '<netElement id="whole"><elementPart ref="w"/><elementPart ref="e"/></netElement>'
 ON_WHOLE = '<spotLocation netElementRef="whole" intrinsicCoord="0.6"/>'
+AS_LONG_AS_BOTH = COLLECTS.replace('"whole">', '"whole" length="1000">')
+ON_BOTH = spot("A", "w", "0.4") + spot("B", "e", "0.8") + spot("C", "whole", "0.2") + spot("D", "whole", "0.9")
+ON_MESO = '<level descriptionLevel="Meso"><networkResource ref="w"/><networkResource ref="e"/></level><level '
 NAMELESS = '<bufferStop><spotLocation netElementRef="e" intrinsicCoord="0.1"/></bufferStop>'
 WHOLE = ' intrinsicCoordBegin="0" intrinsicCoordEnd="1"'
 TENTH = ' intrinsicCoordBegin="0" intrinsicCoordEnd="0.1"'
 OVER_BOTH = LONG_TRACK.format("", "1000", "physical").replace('"e"/>', '"e"/><associatedNetElement netElementRef="w"/>')
+STOP_ON_S = '<bufferStop id="wall"><spotLocation netElementRef="s" intrinsicCoord="1.0"/></bufferStop>'
+DATED = '<operationalPoint id="town"><isValid from="2020-01-01"/></operationalPoint>'
+HALF = """<track id="{}"><linearLocation><associatedNetElement netElementRef="e" posBegin="{}" posEnd="{}"/>
+</linearLocation></track>"""
 NONE = relation("{}", "{}", "{}", "None")
 AGAIN = relation("we2", "w", "e", "None")
 BY_METRES = SPOTS.replace('netElementRef="e" intrinsicCoord="0.2"', 'netElementRef="e" pos="100"')
@@ -33,7 +42,12 @@ A_METRE_OFF = SPOTS.replace(
     'netElementRef="e" intrinsicCoord="0.2"', 'netElementRef="e" intrinsicCoord="0.2" pos="101"'
 )
 DRAWN = '<netElement id="e">{}</netElement>'
+TOLD_AND_DRAWN = DRAWN.replace(">{}", ' length="500">{}')
 POINT = '<geometricCoordinate x="{}" y="0"/>'
+SHORT_AND_LONG = "".join(
+    DRAWN.replace('"e"', f'"{name}"').format(POINT.format(0) + POINT.format(long_m))
+    for name, long_m in (("x", "0.001"), ("y", "268435.455"))
+)
 FOUR = (
     relation("we", "w", "e")
     + relation("wn", "w", "n")
@@ -106,6 +120,57 @@ DANGEROUS_PLACES = {
         "of a net element's drawing one end is told, and its length nowhere",
         "has no length, and no track or coordinates",
     ),
+    "border at the end of a switch.railml": danger_of(
+        railml(TURNOUT, ON_LEGS, SWITCHES + BORDER.replace('"s" intrinsicCoord="0.0"', '"w" intrinsicCoord="1.0"')),
+        "a border stands at the tips of a switch, with track behind it: a train there is foul of what runs over it",
+        "no track goes on behind a buffer stop at a joint",
+        *("edge", "w", "P"),
+    ),
+    "whole and part.railml": danger_of(
+        with_element(railml(BOTH, ON_BOTH, networks=level(*"wens", "whole")), AS_LONG_AS_BOTH),
+        "a net element and what it collects are both on the level Micro: one line is there twice, with a train on each",
+        "'whole': has the track of 'e', which 'e' of the level Micro has as well",
+    ),
+    "part of a part.railml": danger_of(
+        with_element(
+            railml(BOTH, ON_BOTH, networks=level(*"wens", "whole")),
+            AS_LONG_AS_BOTH.replace('"w"', '"half"') + '<netElement id="half"><elementPart ref="w"/></netElement>',
+        ),
+        "the same, where a net element of no level Micro lies between the two",
+        "'whole': has the track of 'e', which 'e' of the level Micro has as well",
+    ),
+    "part of two.railml": danger_of(
+        with_element(
+            railml(BOTH, ON_BOTH, networks=level(*"ns", "whole", "east")).replace("<level ", ON_MESO, 1),
+            AS_LONG_AS_BOTH + '<netElement id="east" length="500"><elementPart ref="e"/></netElement>',
+        ),
+        "two net elements of the level Micro collect one and the same: its track is there twice",
+        "'east': has the track of 'e', which 'whole' of the level Micro has as well",
+    ),
+    "drawn alone.railml": danger_of(
+        with_e(railml(BOTH, SPOTS), DRAWN.format("<geometricCoordinate/>" + POINT.format(0) + POINT.format(500))),
+        "how long a net element is stands nowhere; its drawing's length is taken, which may be to no scale",
+        "that of its drawing is taken",
+        "e",
+    ),
+    "drawn at both bounds.railml": danger_of(
+        with_element(railml(BOTH + relation("ex", "e", "x") + relation("sy", "s", "y"), SPOTS), SHORT_AND_LONG),
+        "the same of two net elements, as short and as long as there may be",
+        "that of its drawing is taken",
+        *"xy",
+    ),
+    "drawn otherwise.railml": danger_of(
+        with_e(railml(BOTH, SPOTS), TOLD_AND_DRAWN.format(POINT.format(0) + POINT.format(506))),
+        "a net element is told to be 500 m long, and drawn 506 m long",
+        "is 500 m long, and drawn",
+        "e",
+    ),
+    "point of no switch.railml": danger_of(
+        railml(TURNOUT, ON_LEGS),
+        "no switch names a point: which way left and right are, and which device it is, is not told",
+        "is at a point that no switch names",
+        "es",
+    ),
     "drawn as a dot.railml": danger_of(
         with_e(railml(BOTH, SPOTS), DRAWN.format(POINT.format(7) * 2)),
         "a net element is drawn without any length",
@@ -150,7 +215,6 @@ DANGEROUS_PLACES = {
 """Every file with what must be said of it."""
 
 PLACES_THAT_HOLD = {
-    "point that no switch names.railml": railml(TURNOUT, ON_LEGS),
     "exit of no direction.railml": railml(
         BOTH, SPOTS.replace('intrinsicCoord="0.2" applicationDirection="normal"', 'intrinsicCoord="0.2"')
     ),
@@ -163,6 +227,10 @@ PLACES_THAT_HOLD = {
             + BACK.format("e", "0.2", "reverse"),
         ),
     ),
+    "stop that fouls.railml": railml(
+        TURNOUT, ON_LEGS, SWITCHES + STOP_ON_S, FOULED.format("wall").replace('ref="X"', 'ref="P"')
+    ),
+    "dated station.railml": railml(BOTH, SPOTS, DATED),
     "by metres.railml": railml(BOTH, BY_METRES),
     "a metre off.railml": railml(BOTH, A_METRE_OFF),
     "level of more.railml": with_element(
@@ -177,7 +245,8 @@ PLACES_THAT_HOLD = {
         SPOTS,
         OVER_BOTH
         + LONG_TRACK.format(TENTH, "50", "physical").replace('"T"', '"T2"')
-        + LONG_TRACK.format("", "50", "operational").replace('"T"', '"T3"'),
+        + LONG_TRACK.format("", "50", "operational").replace('"T"', '"T3"')
+        + LONG_TRACK.format("", "495", "physical").replace('"T"', '"T4"'),
     ),
     "entry at a joint.railml": railml(
         BOTH,
@@ -188,9 +257,11 @@ PLACES_THAT_HOLD = {
         railml(BOTH, SPOTS, OVER_BOTH + NO_LENGTH + LONG_TRACK.format("", "500", "physical").replace('"T"', '"T2"')),
         '<netElement id="e"/>',
     ),
-    "drawn.railml": with_e(
-        railml(BOTH, SPOTS), DRAWN.format("<geometricCoordinate/>" + POINT.format(0) + POINT.format(500))
+    "drawn within a hundredth.railml": with_e(
+        railml(BOTH, SPOTS), TOLD_AND_DRAWN.format(POINT.format(0) + POINT.format(505))
     ),
+    "tracks of parts.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 250) + HALF.format("T2", 250, 500)),
+    "track of nearly all.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 495)),
     "related again.railml": railml(AGAIN + BOTH + AGAIN.replace("we2", "we4"), SPOTS),
     "branch without a relation.railml": railml(
         TURNOUT, ON_LEGS, SWITCHES.replace("<leftBranch", "<straightBranch/><leftBranch")

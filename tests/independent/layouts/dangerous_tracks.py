@@ -23,6 +23,22 @@ Q = { track = "m", at_mm = 5_000 }
 "up to N" = { from = "N2", direction = "backward", to = "N" }
 "up to M" = { from = "M2", direction = "backward", to = "M" }
 """
+ONE_BEHIND_BOTH = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+fouling = [["Q", "loop"]]
+[tracks]
+line = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 800_000 } }
+loop = { from = "P.normal", to = "P.reverse", length_mm = 900_000, boundaries = { M = 10_000, N = 890_000 } }
+[points]
+P = { clear_mm = { normal = 45_000, reverse = 45_000 } }
+[blocks]
+Q = { track = "line", at_mm = 850_000 }
+loop = { track = "loop", at_mm = 400_000 }
+[routes]
+in = { from = "W", direction = "forward", to = "V" }
+"""
 OVER_A_DIAMOND = """
 format = "heisoku-layout-1"
 held_by_authority = "rest"
@@ -195,6 +211,8 @@ TRACKS_THAT_HOLD = {
     "ring in a block.toml": RING_IN_A_BLOCK.replace("mm = 600_000\n[", "mm = 599_999\n["),
     "over and under.toml": OVER_AND_UNDER.replace("= 200_000\nf", "= 199_999\nf"),
     "clear of each other.toml": SIDE_BY_SIDE.replace("N = 10_000", "N = 45_000").replace(', ["Q", "N block"]', ""),
+    "one of them clear.toml": SIDE_BY_SIDE.replace("N = 10_000", "N = 45_000"),
+    "one block behind both.toml": ONE_BEHIND_BOTH,
     "side by side at a diamond.toml": OVER_A_DIAMOND.replace("fouling = [", 'fouling = [["A1", "A2"], '),
 }
 """The same without their dangers."""

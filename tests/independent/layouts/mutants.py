@@ -40,6 +40,7 @@ from tests.independent.layouts.dangerous import DANGERS, OTHERS_THAT_HOLD
 from tests.independent.layouts.dangerous_interlocking import INTERLOCKING_THAT_HOLDS
 from tests.independent.layouts.dangerous_places import PLACES_THAT_HOLD
 from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
+from tests.independent.layouts.dangerous_routes import ROUTES_THAT_HOLD
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 from tests.independent.layouts.dangerous_tracks import TRACKS_THAT_HOLD
 from tests.independent.layouts.driving import Driver
@@ -63,7 +64,7 @@ MODULES = (
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
 WITHOUT_DANGER = (
     *(TABLES_THAT_HOLD, TRACKS_THAT_HOLD, RAILML_THAT_HOLD, INTERLOCKING_THAT_HOLDS, PLACES_THAT_HOLD),
-    OTHERS_THAT_HOLD,
+    *(ROUTES_THAT_HOLD, OTHERS_THAT_HOLD),
 )
 """Files that are like dangerous ones, and hold."""
 STATIONS, MADE_UP, EDITED = 24, 60, 24
@@ -204,8 +205,8 @@ class File:
 
     @property
     def is_of_use(self) -> bool:
-        """Whether anything can be noticed by it."""
-        return self.danger is not None or self.must_hold or self.loads
+        """Whether anything can be noticed by it; what it is without a mutant is known from here on."""
+        return self.loads or self.danger is not None or self.must_hold
 
     @property
     def danger(self) -> Danger | None:
@@ -322,6 +323,11 @@ def dangerous() -> Iterator[tuple[str, str]]:
     return ((name, danger.text) for name, danger in DANGERS.items())
 
 
+def says_a_danger(verdict: CheckResult) -> bool:
+    """Whether a verdict on a file without a danger remarks on what is one."""
+    return any(danger.said in each.text for danger in DANGERS.values() for each in verdict.remarks)
+
+
 def reads(module: str, file: File) -> bool:
     """Whether a module has a part in importing a file."""
     kinds = {"railjson": ".json", "native": ".toml"}
@@ -373,6 +379,8 @@ def who_notices(mutant: Mutant, known: list[File]) -> str | None:
                     return "refused"
                 if file.must_hold and (verdict is None or verdict.verdict != "holds"):
                     return "refused"
+                if file.must_hold and verdict is not None and says_a_danger(verdict):
+                    return "danger"
                 if not file.loads:
                     continue
                 if follows:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 
+from models.layouts.railml import topology
+from tests.independent.layouts.dangerous import DANGERS
 from tests.independent.layouts.mutants import File, corpus, mutants, reads, who_notices
 from tests.independent.test_verdicts import needs_folder
 
@@ -32,6 +35,14 @@ def left(module: str) -> set[str]:
 def test_what_nobody_notices_is_listed(module: str) -> None:
     assert left(module) == set(LISTED[module])
     assert all(reason.strip() for reason in LISTED[module].values())
+
+
+def test_what_changes_nothing_is_noticed_by_nobody_whatever_was_tried_before() -> None:
+    turned = next(each for each in mutants("railml.topology") if each.name == "railml.topology._micro: not (unlisted)")
+    nothing = replace(turned, code=topology._micro.__code__)
+    closed = File("closed.railml", DANGERS["closed.railml"].text)
+    assert closed.is_of_use
+    assert [who_notices(each, [closed]) for each in (turned, nothing)] == ["walk", None]
 
 
 def test_of_the_first_mutants_of_the_track_a_few_files_notice_most() -> None:
