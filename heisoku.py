@@ -440,6 +440,8 @@ def run(arguments: Sequence[str]) -> int:
     except OSError as error:
         complain(f"heisoku: {error.filename or 'a file'}: {error.strerror or error}; nothing is decided")
         return UNDECIDED
+    except KeyboardInterrupt:
+        code = INTERRUPTED
     except Exception as fault:
         if os.environ.get("HEISOKU_TRACEBACK"):
             traceback.print_exc()

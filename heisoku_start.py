@@ -1,19 +1,22 @@
-"""Begins the program: finds that its packages are its own, and ends with 3 where it cannot be loaded."""
+"""Begins the program: finds that its packages are its own, and ends with 3 where it cannot be loaded.
+
+Until it is loaded, and once it has a verdict, an interruption ends it at once and without a word.  So nothing is
+imported here before that is settled but what settles it.
+"""
 
 from __future__ import annotations
 
-import os
+import _signal  # type: ignore[import-not-found]  # built in: the rest of signal takes longer to load
 import sys
-from contextlib import suppress
-from importlib import import_module
-from importlib.metadata import PackageNotFoundError, distribution
-from importlib.util import find_spec
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
+TYPE_CHECKING = False  # as typing has it, which takes as long to load
+if TYPE_CHECKING:
+    from types import FrameType
+
 PACKAGES = ("kernel", "models", "proofs", "fuzz", "evidence")
 SOLVERS = {"z3": "z3-solver", "cvc5": "cvc5"}
 """Module -> the package that brings it."""
+AGAIN_AFTER_S = 0.05
 UNDECIDED = 3
 """As in models/exit_codes.py, which cannot be read before it is known whose ``models`` that is."""
 
@@ -23,7 +26,12 @@ def stranger() -> str | None:
 
     Of the solvers the module has to be the one of the package whose hashes stand in every record.
     """
-    wanted = {name: HERE / name for name in PACKAGES}
+    from contextlib import suppress
+    from importlib.metadata import PackageNotFoundError, distribution
+    from importlib.util import find_spec
+    from pathlib import Path
+
+    wanted = {name: Path(__file__).resolve().parent / name for name in PACKAGES}
     for name, package in SOLVERS.items():
         with suppress(PackageNotFoundError):
             wanted[name] = Path(str(distribution(package).locate_file(name))).resolve()
@@ -44,6 +52,8 @@ def open_what_is_closed() -> bool:
 
     Python has none in its place, and the next file that is opened would get its number and all that is printed.
     """
+    import os
+
     told = sys.stdout is not None
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         if getattr(sys, name) is None:
@@ -57,30 +67,58 @@ def open_what_is_closed() -> bool:
 
 def loaded() -> str | None:
     """Load the program; what is wrong if it cannot be, in words."""
+    from importlib import import_module
+
     if sys.flags.optimize:
         return "Python leaves assertions out (-O, PYTHONOPTIMIZE), and with them what witnesses say; run it without"
     try:
         line = stranger()
         if line is None:
             import_module("heisoku")
-    except KeyboardInterrupt:
-        return "interrupted; nothing is decided"
     except (Exception, SystemExit) as fault:
         return f"cannot be loaded, {type(fault).__name__}: {fault}; install it again with what it requires"
     return line
 
 
+def interrupt(number: int, frame: FrameType | None) -> None:
+    """Interrupt the program; a moment later where Python would print the exception and go on, as finalisers do."""
+    within = [] if frame is None else [frame.f_code.co_filename]
+    while frame is not None:
+        within.append(frame.f_code.co_name)
+        frame = frame.f_back
+    if within and (within[0].startswith("<frozen importlib") or "__del__" in within):
+        import os
+        import threading
+
+        threading.Timer(AGAIN_AFTER_S, os.kill, (os.getpid(), number)).start()
+        return
+    raise KeyboardInterrupt
+
+
+def hear_interruptions(heard: bool) -> None:
+    """Let an interruption be heard by the program, or end it at once; where a shell has it ignored it stays so."""
+    if _signal.getsignal(_signal.SIGINT) != _signal.SIG_IGN:
+        _signal.signal(_signal.SIGINT, interrupt if heard else _signal.SIG_DFL)
+
+
 def main() -> None:
     """Run the command line of ``heisoku.py``; what cannot be loaded decides nothing: one line, and exit code 3."""
+    hear_interruptions(False)
     is_told = open_what_is_closed()
     line = loaded()
     if line is None:
+        line = "standard output is closed: what was found is not told"
         try:
-            sys.modules["heisoku"].main()
+            hear_interruptions(True)
+            try:
+                sys.modules["heisoku"].main()
+            finally:
+                hear_interruptions(False)
         except SystemExit:
             if is_told:
                 raise
-        line = "standard output is closed: what was found is not told"
+        except KeyboardInterrupt:
+            line = "interrupted; nothing is decided"
     print(f"heisoku: {' '.join(line.split())}", file=sys.stderr)
     sys.exit(UNDECIDED)
 

@@ -38,6 +38,8 @@ STATION = "layouts/passing_station.toml"
 ENDS_AFTER_S = 120.0
 """A command that is interrupted or ended does end, and all its processes do, in this time; else it is a finding."""
 TELLS_EVERY_S = 10.0
+BEGUN_AFTER_S = 0.2
+"""Before that Python itself begins, which tells of an interruption as it likes; it ends by the signal then."""
 HEEDED_WITHIN_S = 10.0
 """A command that hears an interruption gives no verdict that it reaches later than this."""
 GOES_ON = 4
@@ -173,7 +175,7 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
     process, told, complaints = begun(words, out, how), b"", b""
     disturbed_at = None
     try:
-        process.wait(moment * usual.seconds)
+        process.wait(BEGUN_AFTER_S + moment * usual.seconds)
     except subprocess.TimeoutExpired:
         if how.to_process is not None:
             how.to_process(process)

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
 from models.exit_codes import UNDECIDED
-from tests.interruptions import COMMANDS, Disturbance, closed, drawn, ended, interrupted, wrong
+from tests.interruptions import COMMANDS, ROOT, Disturbance, begun, closed, drawn, ended, interrupted, wrong
 
 CHECK, PROVE = COMMANDS[0], COMMANDS[4]
 
@@ -42,3 +46,29 @@ def test_an_interruption_is_heard_though_a_shell_began_the_tests_in_the_backgrou
     finally:
         signal.signal(signal.SIGINT, before)
     assert (code, found) == (UNDECIDED, [])
+
+
+@pytest.mark.parametrize("seconds", [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8])
+def test_while_it_is_loaded_an_interruption_ends_it_without_a_word(seconds: float, tmp_path: Path) -> None:
+    process = begun(CHECK, tmp_path, Disturbance("SIGINT", interrupted))
+    time.sleep(seconds)
+    interrupted(process)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode in (-signal.SIGINT, UNDECIDED, 0), said
+    assert b"Traceback" not in said
+    assert len(said.splitlines()) <= 1
+
+
+def test_an_interruption_is_heard_where_python_would_drop_it() -> None:
+    given = "import os, time, heisoku_start\nheisoku_start.hear_interruptions(True)\n"
+    falls = "class Held:\n    def __del__(self):\n        os.kill(os.getpid(), 2)\n        len(' ')\n"
+    ended_by = "try:\n    del held\n    time.sleep(30)\nexcept KeyboardInterrupt:\n    print('heard')\n"
+    program = subprocess.run(
+        [sys.executable, "-c", f"{given}{falls}held = Held()\n{ended_by}"],
+        cwd=ROOT,
+        text=True,
+        capture_output=True,
+        check=False,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert (program.stdout, program.stderr) == ("heard\n", "")
