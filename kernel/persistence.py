@@ -71,6 +71,17 @@ PROMISE: Mapping[str, tuple[Memory, str]] = {
 }
 """A train's promise to a crossing: it is kept through restarts of the train (`kernel.crossing.promise`)."""
 
+TAG_READER: Mapping[str, tuple[Memory, str]] = {
+    "newest": (Memory.LOST, "NO_FRAME"),
+    "second": (Memory.LOST, "NO_FRAME"),
+    "third": (Memory.LOST, "NO_FRAME"),
+    "held": (Memory.LOST, "NO_FRAME"),
+    "fresh": (Memory.LOST, "False"),
+    "quiet_frames": (Memory.LOST, "0"),
+    "healthy": (Memory.LOST, "False"),
+}
+"""A tag reader: its antenna counts as failed (`kernel.onboard.tag_reader.restarted`)."""
+
 RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
     "turns": (Memory.LOST, "{}"),
     "pairs": (Memory.LOST, "0"),

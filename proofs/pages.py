@@ -19,6 +19,7 @@ from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
 from kernel.crossing.ranging_schedule import Schedule
 from kernel.crossing.start_point import StartPoint
+from kernel.onboard.tag_reader import Reader
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
@@ -73,6 +74,12 @@ PROMISE = (
     " noted, and holds the train to the line's speed until it is told anew. A spare unit that holds none is not let go"
     " before a person has told the crossing."
 )
+TAG_READER = (
+    "Nothing survives, of the head's reader nor of the tail's. Whether an antenna had failed is forgotten, so each"
+    " counts as failed, and delivers nothing, until staff has found it sound (`kernel.onboard.computer.mend_head`,"
+    " `mend_tail`). Finding the train whole does not say so, nor does locating it anew: after that, as ends may have"
+    " been changed, one antenna that has failed makes both count as failed."
+)
 RANGING_SCHEDULE = (
     "The number survives: it is written before the order is sent, so that no answer to an order from before the start"
     " counts. All contact is made anew. What was ordered may still be under way, so the channel is taken for a slot. A"
@@ -123,6 +130,7 @@ def persistence_page() -> str:
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
+        ("A tag reader on board", Reader, persistence.TAG_READER, TAG_READER),
         ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),
         ("The terminal of a start point", StartPoint, persistence.START_POINT, START_POINT),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),

@@ -2,8 +2,10 @@
 
 A cycle has two halves.  At its beginning :func:`decide` settles whether the brake is on while the train runs;
 at its end :func:`sense` takes what the sensors say of that run.  Between the end of one cycle and the beginning
-of the next comes all that is told: tags that were read in it, ends of authority, and where a train at rest is.
-So no tag is called overdue in the cycle in which it was read.
+of the next comes all that is told: what both antennas heard in it, frame time by frame time, ends of authority, and
+where a train at rest is.  So no tag is called overdue in the cycle in which it was read.
+
+A tag is read when its reader delivers its record, and by nothing else; the unit looks up where its lists have it.
 
 Tags and ends of authority lie on one kilometrage, the front's: a tag lies where the front is when it is read.
 """
@@ -23,6 +25,7 @@ from kernel.onboard import (
     speed_limit,
     split,
     tag_fix,
+    tag_reader,
     tag_window,
     train_length,
 )
@@ -39,6 +42,7 @@ from kernel.onboard.reverse_movement import LOCATED
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import Fix
+from kernel.onboard.tag_reader import Frame, Level, Reader
 from kernel.onboard.tag_window import NONE_AWAITED
 from kernel.onboard.train_length import UNMEASURED, Length, Passing, PointKind
 from kernel.onboard.way import Way
@@ -59,6 +63,7 @@ class Computer:
     ``spacing``: what is known of the two antennas.
     ``length``: what is known of the train's length, measured by tags that both have read.
     ``brake``: what the brake control knows.
+    ``head``, ``tail``: what the readers of the two antennas remember.
     """
 
     known: Known
@@ -67,6 +72,8 @@ class Computer:
     spacing: Spacing
     length: Length
     brake: Brake
+    head: Reader
+    tail: Reader
 
 
 def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: int) -> Computer:
@@ -74,6 +81,7 @@ def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: i
 
     With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
     ``ceiling``: the lowest that it has promised to a crossing, in any of its lives, and was not let go from.
+    Whether an antenna has failed is forgotten: each counts as failed until staff has found it sound (T13).
     """
     motion = odometry.located(least_mm, most_mm, 0)
     return Computer(
@@ -92,6 +100,8 @@ def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: i
         spacing=antenna_spacing.preset(limits.antennas_mm),
         length=UNMEASURED,
         brake=braking.stand_still(most_mm),
+        head=tag_reader.restarted(),
+        tail=tag_reader.restarted(),
     )
 
 
@@ -123,12 +133,19 @@ def decide(limits: Limits, computer: Computer, may_proceed: bool, acknowledged: 
     """Decide on the brake for the cycle that begins, and whether the awaited tag is overdue (T5, T12).
 
     ``may_proceed``: an order lets the train proceed.  ``acknowledged``: the driver has acknowledged the brake.
+    A record that was delivered in the cycle before, and that nobody has taken, counts no more: the train runs on.
     """
     way = way_to(computer, place(computer))
     known = replace(computer.known, window=tag_window.note_cycle(limits.window, computer.known.window, way))
     brake = brake_demand.decide(limits.train, computer.brake, known, may_proceed, acknowledged)
     watch = known.watch if brake.applied else brake_watch.released(known.watch)
-    return replace(computer, known=replace(known, watch=watch), brake=brake)
+    return replace(
+        computer,
+        known=replace(known, watch=watch),
+        brake=brake,
+        head=tag_reader.next_cycle(computer.head),
+        tail=tag_reader.next_cycle(computer.tail),
+    )
 
 
 def sense(limits: Limits, computer: Computer, readings: Readings, tail: TailReadings) -> Computer:
@@ -245,13 +262,27 @@ def fix(limits: Limits, computer: Computer, place_mm: int) -> Fix:
     return tag_fix.fix_of(limits.tags, computer.before, computer.known.motion, place_mm)
 
 
-def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, kind: int) -> Computer:
-    """Take a tag that the head read within the newest cycle: where it is, and on which track from here (P7, T12, T13).
+def note_head_frame(limits: Limits, computer: Computer, frame: Frame, level: Level) -> Computer:
+    """Take what the head's antenna heard in one frame time of the newest cycle, and its transmit level (T1, T13)."""
+    return replace(computer, head=tag_reader.note_frame(limits.reader, computer.head, frame, level))
 
-    It narrows the range first, and the tail's follows.  ``place_mm``: where the list has it; ``kind``: what it says.
+
+def note_tail_frame(limits: Limits, computer: Computer, frame: Frame, level: Level) -> Computer:
+    """Take what the tail's antenna heard in one frame time of the newest cycle, and its transmit level (T1, T13)."""
+    return replace(computer, tail=tag_reader.note_frame(limits.reader, computer.tail, frame, level))
+
+
+def read_by_head(limits: Limits, computer: Computer, place_mm: int) -> Computer:
+    """Take the record that the head's reader delivers: where the train is, and on which track (P7, T12, T13).
+
+    While it delivers none nothing is taken, and a record is taken once.  ``place_mm``: where the list has this tag.
+    It narrows the range first, and the tail's follows.
     One that was read elsewhere, or before the train was located, is as one of no list: it is another, or the train has
     run on since by who knows how much.
     """
+    if not tag_reader.delivers(computer.head):
+        return computer
+    uid, kind = computer.head.held.uid, computer.head.held.kind
     if not reads_in_window(limits, computer, place_mm):
         return read_unlisted(computer)
     found = fix(limits, computer, place_mm)
@@ -262,23 +293,33 @@ def read_by_head(limits: Limits, computer: Computer, uid: int, place_mm: int, ki
         known=replace(fixed.known, limit=speed_limit.note_tag(computer.known.limit, kind, at.known, at.most_mm)),
         spacing=antenna_spacing.note_head_read(computer.spacing, uid, at),
         length=train_length.note_head_pass(limits.length, computer.length, tag_passed(fixed, uid, BY_HEAD_MS)),
+        head=tag_reader.taken(computer.head),
     )
     return note_entered(read)
 
 
 def read_unlisted(computer: Computer) -> Computer:
-    """Take a tag that the head read, and that no list has there: nobody knows what track lies from it on (T5, T12)."""
-    limit = speed_limit.note_unlisted_tag(computer.known.limit)
-    return replace(computer, known=replace(computer.known, limit=limit))
+    """Take the record that the head's reader delivers, if no list has that tag: nobody knows what track it begins (T5).
 
-
-def read_by_tail(limits: Limits, computer: Computer, uid: int) -> Computer:
-    """Take a tag that the tail read within the newest cycle: is it as far behind the head as preset (T13, T3)?
-
-    If it is, that tells how long the train is; by another's antenna nothing is measured (P4).
+    Whatever may lie from it on restricts the train (T12).
     """
+    if not tag_reader.delivers(computer.head):
+        return computer
+    limit = speed_limit.note_unlisted_tag(computer.known.limit)
+    return replace(computer, known=replace(computer.known, limit=limit), head=tag_reader.taken(computer.head))
+
+
+def read_by_tail(limits: Limits, computer: Computer) -> Computer:
+    """Take the record that the tail's reader delivers: is it as far behind the head as preset (T13, T3)?
+
+    While it delivers none nothing is taken, and a record is taken once.  If it is, that tells how long the train is;
+    by another's antenna nothing is measured (P4).
+    """
+    if not tag_reader.delivers(computer.tail):
+        return computer
+    uid = computer.tail.held.uid
     spacing = antenna_spacing.note_tail_read(limits.spacing, computer.spacing, uid, place_of_read(computer))
-    compared = replace(computer, spacing=spacing)
+    compared = replace(computer, spacing=spacing, tail=tag_reader.taken(computer.tail))
     if not antenna_spacing.is_healthy(spacing):
         return compared
     passed = tag_passed(computer, uid, BY_TAIL_MS)
@@ -333,13 +374,26 @@ def is_as_long_as_written(limits: Limits, computer: Computer) -> bool:
 
 
 def made_up(limits: Limits, computer: Computer) -> Computer:
-    """Take the train for whole, and its antennas for as far apart as is written: its staff has found it so (P5, T3)."""
+    """Take the train for whole, and its antennas for as far apart as is written: its staff has found it so (P5, T3).
+
+    An antenna that has failed is none that reads again: that is said of each by itself.
+    """
     return replace(
         computer,
         known=replace(computer.known, wholeness=split.made_up(limits.split)),
         spacing=antenna_spacing.preset(limits.antennas_mm),
         length=train_length.note_formation_changed(computer.length),
     )
+
+
+def mend_head(computer: Computer) -> Computer:
+    """Take the head's antenna for sound: staff has mended it, or tried it and found it so; supervised (T13)."""
+    return replace(computer, head=tag_reader.mended())
+
+
+def mend_tail(computer: Computer) -> Computer:
+    """Take the tail's antenna for sound: staff has mended it, or tried it and found it so; supervised (T13)."""
+    return replace(computer, tail=tag_reader.mended())
 
 
 def note_place(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
@@ -375,7 +429,8 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
     """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
 
     What was found of motors, brake, wholeness, antennas and length stays, and so does the ceiling.  Restrictions lay on
-    the kilometrage of before: until the next tag all of them hold.
+    the kilometrage of before: until the next tag all of them hold.  If ends were changed, either antenna may be the
+    head's now: one that has failed makes both count as failed.
     """
     if not is_braked(standstill(limits, computer)):
         return computer
@@ -395,4 +450,6 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
         spacing=antenna_spacing.turned(computer.spacing),
         length=train_length.note_kilometrage_changed(computer.length),
         brake=braking.stand_still(most_mm),
+        head=tag_reader.turned(computer.head, computer.tail),
+        tail=tag_reader.turned(computer.tail, computer.head),
     )

@@ -16,6 +16,7 @@ from kernel.onboard.odometry import SensorBounds
 from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import GREATEST_MEASURE_MM, LengthBounds
 
@@ -26,6 +27,7 @@ class Limits:
 
     ``antennas_mm``: from the head's antenna to the tail's, as preset (T3).
     ``length``: how the train's length is measured; the length of ``train`` is the greatest that it may have.
+    ``reader``: of each of the two antennas (T13, T16).
     """
 
     sensors: SensorBounds
@@ -37,6 +39,7 @@ class Limits:
     spacing: SpacingLimits
     antennas_mm: int
     length: LengthBounds
+    reader: ReaderLimits
 
 
 @dataclass(frozen=True)
@@ -162,6 +165,11 @@ def is_split_lawful(limits: SplitLimits, surveyed: Surveyed) -> bool:
     )
 
 
+def is_reader_lawful(reader: ReaderLimits) -> bool:
+    """Tell whether a gap between tags lasts a frame time or more (T16)."""
+    return reader.gap_frames >= 1
+
+
 def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
     """Tell whether a train may run by these limits; if not, its computer is not put into service (P1, P5, T2, T12)."""
     return (
@@ -172,5 +180,6 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         and is_spacing_lawful(limits.spacing, surveyed)
         and is_split_lawful(limits.split, surveyed)
         and is_length_lawful(limits, surveyed)
+        and is_reader_lawful(limits.reader)
         and limits.reverse.roll_back_mm >= 0
     )

@@ -91,6 +91,28 @@ def restarted() -> Reader:
     return replace(mended(), healthy=False)
 
 
+def turned(reader: Reader, other: Reader) -> Reader:
+    """Begin after a change of ends, or at another place: either of a train's antennas may be this one now (T13, T3).
+
+    So both count as failed while one of them does.
+    """
+    return mended() if reader.healthy and other.healthy else restarted()
+
+
+def next_cycle(reader: Reader) -> Reader:
+    """Forget the frames of before when a cycle of the computer begins, and what nobody took of them (T1, P7).
+
+    Where the train was is known within the newest cycle alone, so a record's two frames come within one.  The record
+    delivered last stays held: no passing is delivered twice.
+    """
+    return replace(reader, newest=NO_FRAME, second=NO_FRAME, third=NO_FRAME, fresh=False)
+
+
+def taken(reader: Reader) -> Reader:
+    """Wait for the next record: what was delivered in this frame time has been taken (T1)."""
+    return replace(reader, fresh=False)
+
+
 def is_sound(limits: ReaderLimits, level: Level) -> bool:
     """Tell whether the detection loop shows a sound antenna; a level not measured shows none (T13)."""
     return level.valid and limits.least_mv <= level.mv <= limits.most_mv

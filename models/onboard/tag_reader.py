@@ -38,18 +38,18 @@ class Passing:
     The rest is history, since the antenna was mended or the unit restarted.
     ``slots``: the last four frame times, the newest first.
     ``sick``: the antenna has failed, for a time at least.
-    ``told``: the record delivered last.  ``quiet_frames``: frame times since the last valid frame.
-    ``parted``: a whole gap has passed since ``told``.
-    ``told_before``: the record delivered before that; ``parted_before``: a gap lay between the two.
+    ``delivered``: the record delivered last.  ``quiet_frames``: frame times since the last valid frame.
+    ``parted``: a whole gap has passed since ``delivered``.
+    ``delivered_before``: the record delivered before that; ``parted_before``: a gap lay between the two.
     """
 
     reader: Reader
     slots: tuple[Slot, Slot, Slot, Slot]
     sick: bool
-    told: Frame
+    delivered: Frame
     quiet_frames: int
     parted: bool
-    told_before: Frame
+    delivered_before: Frame
     parted_before: bool
 
 
@@ -116,7 +116,7 @@ def pass_a_frame_time(site: Antenna, system: Passing, frame: Frame, level: Level
     )
     if not machine.delivers(reader):
         return after
-    return replace(after, told=reader.held, told_before=system.told, parted_before=parted, parted=False)
+    return replace(after, delivered=reader.held, delivered_before=system.delivered, parted_before=parted, parted=False)
 
 
 def mend(site: Antenna, system: Passing) -> Passing:
@@ -124,9 +124,45 @@ def mend(site: Antenna, system: Passing) -> Passing:
     return replace(begun(system), reader=machine.mended(), sick=False)
 
 
-def restart(site: Antenna, system: Passing) -> Passing:
-    """The unit restarts; whether the antenna had failed is still to be known (T13, T8)."""
-    return replace(begun(system), reader=machine.restarted())
+def restart(site: Antenna, system: Passing, sick: bool) -> Passing:
+    """The unit restarts; whether this antenna, or the one that is there now, had failed is still to be known (T13, T8).
+
+    ``sick``: it had.
+    """
+    return replace(begun(system), reader=machine.restarted(), sick=sick)
+
+
+def begin_anew(site: Antenna, system: Passing) -> Passing:
+    """The train begins anew where it stands, and no antenna of it is known to have failed that had not before (P7)."""
+    return replace(begun(system), reader=machine.turned(system.reader, system.reader))
+
+
+def take(site: Antenna, system: Passing) -> Passing:
+    """What was delivered in this frame time is taken (T1)."""
+    return replace(system, reader=machine.taken(system.reader))
+
+
+def begin_a_cycle(site: Antenna, system: Passing) -> Passing:
+    """A cycle of the computer begins; of frames that came before it none counts any more (T1, P7)."""
+    return replace(system, reader=machine.next_cycle(system.reader), slots=(NOTHING, NOTHING, NOTHING, NOTHING))
+
+
+def be_another(site: Antenna, system: Passing) -> Passing:
+    """Another antenna is heard from now on: what the one before was above was not below this one (T3, T13).
+
+    What was delivered before has been taken.
+    """
+    first, second, third, fourth = system.slots
+    return replace(
+        system,
+        reader=machine.taken(system.reader),
+        slots=(
+            replace(first, below=NO_FRAME),
+            replace(second, below=NO_FRAME),
+            replace(third, below=NO_FRAME),
+            replace(fourth, below=NO_FRAME),
+        ),
+    )
 
 
 def begun(system: Passing) -> Passing:
@@ -134,9 +170,9 @@ def begun(system: Passing) -> Passing:
     return replace(
         system,
         slots=(NOTHING, NOTHING, NOTHING, NOTHING),
-        told=NO_FRAME,
+        delivered=NO_FRAME,
         quiet_frames=0,
         parted=False,
-        told_before=NO_FRAME,
+        delivered_before=NO_FRAME,
         parted_before=False,
     )

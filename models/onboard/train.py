@@ -14,6 +14,7 @@ from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
 from models.onboard import (
+    antenna_above,
     antenna_spacing,
     brake_watch,
     braking,
@@ -47,6 +48,7 @@ from models.onboard.train_nature import (
     passage,
     profile,
     railway,
+    receiver,
     running,
     stretch,
     tail_comes_over,
@@ -60,6 +62,7 @@ from models.onboard.train_nature import (
     watched,
     watched_over,
     way_nm,
+    what_the_tail_has_read_is_taken_at_once,
     who_finds_the_train_whole_finds_its_antennas_as_preset,
     who_says_where_a_held_train_is_sees_it_stand,
 )
@@ -120,6 +123,8 @@ def run_a_cycle(
             at.speed_most_mm_s,
         ),
         proceeds=may_proceed,
+        head=antenna_above.begin_a_cycle(receiver(site), system.head),
+        tail=antenna_above.begin_a_cycle(receiver(site), system.tail),
         computer=decided,
     )
 
@@ -176,8 +181,11 @@ def sense_the_cycle(
 
 def come_apart(site: Train, system: Whole, apart_nm: int) -> Whole:
     """From now on another antenna speaks for the tail, or the same one elsewhere (T3, P5)."""
+    if not what_the_tail_has_read_is_taken_at_once(system):
+        return system
     return replace(
         system,
+        tail=antenna_above.be_another(receiver(site), system.tail),
         trailing=antenna_spacing.come_apart(track(site), system.trailing, apart_nm),
         formation=train_length.change_formation_untold(railway(site), formation(system), length_nm(site, apart_nm)),
     )
@@ -240,8 +248,15 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
     if located == system.computer:
         return system
     turned = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
-    length = train_length.change_kilometrage(railway(site), formation(system))
-    return _at_rest(site, replace(system, trailing=turned, formation=length, computer=located), least_mm, most_mm)
+    anew = replace(
+        system,
+        trailing=turned,
+        formation=train_length.change_kilometrage(railway(site), formation(system)),
+        head=antenna_above.turn(receiver(site), system.head, system.tail),
+        tail=antenna_above.turn(receiver(site), system.tail, system.head),
+        computer=located,
+    )
+    return _at_rest(site, anew, least_mm, most_mm)
 
 
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -285,6 +300,8 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         watched=replace(system.watched, kept=True, too_fast=False),
         trailing=_preset(site, system),
         formation=_made_up(site, system),
+        head=antenna_above.restart(receiver(site), system.head),
+        tail=antenna_above.restart(receiver(site), system.tail),
         computer=begun,
     )
     return _at_rest(site, inspected, least_mm, most_mm)

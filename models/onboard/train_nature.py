@@ -12,6 +12,7 @@ from kernel.onboard.braking import Brake
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
+from kernel.onboard.tag_reader import Frame
 from models.onboard import (
     antenna_spacing,
     brake_watch,
@@ -19,9 +20,11 @@ from models.onboard import (
     odometry,
     speed_limit,
     tag_fix,
+    tag_reader,
     tag_window,
     train_length,
 )
+from models.onboard.antenna_above import Above
 from models.onboard.antenna_spacing import Track, Trailing
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
@@ -68,6 +71,7 @@ class Whole:
     line, came over the tag that was awaited then, and which was not overdue.
     ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
     ``proceeds``: history: the orders let it proceed when its computer decided last.
+    ``head``, ``tail``: the antennas of head and tail, as the tag reader is proved with each.
     ``computer``: what its computer remembers.
     """
 
@@ -90,6 +94,8 @@ class Whole:
     asked: Brake
     held: bool
     proceeds: bool
+    head: Above
+    tail: Above
     computer: Computer
 
 
@@ -120,6 +126,11 @@ def watched_over(site: Train) -> brake_watch.Vehicle:
 def antenna(site: Train) -> Antenna:
     """Give the site of the world of tags."""
     return Antenna(limits=site.limits.tags, laid_within_mm=site.laid_within_mm, read_within_mm=site.read_within_mm)
+
+
+def receiver(site: Train) -> tag_reader.Antenna:
+    """Give the site of the tag reader's world, which is the same for both antennas."""
+    return tag_reader.Antenna(limits=site.limits.reader)
 
 
 def stretch(site: Train) -> Stretch:
@@ -373,9 +384,12 @@ def a_tag_lies_where_it_is_listed(site: Train, place_mm: int, uid: int) -> bool:
     return tag_fix.a_tag_lies_where_it_is_listed(antenna(site), place_mm, NM_A_MM * uid)
 
 
-def a_tag_is_read_in_the_read_window(site: Train, uid: int, read_at_nm: int) -> bool:
-    """An antenna reads a tag while it is no farther from it than its read window reaches (T2, T16)."""
-    return tag_fix.a_tag_is_read_in_the_read_window(antenna(site), NM_A_MM * uid, read_at_nm)
+def a_tag_is_below_within_the_read_window(site: Train, below: Frame, at_nm: int) -> bool:
+    """An antenna is over a tag while it is no farther from it than its read window reaches (T2, T16).
+
+    ``below``: the record of the tag below, numbered by where it lies; not valid where none is.
+    """
+    return not below.valid or tag_fix.a_tag_is_read_in_the_read_window(antenna(site), NM_A_MM * below.uid, at_nm)
 
 
 def a_kind_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> bool:
@@ -391,12 +405,17 @@ def what_lies_from_a_missed_tag_is_listed(system: Whole, in_curve: bool, at_turn
     )
 
 
-def the_tails_antenna_reads_in_its_window(site: Train, system: Whole, uid: int, read_at_nm: int) -> bool:
-    """So does the antenna that speaks for the tail, as far behind the head's as it is (T2, T16)."""
-    seen = replace(system.trailing, front_nm=read_at_nm)
-    return antenna_spacing.a_tag_is_read_in_the_read_window(
-        track(site), antenna_spacing.tail_nm(track(site), seen), uid
+def a_tag_is_below_the_tail_within_its_window(site: Train, system: Whole, below: Frame, at_nm: int) -> bool:
+    """So is the antenna that speaks for the tail, as far behind the head's as it is (T2, T16)."""
+    seen = replace(system.trailing, front_nm=at_nm)
+    return not below.valid or antenna_spacing.a_tag_is_read_in_the_read_window(
+        track(site), antenna_spacing.tail_nm(track(site), seen), below.uid
     )
+
+
+def what_the_tail_has_read_is_taken_at_once(system: Whole) -> bool:
+    """The computer's one task takes what the tail's reader delivers before the train can come apart (T2, T13)."""
+    return not system.tail.due
 
 
 def who_finds_the_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
@@ -407,7 +426,7 @@ def who_finds_the_train_whole_finds_its_antennas_as_preset(site: Train, system: 
 
 
 def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> bool:
-    """From where a tag was read the train runs on in the newest cycle no farther than its speeds allow (P1)."""
+    """From where it was in a frame time the train runs on in the newest cycle no farther than its speeds allow (P1)."""
     return tag_fix.the_way_follows_the_speed(read_at_nm, system.front_nm, system.from_um_s, system.speed_um_s)
 
 

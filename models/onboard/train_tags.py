@@ -10,7 +10,7 @@ from dataclasses import replace
 from kernel.onboard import computer, restriction_ahead
 from kernel.onboard.antenna_spacing import is_healthy
 from kernel.onboard.computer import Computer
-from models.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_length
+from models.onboard import antenna_above, antenna_spacing, braking, odometry, speed_limit, tag_window, train_length
 from models.onboard.braking import Approach
 from models.onboard.speed_limit import Passage
 from models.onboard.train_nature import (
@@ -18,7 +18,6 @@ from models.onboard.train_nature import (
     Whole,
     a_cycle_begins_when_the_one_before_was_sensed,
     a_kind_hides_no_restriction,
-    a_tag_is_read_in_the_read_window,
     a_tag_lies_where_it_is_listed,
     approach,
     braked,
@@ -27,10 +26,9 @@ from models.onboard.train_nature import (
     passage,
     profile,
     railway,
+    receiver,
     running,
     stretch,
-    the_rest_of_the_cycle_follows_the_speed,
-    the_tails_antenna_reads_in_its_window,
     track,
     way_nm,
     what_lies_from_a_missed_tag_is_listed,
@@ -41,29 +39,20 @@ UNASSIGNED = 0
 """The kind of a tag whose record is not looked at."""
 
 
-def read_a_tag(
-    site: Train,
-    system: Whole,
-    uid: int,
-    place_mm: int,
-    kind: int,
-    read_at_nm: int,
-    in_curve: bool,
-    at_turnout: bool,
-) -> Whole:
-    """In the newest cycle the head's antenna has read a tag that is listed at ``place_mm`` (T2, T5, P7, T12).
+def read_a_tag(site: Train, system: Whole, place_mm: int, in_curve: bool, at_turnout: bool) -> Whole:
+    """The head's reader has delivered the record of a tag that is listed at ``place_mm`` (T2, T5, P7, T12).
 
-    From it on lies a curve, a turnout, both or neither.
+    From that tag on lies a curve, a turnout, both or neither.
     """
+    tag, read_at_nm = system.head.lay_below, system.head.read_at_nm
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not a_tag_lies_where_it_is_listed(site, place_mm, uid):
+    if not a_tag_lies_where_it_is_listed(site, place_mm, tag.uid):
         return system
-    if not a_tag_is_read_in_the_read_window(site, uid, read_at_nm):
+    if not a_kind_hides_no_restriction(in_curve, at_turnout, tag.kind):
         return system
-    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
-        return system
-    if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
+    told = computer.read_by_head(site.limits, system.computer, place_mm)
+    if told == system.computer:
         return system
     if place_mm == system.awaited_mm:
         expecting = tag_window.read_a_tag(
@@ -71,16 +60,20 @@ def read_a_tag(
             system.expecting,
             way_nm(system, read_at_nm),
             computer.way_to(system.computer, computer.place_of_read(system.computer)),
-            way_nm(system, NM_A_MM * (uid + site.limits.tags.antenna_mm)),
+            way_nm(system, NM_A_MM * (tag.uid + site.limits.tags.antenna_mm)),
         )
     else:
         expecting = system.expecting
-    told = computer.read_by_head(site.limits, system.computer, uid, place_mm, kind)
     counts = computer.reads_in_window(site.limits, system.computer, place_mm)
-    there = _past_a_tag(site, passage(system, read_at_nm), told, counts, kind, in_curve, at_turnout)
-    passing = come_to_listed(site, there, told)
+    there = _past_a_tag(site, passage(system, read_at_nm), told, counts, tag.kind, in_curve, at_turnout)
     seen = replace(
-        system, in_curve=in_curve, at_turnout=at_turnout, expecting=expecting, passing=passing, computer=told
+        system,
+        in_curve=in_curve,
+        at_turnout=at_turnout,
+        expecting=expecting,
+        passing=come_to_listed(site, there, told),
+        head=antenna_above.take(receiver(site), system.head),
+        computer=told,
     )
     if not counts:
         return seen
@@ -89,9 +82,9 @@ def read_a_tag(
     return replace(
         seen,
         running=odometry.take_fix(line(site), running(system), fix.least_mm, fix.most_mm),
-        trailing=antenna_spacing.head_reads(track(site), apart, uid, computer.place_of_read(told)),
+        trailing=antenna_spacing.head_reads(track(site), apart, tag.uid, computer.place_of_read(told)),
         formation=train_length.head_passes(
-            railway(site), formation(system), read_at_nm, 0, computer.tag_passed(told, uid, computer.BY_HEAD_MS)
+            railway(site), formation(system), read_at_nm, 0, computer.tag_passed(told, tag.uid, computer.BY_HEAD_MS)
         ),
     )
 
@@ -149,36 +142,39 @@ def miss_a_tag(site: Train, system: Whole, in_curve: bool, at_turnout: bool) -> 
     )
 
 
-def read_unlisted(site: Train, system: Whole, read_at_nm: int, in_curve: bool, at_turnout: bool) -> Whole:
-    """In the newest cycle the head's antenna has read a tag of no list, whatever it says (T5, T12)."""
+def read_unlisted(site: Train, system: Whole, in_curve: bool, at_turnout: bool) -> Whole:
+    """The head's reader has delivered the record of a tag of no list, whatever it says (T5, T12)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     told = computer.read_unlisted(system.computer)
+    if told == system.computer:
+        return system
     there = speed_limit.pass_tag(
-        profile(site), passage(system, read_at_nm), in_curve, at_turnout, UNASSIGNED, False, 0, 0, 0
+        profile(site), passage(system, system.head.read_at_nm), in_curve, at_turnout, UNASSIGNED, False, 0, 0, 0
     )
     return replace(
         system,
         in_curve=in_curve,
         at_turnout=at_turnout,
         passing=come_to_listed(site, there, told),
+        head=antenna_above.take(receiver(site), system.head),
         computer=told,
     )
 
 
-def read_by_the_tail(site: Train, system: Whole, uid: int, read_at_nm: int) -> Whole:
-    """In the newest cycle the antenna that speaks for the tail has read a tag (T2, T13)."""
+def read_by_the_tail(site: Train, system: Whole) -> Whole:
+    """The reader of the antenna that speaks for the tail has delivered the record of a tag (T2, T13)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not the_tails_antenna_reads_in_its_window(site, system, uid, read_at_nm):
+    told = computer.read_by_tail(site.limits, system.computer)
+    if told == system.computer:
         return system
-    if not the_rest_of_the_cycle_follows_the_speed(system, read_at_nm):
-        return system
+    uid, read_at_nm = system.tail.lay_below.uid, system.tail.read_at_nm
     there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
-    told = computer.read_by_tail(site.limits, system.computer, uid)
     read = replace(
         system,
         trailing=antenna_spacing.tail_reads(track(site), there, uid, computer.place_of_read(system.computer)),
+        tail=antenna_above.take(receiver(site), system.tail),
         computer=told,
     )
     if not is_healthy(told.spacing):

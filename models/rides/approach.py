@@ -106,7 +106,9 @@ def let_run(computer: Any, end_mm: int) -> Any:
         NO_CEILING,
     )  # fmt: skip
     brake = Brake(False, end_mm, False)
-    return Computer(known, computer.before, computer.from_mm, computer.spacing, computer.length, brake)
+    return Computer(
+        known, computer.before, computer.from_mm, computer.spacing, computer.length, brake, computer.head, computer.tail
+    )  # fmt: skip
 
 
 @compiled

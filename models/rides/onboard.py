@@ -57,13 +57,13 @@ ON_BOARD = Limits(
     spacing=PLAN.spacing,
     antennas_mm=LENGTH_MM,
     length=PLAN.length,
+    reader=PLAN.reader,
 )
 """What is written of the rides' train; its antennas are at its very ends."""
 LIMITS = packed(ON_BOARD)
 SENSORS = packed(PLAN.sensors)
 SPLIT_LIMITS = packed(PLAN.split)
 BRAKE = packed(PLAN.brake)
-READER_LIMITS = packed(PLAN.reader)
 SPACING_LIMITS = packed(PLAN.spacing)
 LENGTH_BOUNDS = packed(PLAN.length)
 

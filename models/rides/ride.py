@@ -22,7 +22,6 @@ from models.rides.onboard import (
     LIMITS,
     LOCATED,
     MADE,
-    READER_LIMITS,
     SENSORS,
     SPACING_LIMITS,
     SPLIT_LIMITS,
@@ -54,7 +53,8 @@ take_end, NO_CEILING = MADE.braking.take_end, MADE.ceiling.NONE
 note_fix, rear_least_mm = MADE.computer.note_fix, MADE.odometry.rear_least_mm
 way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings
-note_frame, delivers, mended = MADE.tag_reader.note_frame, MADE.tag_reader.delivers, MADE.tag_reader.mended
+note_head_frame, note_tail_frame = MADE.computer.note_head_frame, MADE.computer.note_tail_frame
+mend_head, mend_tail, delivers = MADE.computer.mend_head, MADE.computer.mend_tail, MADE.tag_reader.delivers
 Frame, NO_FRAME, LEVEL = MADE.tag_reader.Frame, MADE.tag_reader.NO_FRAME, MADE.tag_reader.Level(GOOD_LEVEL_MV, True)
 is_healthy, contradicts_itself = MADE.antenna_spacing.is_healthy, MADE.train_length.contradicts_itself
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
@@ -64,10 +64,8 @@ PLAIN = tag_kind.PLAIN
 
 
 class Ends(NamedTuple):
-    """The readers of both antennas, and which tags are next for them."""
+    """Which tags are next for both antennas."""
 
-    head_reader: Any
-    tail_reader: Any
     next_head: int
     next_tail: int
 
@@ -119,55 +117,65 @@ def hold_assumptions(trace: Any, cycle: int, before: Any, after: Any, readings: 
 
 
 @compiled
-def passes(reader: Any, uid: int, frames: int) -> Any:
-    """An antenna passes a tag: frames into the reader; is its record delivered (T16)."""
-    delivered = False
-    for _ in range(READER_LIMITS.gap_frames):
-        reader = note_frame(READER_LIMITS, reader, NO_FRAME, LEVEL)
-    for _ in range(min(frames, FRAMES_FED)):
-        reader = note_frame(READER_LIMITS, reader, Frame(True, uid, 0, 0, 0), LEVEL)
-        delivered = delivered or delivers(reader)
-    return reader, delivered
+def frame_of(uid: int, came: int) -> Any:
+    """What an antenna hears in a frame time: silence before a tag, then its frames (T16)."""
+    return Frame(True, uid, 0, 0, PLAIN) if came >= 0 else NO_FRAME
 
 
 @compiled
 def under_the_head(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> Any:
     """The head's antenna passes a tag: if it is delivered, the computer takes it, and awaits the next (T5, T13, T3)."""
-    tag = ends.next_head
-    reader, delivered = passes(ends.head_reader, tag + 1, trace.tag_frames[tag])
+    tag, delivered = ends.next_head, False
+    for came in range(-LIMITS.reader.gap_frames, min(trace.tag_frames[tag], FRAMES_FED)):
+        computer = note_head_frame(LIMITS, computer, frame_of(tag + 1, came), LEVEL)
+        if delivers(computer.head):
+            computer, delivered = read_under_the_head(trace, cycle, computer, out), True
     out[tally.TAGS_READ] += delivered
     out[tally.TAGS_MISSED] += not delivered
-    ends = Ends(reader, ends.tail_reader, tag + 1, ends.next_tail)
-    if not delivered:
-        return computer, ends
+    return computer, Ends(tag + 1, ends.next_tail)
+
+
+@compiled
+def read_under_the_head(trace: Any, cycle: int, computer: Any, out: Any) -> Any:
+    """The computer takes the tag that its head has read, and awaits the next one of the line (T5, T13, T3)."""
+    tag = computer.head.held.uid - 1
     place_mm = trace.tags_mm[tag]
     if computer.known.window.expected and not reads_in_window(LIMITS, computer, place_mm):
         out[tally.TAG_OUTSIDE_WINDOW] += 1
     was_located, fix = computer.known.motion.loss == LOCATED, fix_of(LIMITS, computer, place_mm)
-    computer = read_by_head(LIMITS, computer, tag + 1, place_mm, PLAIN)
+    computer = read_by_head(LIMITS, computer, place_mm)
     if was_located:
         out[tally.FIX_BROKEN] += not fix.least_mm <= trace.head_m[cycle] * 1000 <= fix.most_mm
         out[tally.CONTRADICTED] += computer.known.motion.loss == CONTRADICTED
     if tag + 1 < len(trace.tags_mm):
-        return await_tag(LIMITS, computer, trace.tags_mm[tag + 1], PLAIN), ends
-    return await_none(computer), ends
+        return await_tag(LIMITS, computer, trace.tags_mm[tag + 1], PLAIN)
+    return await_none(computer)
 
 
 @compiled
 def under_the_tail(trace: Any, cycle: int, computer: Any, ends: Any, out: Any) -> Any:
     """The tail's antenna passes a tag: is it one antenna distance behind the head; then the length (T13, T3)."""
-    tag, before = ends.next_tail, computer.length
-    reader, delivered = passes(ends.tail_reader, tag + 1, trace.tag_frames[tag])
-    if delivered:
-        computer = read_by_tail(LIMITS, computer, tag + 1)
-        spacing, motion, length = computer.spacing, computer.known.motion, computer.length
-        out[tally.SPACING_BROKEN] += spacing.broken
-        hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
-        out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
-        out[tally.LENGTHS] += length.measured and not before.measured
-        if is_healthy(spacing):
-            out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length) or contradicts_itself(length)
-    return computer, Ends(ends.head_reader, reader, ends.next_head, tag + 1)
+    tag = ends.next_tail
+    for came in range(-LIMITS.reader.gap_frames, min(trace.tag_frames[tag], FRAMES_FED)):
+        computer = note_tail_frame(LIMITS, computer, frame_of(tag + 1, came), LEVEL)
+        if delivers(computer.tail):
+            computer = read_under_the_tail(trace, cycle, computer, out)
+    return computer, Ends(ends.next_head, tag + 1)
+
+
+@compiled
+def read_under_the_tail(trace: Any, cycle: int, computer: Any, out: Any) -> Any:
+    """The computer takes the tag that its tail has read (T13, T3)."""
+    before = computer.length
+    computer = read_by_tail(LIMITS, computer)
+    spacing, motion, length = computer.spacing, computer.known.motion, computer.length
+    out[tally.SPACING_BROKEN] += spacing.broken
+    hidden_mm = 4 * SPACING_LIMITS.tolerance_mm + 2 * (motion.front_most_mm - motion.front_least_mm)
+    out[tally.FALSE_TAIL_ACCEPTED] += is_healthy(spacing) and trace.gap_m[cycle] * 1000 > hidden_mm
+    out[tally.LENGTHS] += length.measured and not before.measured
+    if is_healthy(spacing):
+        out[tally.LENGTH_CONTRADICTS] += contradicts_the_line(LENGTH_BOUNDS, length) or contradicts_itself(length)
+    return computer
 
 
 @compiled
@@ -275,7 +283,7 @@ def with_end(computer: Any, end_mm: int) -> Any:
     most_mm = computer.known.motion.front_most_mm
     return Computer(
         computer.known, computer.before, computer.from_mm, computer.spacing, computer.length,
-        take_end(BRAKE, computer.brake, most_mm, 0, end_mm),
+        take_end(BRAKE, computer.brake, most_mm, 0, end_mm), computer.head, computer.tail,
     )  # fmt: skip
 
 
@@ -284,8 +292,8 @@ def ride(trace: Any, out: Any) -> Any:
     """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and computer."""
     start_mm = int(trace.head_m[0] * 1000)
     computer = put_into_service(LIMITS, NO_CEILING, start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM)
-    computer = with_end(computer, start_mm + FAR_MM)
-    ends, apart = Ends(mended(), mended(), 0, 0), Apart(False, 0, -1)
+    computer = mend_tail(mend_head(with_end(computer, start_mm + FAR_MM)))
+    ends, apart = Ends(0, 0), Apart(False, 0, -1)
     curve, anchor_m, cycle = Curve(0, AWAITED, 0), trace.head_m[0], 0
     fronts_mm, trusted = np.empty(len(trace.head_m), np.int64), np.empty(len(trace.head_m), np.bool_)
     for cycle in range(len(trace.head_m)):

@@ -5,7 +5,7 @@ Each decision is a function of ``kernel.onboard``; here they are only fed, and t
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -18,6 +18,7 @@ from kernel.onboard.ceiling import NONE as NO_CEILING
 from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits, are_lawful
 from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_reader import NO_FRAME, Frame, Level
 from kernel.onboard.way import Way
 from kernel.standstill import Standstill, ThroughLine, is_braked
 from kernel.tag_list import TagLists
@@ -30,6 +31,8 @@ from models.simulation.cycles import Cycling, Held, Interpreted
 
 Listed = tuple[int, int]
 """Where a list has a tag, and its kind."""
+GOOD_LEVEL = Level(mv=1_000, valid=True)
+"""What the detection loop of an antenna shows here: none of them fails."""
 LOCATED_WITHIN_MM = 2_000
 """To so much either way a train at rest is located anew, by the tag or the post beside it (ours)."""
 
@@ -98,16 +101,18 @@ class OnBoard:
 
     def head_reads(self, number: int, place_mm: int | None, kind: int) -> bool:
         """The head reads a tag: is it where the list has it, if it is listed at all (T5, P7, T12, T13)."""
+        computer = _passes(computing.note_head_frame, self.limits, self.computer, number, kind)
         if place_mm is None:
-            self.computer = computing.read_unlisted(self.computer)
+            self.computer = computing.read_unlisted(computer)
             return False
-        in_window = computing.reads_in_window(self.limits, self.computer, place_mm)
-        self.computer = computing.read_by_head(self.limits, self.computer, number, place_mm, kind)
+        in_window = computing.reads_in_window(self.limits, computer, place_mm)
+        self.computer = computing.read_by_head(self.limits, computer, place_mm)
         return in_window and self.place.known
 
-    def tail_reads(self, number: int, answers: bool) -> ThroughLine:
+    def tail_reads(self, number: int, kind: int, answers: bool) -> ThroughLine:
         """The tail reads a tag: what says whether it is the train's last antenna (T13, P5)."""
-        self.computer = computing.read_by_tail(self.limits, self.computer, number)
+        computer = _passes(computing.note_tail_frame, self.limits, self.computer, number, kind)
+        self.computer = computing.read_by_tail(self.limits, computer)
         return self.line(answers)
 
     def line(self, answers: bool) -> ThroughLine:
@@ -188,8 +193,22 @@ class OnBoard:
         self.computer = computing.made_up(self.limits, self.computer)
 
 
+def _passes(
+    note_frame: Callable[[Limits, Computer, Frame, Level], Computer],
+    limits: Limits,
+    computer: Computer,
+    number: int,
+    kind: int,
+) -> Computer:
+    """An antenna passes a tag, after a gap: two frames that say the same, with which its record is delivered (T16)."""
+    frame = Frame(valid=True, uid=number, block=0, distance_mm=0, kind=kind)
+    for heard in (*[NO_FRAME] * limits.reader.gap_frames, frame, frame):
+        computer = note_frame(limits, computer, heard, GOOD_LEVEL)
+    return computer
+
+
 def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> OnBoard:
-    """The machines of a train that stands, located and found whole, and what runs their cycles."""
+    """The machines of a train that stands, located and found whole with sound antennas, and what runs their cycles."""
     written_mm = length_mm + SURVEYED.preset_within_mm
     limits = Limits(
         sensors=PLAN.sensors,
@@ -203,8 +222,9 @@ def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> O
         length=replace(
             PLAN.length, line_maximum_mm=written_mm, front_overhang_mm=ANTENNA_MM, rear_overhang_mm=ANTENNA_MM
         ),
+        reader=PLAN.reader,
     )
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
     begun = computing.put_into_service(limits, NO_CEILING, least_mm, most_mm)
-    return OnBoard(length_mm, limits, cycling(limits, begun))
+    return OnBoard(length_mm, limits, cycling(limits, computing.mend_tail(computing.mend_head(begun))))

@@ -245,7 +245,7 @@ class Line(Drive):
     def reads_as_tail(self, train: OnRails, tag: Tag) -> ThroughLine:
         """Take a read by the last car's antenna; what line and machines say of the way to the train's tail."""
         vehicle = self.vehicles[train.name]
-        return vehicle.board.tail_reads(self.numbers[tag], vehicle.line_answers(self.now_ms))
+        return vehicle.board.tail_reads(self.numbers[tag], self.kinds.get(tag, 0), vehicle.line_answers(self.now_ms))
 
     def _happens(self, fault: str) -> bool:
         return happens(fault, self.chosen, self.random, self.seen)

@@ -9,10 +9,14 @@ from models.onboard.tag_reader import (
     Passing,
     Slot,
     a_gap_has_a_length,
+    be_another,
+    begin_a_cycle,
+    begin_anew,
     is_right,
     mend,
     pass_a_frame_time,
     restart,
+    take,
 )
 from proofs.theory import Theory, by_name
 
@@ -24,7 +28,7 @@ def the_unit_has_just_started(site: Antenna, system: Passing) -> bool:
     return (
         system.reader == machine.restarted()
         and system.slots == (NOTHING, NOTHING, NOTHING, NOTHING)
-        and not system.told.valid
+        and not system.delivered.valid
     )
 
 
@@ -61,7 +65,7 @@ def an_unhealthy_antenna_delivers_nothing(site: Antenna, system: Passing) -> boo
 
 def a_passing_is_delivered_once(site: Antenna, system: Passing) -> bool:
     """Of two records delivered one after the other the second is another tag's, or a gap lies between (T1)."""
-    return not system.told.valid or system.told != system.told_before or system.parted_before
+    return not system.delivered.valid or system.delivered != system.delivered_before or system.parted_before
 
 
 # ---- what they rest on
@@ -84,7 +88,12 @@ def a_sick_antenna_counts_as_unhealthy(site: Antenna, system: Passing) -> bool:
 
 def what_was_told_is_held_until_a_gap(site: Antenna, system: Passing) -> bool:
     """The record delivered last is held, unless a gap has passed (T1)."""
-    return not system.reader.healthy or not system.told.valid or system.parted or system.reader.held == system.told
+    return (
+        not system.reader.healthy
+        or not system.delivered.valid
+        or system.parted
+        or system.reader.held == system.delivered
+    )
 
 
 def silence_is_counted(site: Antenna, system: Passing) -> bool:
@@ -109,7 +118,7 @@ INVARIANTS = (
     silence_is_counted,
 )
 PREMISES = (a_gap_has_a_length,)
-STEPS = (pass_a_frame_time, mend, restart)
+STEPS = (pass_a_frame_time, take, begin_a_cycle, mend, restart, begin_anew, be_another)
 
 THEORY = Theory(
     "tag_reader",

@@ -52,7 +52,16 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM, UM_A_MM, whole_mm
 from models.world.truth import is_overdue_first, only_the_last_speaks
-from proofs.onboard import antenna_spacing, braking, odometry, speed_limit, tag_window, train_parts, train_service
+from proofs.onboard import (
+    antenna_spacing,
+    braking,
+    odometry,
+    speed_limit,
+    tag_window,
+    train_antennas,
+    train_parts,
+    train_service,
+)
 from proofs.onboard.train_parts import (
     a_narrow_range_finds_what_the_head_missed,
     a_tail_over_a_missed_tag_is_known_too_widely,
@@ -323,11 +332,6 @@ def there_is_one_train(site: Train, system: Whole) -> bool:
     )
 
 
-def the_computer_has_the_proved_odometry(site: Train, system: Whole) -> bool:
-    """What the computer knows of place and speed is what the odometry of its proof does."""
-    return system.computer.known.motion == system.running.motion
-
-
 def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
     """Its brake, what it knows of restrictions ahead, and its ceiling are those of the brake control's proof."""
     brake, ahead = system.computer.brake, system.computer.known.ahead
@@ -338,27 +342,12 @@ def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
     )
 
 
-def the_computer_has_the_proved_watch(site: Train, system: Whole) -> bool:
-    """Its watch is the one of the brake watch's proof."""
-    return system.computer.known.watch == system.watched.watch
-
-
-def the_computer_has_the_proved_window(site: Train, system: Whole) -> bool:
-    """Its window for the next tag is the one of the window's proof."""
-    return system.computer.known.window == system.expecting.window
-
-
-def the_computer_has_the_proved_spacing(site: Train, system: Whole) -> bool:
-    """What it knows of its antennas is what the proof of their spacing does."""
-    return system.computer.spacing == system.trailing.spacing
-
-
-def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
-    """What it knows of its track is what the proof of the speed limit does."""
-    return system.computer.known.limit == system.passing.limit
-
-
-INITIAL = (the_train_stands_held_by_its_brake, the_antennas_are_not_preset_yet, train_parts.nothing_is_measured)
+INITIAL = (
+    the_train_stands_held_by_its_brake,
+    the_antennas_are_not_preset_yet,
+    train_parts.nothing_is_measured,
+    *train_antennas.INITIAL,
+)
 SAFETY = (
     the_front_stays_before_the_end,
     the_front_is_where_the_computer_says,
@@ -387,13 +376,14 @@ SAFETY = (
     a_standstill_that_is_told_is_one,
     the_awaited_tag_is_counted_to_where_it_is_listed,
     there_is_one_train,
-    the_computer_has_the_proved_odometry,
+    train_parts.the_computer_has_the_proved_odometry,
     the_computer_has_the_proved_brake,
-    the_computer_has_the_proved_watch,
-    the_computer_has_the_proved_window,
-    the_computer_has_the_proved_spacing,
-    the_computer_has_the_proved_limit,
+    train_parts.the_computer_has_the_proved_watch,
+    train_parts.the_computer_has_the_proved_window,
+    train_parts.the_computer_has_the_proved_spacing,
+    train_parts.the_computer_has_the_proved_limit,
     *train_parts.OF_THE_LENGTH,
+    *train_antennas.SAFETY,
 )
 INVARIANTS = (
     *SAFETY,
@@ -442,6 +432,7 @@ INVARIANTS = (
     what_the_head_is_on_is_known,
     train_parts.no_list_has_more_where_the_front_may_be,
     *train_parts.BEHIND_THE_LENGTH,
+    *train_antennas.BEHIND,
 )
 PREMISES = (
     the_odometrys_bounds_fit,
@@ -452,6 +443,7 @@ PREMISES = (
     the_antennas_lie_farther_apart_than_the_window_is_long,
     the_lengths_bounds_fit,
     one_length_is_written_and_it_covers_the_antennas,
+    *train_antennas.PREMISES,
 )
 STEPS = (
     run_a_cycle,
@@ -460,6 +452,7 @@ STEPS = (
     train_tags.miss_a_tag,
     train_tags.read_unlisted,
     train_tags.read_by_the_tail,
+    *train_antennas.STEPS,
     come_apart,
     take_end,
     withhold_end,
@@ -493,5 +486,6 @@ THEORY = Theory(
         "antenna_spacing",
         "speed_limit",
         "train_length",
+        "tag_reader",
     ),
 )

@@ -309,6 +309,34 @@ def the_computer_was_located_a_cycle_ago(site: Train, system: Whole) -> bool:
     )
 
 
+# ---- its computer has the proved machines
+
+
+def the_computer_has_the_proved_odometry(site: Train, system: Whole) -> bool:
+    """What the computer knows of place and speed is what the odometry of its proof does."""
+    return system.computer.known.motion == system.running.motion
+
+
+def the_computer_has_the_proved_watch(site: Train, system: Whole) -> bool:
+    """Its watch is the one of the brake watch's proof."""
+    return system.computer.known.watch == system.watched.watch
+
+
+def the_computer_has_the_proved_window(site: Train, system: Whole) -> bool:
+    """Its window for the next tag is the one of the window's proof."""
+    return system.computer.known.window == system.expecting.window
+
+
+def the_computer_has_the_proved_spacing(site: Train, system: Whole) -> bool:
+    """What it knows of its antennas is what the proof of their spacing does."""
+    return system.computer.spacing == system.trailing.spacing
+
+
+def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
+    """What it knows of its track is what the proof of the speed limit does."""
+    return system.computer.known.limit == system.passing.limit
+
+
 # ---- the train's length
 
 

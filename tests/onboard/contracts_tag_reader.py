@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard.tag_reader import NO_FRAME, Frame, Level, ReaderLimits, delivers, mended, note_frame, restarted
+from kernel.onboard.tag_reader import (
+    NO_FRAME,
+    Frame,
+    Level,
+    ReaderLimits,
+    delivers,
+    mended,
+    next_cycle,
+    note_frame,
+    restarted,
+    taken,
+    turned,
+)
 
 LIMITS = ReaderLimits(least_mv=800, most_mv=1_200, gap_frames=6)
 SOUND = Level(mv=1_000, valid=True)
@@ -55,3 +67,29 @@ def silence_is_counted_to_a_gap(quiet_frames: int) -> None:
     after = note_frame(LIMITS, replace(mended(), held=ONE, quiet_frames=quiet_frames), NO_FRAME, SOUND)
     assert after.quiet_frames <= 6
     assert after.held.valid == (quiet_frames < 5)
+
+
+def an_antenna_that_failed_makes_both_fail(healthy: bool, other: bool, uid: int) -> None:
+    """Once ends may have been changed; and nothing that was heard before counts (T13, T3)."""
+    assert isinstance(uid, int)
+    heard = replace(ONE, uid=uid)
+    before = replace(mended(), newest=heard, held=heard, fresh=healthy, healthy=healthy)
+    after = turned(before, replace(mended(), healthy=other))
+    assert after == (mended() if healthy and other else restarted())
+
+
+def a_frame_before_a_cycle_is_none_of_two(uid: int, fresh: bool) -> None:
+    """Nor is a record taken that was delivered before it (T1, P7)."""
+    assert isinstance(uid, int)
+    heard = replace(ONE, uid=uid)
+    begun = next_cycle(replace(mended(), newest=heard, second=heard, third=heard, held=heard, fresh=fresh))
+    assert not delivers(begun)
+    assert begun.held == heard
+    assert not delivers(note_frame(LIMITS, begun, heard, SOUND))
+
+
+def what_was_taken_is_delivered_no_more(uid: int, fresh: bool) -> None:
+    """And the rest stays (T1)."""
+    assert isinstance(uid, int)
+    before = replace(mended(), newest=replace(ONE, uid=uid), fresh=fresh)
+    assert taken(before) == replace(before, fresh=False)

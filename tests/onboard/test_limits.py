@@ -21,6 +21,7 @@ from kernel.onboard.limits import (
     are_tags_lawful,
     is_brake_lawful,
     is_length_lawful,
+    is_reader_lawful,
     is_spacing_lawful,
     is_split_lawful,
     is_window_lawful,
@@ -30,10 +31,12 @@ from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import LengthBounds
 from models.layouts.measures import ANTENNA_MM
 from models.onboard import antenna_spacing, reverse_movement, split, tag_window
+from models.onboard.train_antennas import a_gap_between_tags_has_a_length
 from models.onboard.train_nature import (
     Train,
     one_length_is_written_and_it_covers_the_antennas,
@@ -56,6 +59,7 @@ LAWFUL = Limits(
     spacing=PLAN.spacing,
     antennas_mm=130_000 - 2 * ANTENNA_MM,
     length=replace(PLAN.length, line_maximum_mm=130_086, front_overhang_mm=ANTENNA_MM, rear_overhang_mm=ANTENNA_MM),
+    reader=PLAN.reader,
 )
 SMALL = st.integers(-2, 40)
 SPEEDS = st.builds(SpeedTable, SMALL, SMALL, SMALL)
@@ -70,6 +74,7 @@ LIMITS = st.builds(
     spacing=st.builds(SpacingLimits, SMALL, SMALL),
     antennas_mm=SMALL,
     length=st.builds(LengthBounds, *[SMALL] * len(fields(LengthBounds))),
+    reader=st.builds(ReaderLimits, *[SMALL] * len(fields(ReaderLimits))),
 )
 SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL, SMALL, st.integers(-2, 200), SMALL)
 
@@ -106,6 +111,7 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         and antenna_spacing.is_off(track, NM_A_MM * surveyed.vehicle_mm),
         "length": the_lengths_bounds_fit(site) and one_length_is_written_and_it_covers_the_antennas(site),
         "reverse": reverse_movement.bounds_are_not_negative(wheel),
+        "reader": a_gap_between_tags_has_a_length(site),
     }
 
 
@@ -120,6 +126,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "spacing": is_spacing_lawful(limits.spacing, surveyed),
         "length": is_length_lawful(limits, surveyed),
         "reverse": limits.reverse.roll_back_mm >= 0,
+        "reader": is_reader_lawful(limits.reader),
     }
 
 
@@ -131,6 +138,7 @@ def test_limits_are_lawful_where_every_premise_holds_of_them_and_only_there(limi
     assert said["tags and window"] == (asked["tags"] and asked["window"])
     assert said["split"] == asked["split"]
     assert said["spacing"] == asked["spacing"]
+    assert said["reader"] == asked["reader"]
     assert said["length"] == asked["length"] or surveyed.read_within_mm < 0
     assert are_lawful(limits, surveyed) == all(said.values())
     assert not are_lawful(limits, surveyed) or all(asked.values())

@@ -97,11 +97,12 @@ def rarely(one_in: int) -> st.SearchStrategy[bool]:
 
 
 EVENTS = st.builds(
-    lambda heard, other, wrong, level, any_level, sick: (
+    lambda heard, other, wrong, level, any_level, sick, then: (
         heard,
         other if wrong else heard,
         any_level if sick else level,
         sick,
+        then,
     ),
     heard=FRAMES,
     other=FRAMES,
@@ -109,6 +110,7 @@ EVENTS = st.builds(
     level=SOUND_LEVELS,
     any_level=ANY_LEVEL,
     sick=rarely(40),
+    then=st.sampled_from((*[""] * 16, "take", "begin_a_cycle", "begin_anew", "be_another")),
 )
 
 
@@ -117,16 +119,19 @@ def test_drawn_worlds_keep_what_is_claimed() -> None:
 
     @given(runs=st.lists(st.lists(EVENTS, min_size=10, max_size=30), max_size=4), mended=st.booleans())
     @settings(max_examples=100, deadline=None, derandomize=True)
-    def drawn_worlds(runs: list[list[tuple[Frame, Frame, Level, bool]]], mended: bool) -> None:
+    def drawn_worlds(runs: list[list[tuple[Frame, Frame, Level, bool, str]]], mended: bool) -> None:
         play = Play(THEORY, SITE, JUST_STARTED)
         for run in runs:
-            play.step("mend" if mended else "restart")
+            play.step("mend") if mended else play.step("restart", sick=play.system.sick)
             mended = True
-            for heard, below, level, sick in run:
+            for heard, below, level, sick, then in run:
                 play.step("pass_a_frame_time", frame=heard, level=level, below=below, sick=sick)
                 seen["delivered"] += machine.delivers(play.system.reader)
                 seen["sick"] += play.system.sick
                 seen["wrong"] += heard.valid and play.system.slots[0] == Slot(heard, below) and heard != below
+                if then:
+                    play.step(then)
+                    assert not machine.delivers(play.system.reader)
 
     drawn_worlds()
     assert all(count > 100 for count in seen.values()), seen

@@ -10,13 +10,12 @@ import pytest
 
 from proofs import lints, usage
 from proofs.lints_on_board import (
-    BESIDE_THE_COMPUTER,
     NO_MACHINES,
     NOTED,
     OTHERS,
     TOLD,
     Open,
-    hosts_beside_the_computer,
+    beside_without_a_reason,
     machine_fields,
     open_to,
     run_beside_the_computer,
@@ -164,11 +163,19 @@ def test_every_theory_is_registered(tmp_path: Path) -> None:
 
 
 def test_who_runs_a_machine_beside_the_computer_says_why() -> None:
-    found = hosts_beside_the_computer(ROOT)
-    for path, offences in found.items():
-        assert any(path == each or path.startswith(f"{each}/") for each in BESIDE_THE_COMPUTER), (path, offences)
-    for each in BESIDE_THE_COMPUTER:
-        assert any(path == each or path.startswith(f"{each}/") for path in found), f"{each} no longer does"
+    assert beside_without_a_reason(ROOT) == []
+
+
+def test_a_reader_that_a_host_runs_beside_the_computer_is_no_longer_on_the_list(tmp_path: Path) -> None:
+    """Nor is a machine that no host runs so any more."""
+    ride = tmp_path / "models" / "rides" / "ride.py"
+    ride.parent.mkdir(parents=True)
+    (tmp_path / "heisoku.py").touch()
+    ride.write_text("note, taken = MADE.tag_reader.note_frame, MADE.braking.take_end")
+    found = beside_without_a_reason(tmp_path)
+    assert "models/rides/ride.py runs tag_reader" in found
+    assert "models/rides no longer runs feature" in found
+    assert not any("braking" in each for each in found if each.startswith("models/rides"))
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.ceiling import NONE as NO_CEILING
+from kernel.onboard.computer import Computer
 from kernel.onboard.limits import Limits
 from kernel.onboard.odometry import Readings
 from kernel.onboard.reverse_movement import ReverseLimits
@@ -18,8 +19,10 @@ from kernel.onboard.split import Acceleration, SplitLimits
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_kind import PLAIN
+from kernel.onboard.tag_reader import NO_FRAME, Frame
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import UNMEASURED, LengthBounds
+from models.onboard.antenna_above import Above
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
 from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
@@ -34,6 +37,9 @@ from proofs.onboard.train import THEORY
 from proofs.onboard.witnesses.antenna_spacing import JUST_STARTED
 from proofs.onboard.witnesses.play import Play
 from proofs.onboard.witnesses.rolling_stock import AT_POWER_ON, BOUNDS, START_MM
+from proofs.onboard.witnesses.tag_reader import JUST_STARTED as NOTHING_HEARD
+from proofs.onboard.witnesses.tag_reader import SITE as READER
+from proofs.onboard.witnesses.tag_reader import SOUND
 from proofs.onboard.witnesses.tag_window import AT_REST as NOTHING_AWAITED
 from proofs.onboard.witnesses.train_length import JUST_STARTED as NOTHING_MEASURED
 
@@ -57,6 +63,7 @@ LIMITS = Limits(
         window_mm=1_000,
         width_mm=20_000,
     ),
+    reader=READER.limits,
 )
 SITE = Train(
     LIMITS,
@@ -72,6 +79,8 @@ END_MM = START_MM + 400_000
 LEVEL = Acceleration(0, True)
 TAIL = TailReadings(LEVEL, True, LEVEL, LEVEL, 200)
 SHOWN_MM = AT_POWER_ON.motion.way_mm
+ABOVE_NOTHING = Above(NOTHING_HEARD, 0, 0, 0, 0, NO_FRAME, 0, False)
+AT_THE_HEAD, AT_THE_TAIL = "pass_a_frame_time_at_the_head", "pass_a_frame_time_at_the_tail"
 
 
 def at_rest() -> Whole:
@@ -118,6 +127,8 @@ def at_rest() -> Whole:
         asked=begun.brake,
         held=True,
         proceeds=False,
+        head=ABOVE_NOTHING,
+        tail=ABOVE_NOTHING,
         computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
     )
 
@@ -129,7 +140,39 @@ class Ride(Play[Train, Whole]):
         """Begin at rest."""
         super().__init__(THEORY, SITE, at_rest())
         self.step("find_whole")
+        self.step("mend_the_heads_antenna")
+        self.step("mend_the_tails_antenna")
         self.wheel_nm = SHOWN_MM * NM_A_MM
+
+    # ---- what its antennas hear
+
+    def hears(self, tag: Frame, *, front_mm: int, times: int = 2, antenna: str = AT_THE_HEAD) -> None:
+        """So many frames of the tag that is below an antenna come, the front being there."""
+        for _ in range(times):
+            event = {"frame": tag, "level": SOUND, "below": tag, "sick": False, "at_nm": front_mm * NM_A_MM}
+            self.step(antenna, **event)
+
+    def reads(
+        self,
+        tag_mm: int,
+        *,
+        place_mm: int | None = None,
+        front_mm: int | None = None,
+        kind: int = PLAIN,
+        in_curve: bool = False,
+        at_turnout: bool = False,
+    ) -> None:
+        """The head reads the tag that lies here, just over it, and listed just there, unless told otherwise."""
+        self.hears(record(tag_mm, kind), front_mm=tag_mm + 4_000 if front_mm is None else front_mm)
+        listed_mm = tag_mm if place_mm is None else place_mm
+        self.step("read_a_tag", place_mm=listed_mm, in_curve=in_curve, at_turnout=at_turnout)
+
+    def tail_reads(self, tag_mm: int, *, front_mm: int) -> None:
+        """The antenna that speaks for the tail reads the tag that lies here."""
+        self.hears(record(tag_mm), front_mm=front_mm, antenna=AT_THE_TAIL)
+        self.step("read_by_the_tail")
+
+    # ---- how it runs
 
     def run(self, speed_mm_s: int, *, acknowledged: bool = False, may_proceed: bool = True) -> None:
         """Begin a cycle, and run evenly to a speed in it."""
@@ -212,6 +255,13 @@ def approaching(tag_mm: int) -> Ride:
     return ride
 
 
-def read_at(ride: Ride, tag_mm: int) -> dict[str, int]:
-    """Tell of a tag that lies here and was read just there, within the newest cycle; plain track follows it."""
-    return {"uid": tag_mm, "read_at_nm": (tag_mm + 4_000) * NM_A_MM, **PLAIN_TRACK}
+def record(tag_mm: int, kind: int = PLAIN) -> Frame:
+    """Give the record of a tag that lies here."""
+    return Frame(valid=True, uid=tag_mm, block=1, distance_mm=0, kind=kind)
+
+
+def heard(told: Computer, tag: Frame) -> Computer:
+    """Give a computer whose head's reader delivers this record."""
+    sound = computer.mend_head(told)
+    once = computer.note_head_frame(LIMITS, sound, tag, SOUND)
+    return computer.note_head_frame(LIMITS, once, tag, SOUND)

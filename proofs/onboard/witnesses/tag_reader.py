@@ -15,10 +15,10 @@ JUST_STARTED = Passing(
     reader=machine.restarted(),
     slots=(NOTHING, NOTHING, NOTHING, NOTHING),
     sick=False,
-    told=NO_FRAME,
+    delivered=NO_FRAME,
     quiet_frames=0,
     parted=False,
-    told_before=NO_FRAME,
+    delivered_before=NO_FRAME,
     parted_before=False,
 )
 ONE = Frame(valid=True, uid=-7, block=3, distance_mm=400_000, kind=1)
@@ -70,15 +70,15 @@ def a_passing_is_one_delivery() -> None:
     assert above.hears(*[NO_FRAME] * 6) == []
     assert above.system.reader.held == NO_FRAME
     assert above.hears(ONE, ONE) == [ONE]
-    assert above.system.told == ONE
-    assert (above.system.told_before, above.system.parted_before, above.system.parted) == (ONE, True, False)
+    assert above.system.delivered == ONE
+    assert (above.system.delivered_before, above.system.parted_before, above.system.parted) == (ONE, True, False)
     assert above.hears(OTHER, OTHER, ONE, ONE) == [OTHER, ONE]
-    assert (above.system.told_before, above.system.parted_before) == (OTHER, False)
+    assert (above.system.delivered_before, above.system.parted_before) == (OTHER, False)
     assert above.hears(*[NO_FRAME] * 3, OTHER, *[NO_FRAME] * 5) == []
     assert above.system.reader.held == ONE, "a frame between begins the count of silence anew"
     above.hears(NO_FRAME, ONE, ONE)
-    assert (above.system.told_before, above.system.parted_before) == (ONE, True)
-    above.step("restart")
+    assert (above.system.delivered_before, above.system.parted_before) == (ONE, True)
+    above.step("restart", sick=False)
     assert above.system == JUST_STARTED
 
 
@@ -120,7 +120,7 @@ def a_sick_antenna_is_deaf_until_mended() -> None:
         assert above.hears(GARBLED, GARBLED, below=ONE, level=level, sick=True) == []
         assert above.hears(ONE, ONE, ONE) == [], "latched, though its level is right again"
         assert above.system.sick
-        above.step("restart")
+        above.step("restart", sick=True)
         assert above.system == replace(JUST_STARTED, sick=True)
         assert above.hears(ONE, ONE) == [], "nor does a restart mend it"
         above.hears(*[NO_FRAME] * 7)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard import braking, computer, odometry, split
+from kernel.onboard import braking, computer, odometry, split, tag_reader
 from kernel.onboard.odometry import Loss, Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.speed_limit import SpeedLimit
 from kernel.onboard.split import Acceleration
-from kernel.onboard.tag_kind import PLAIN
+from kernel.onboard.tag_reader import NO_FRAME
 from kernel.onboard.tag_window import NONE_AWAITED, Window
 from kernel.onboard.way import Way
 from models.onboard.train_nature import (
@@ -19,7 +19,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
-from proofs.onboard.witnesses import train_promising
+from proofs.onboard.witnesses import train_promising, train_reading
 from proofs.onboard.witnesses.one_train import (
     BRAKE,
     END_MM,
@@ -31,7 +31,8 @@ from proofs.onboard.witnesses.one_train import (
     Ride,
     approaching,
     at_rest,
-    read_at,
+    heard,
+    record,
 )
 from proofs.onboard.witnesses.rolling_stock import START_MM
 from proofs.onboard.witnesses.train_as_it_is_said import (
@@ -79,7 +80,7 @@ def a_tag_narrows_where_it_is() -> None:
     wide = ride.system.computer.known.motion
     read_at_nm = ride.system.front_nm - 500 * NM_A_MM
     uid = read_at_nm // NM_A_MM - 4_000 - 300
-    ride.step("read_a_tag", uid=uid, place_mm=uid + 100, read_at_nm=read_at_nm, **PLAIN_TRACK)
+    ride.reads(uid, place_mm=uid + 100, front_mm=read_at_nm // NM_A_MM)
     narrow = ride.system.computer.known.motion
     assert narrow.front_most_mm - narrow.front_least_mm < wide.front_most_mm - wide.front_least_mm
     ride.cycle(10_000)
@@ -90,11 +91,11 @@ def an_awaited_tag_is_taken_where_it_lies() -> None:
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
     untold = ride.system
-    ride.step("read_a_tag", place_mm=tag_mm + 100, **read_at(ride, tag_mm))
+    ride.reads(tag_mm, place_mm=tag_mm + 100)
     assert ride.system.computer.spacing.reads.first.uid == tag_mm, "one beside it that is listed here fixes the train"
     assert ride.system.expecting == untold.expecting, "and is not the awaited one"
     ride.system = untold
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     assert ride.system.expecting.taken
     assert ride.system.expecting.in_place
 
@@ -105,10 +106,10 @@ def an_awaited_tag_is_refused_by_a_train_that_did_not_know_where_it_was() -> Non
     ride = approaching(tag_mm)
     past = replace(ride.system.computer, before=odometry.past(ride.system.computer.before))
     ride.system = replace(ride.system, computer=past)
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     assert not ride.system.expecting.taken
     assert ride.system.expecting.way_nm == (tag_mm + 4_000 - past.from_mm) * NM_A_MM
-    assert ride.system.computer == past
+    assert replace(ride.system.computer, head=past.head) == past
 
 
 def an_awaited_tag_that_does_not_come_brakes_the_train() -> None:
@@ -128,17 +129,19 @@ def a_tag_listed_elsewhere_says_nothing() -> None:
     before = ride.system.computer
     limit = SpeedLimit(in_curve=False, at_turnout=False, curve_until_mm=9, turnout_until_mm=9)
     on_plain_track = replace(before, known=replace(before.known, limit=limit))
-    told = computer.read_by_head(LIMITS, on_plain_track, 1, tag_mm + 20_000, PLAIN)
-    unlisted = replace(limit, in_curve=True, at_turnout=True)
-    assert told == replace(before, known=replace(before.known, limit=unlisted)), "and anything may lie from it on"
-    assert computer.read_by_head(LIMITS, before, 1, tag_mm, PLAIN) != before
+    delivered = heard(on_plain_track, record(1))
+    told = computer.read_by_head(LIMITS, delivered, tag_mm + 20_000)
+    unlisted = replace(on_plain_track.known, limit=replace(limit, in_curve=True, at_turnout=True))
+    assert told == computer.read_unlisted(delivered), "and anything may lie from it on"
+    assert told == replace(delivered, known=unlisted, head=tag_reader.taken(delivered.head))
+    assert computer.read_by_head(LIMITS, delivered, tag_mm).spacing != before.spacing
 
 
 def a_fix_that_contradicts_leaves_the_track_unknown() -> None:
     """A tag in its window whose place is none that the front may have: its kind ends no restriction (P7, T8, T12)."""
     before = approaching(START_MM + 100_000).system.computer
     beyond_mm = before.known.motion.front_most_mm - LIMITS.tags.antenna_mm + 1_500
-    told = computer.read_by_head(LIMITS, before, 1, beyond_mm, PLAIN)
+    told = computer.read_by_head(LIMITS, heard(before, record(1)), beyond_mm)
     assert told.known.motion.loss is Loss.CONTRADICTED
     assert told.known.limit.in_curve
     assert told.known.limit.at_turnout
@@ -149,11 +152,11 @@ def a_tail_that_follows_as_preset_counts() -> None:
     """By where the front was when head and tail read the same tag; the line must answer, and nothing roll back (T3)."""
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     ride.step("await_none")
     assert not ride.fits()
     ride.until(tag_mm + 4_000 + LIMITS.antennas_mm)
-    ride.step("read_by_the_tail", uid=tag_mm, read_at_nm=(tag_mm + 4_000 + LIMITS.antennas_mm) * NM_A_MM)
+    ride.tail_reads(tag_mm, front_mm=tag_mm + 4_000 + LIMITS.antennas_mm)
     assert ride.fits()
     here = ride.system.computer
     assert not computer.through_line(LIMITS, here, False).answers
@@ -163,7 +166,7 @@ def a_tail_that_follows_as_preset_counts() -> None:
     rolled = replace(here, known=replace(here.known, movement=replace(here.known.movement, reversed=True)))
     assert not computer.through_line(LIMITS, rolled, True).fits
     read = ride.system
-    ride.step("read_by_the_tail", uid=tag_mm + 2_000, read_at_nm=ride.system.front_nm)
+    ride.tail_reads(tag_mm + 2_000, front_mm=ride.system.front_nm // NM_A_MM)
     assert ride.system == read, "there is no such tag under it"
 
 
@@ -192,11 +195,11 @@ def a_rear_that_was_left_behind_is_no_tail() -> None:
     """Nor is it one again before staff has found the train whole (T3, T13)."""
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     ride.step("await_none")
     ride.step("come_apart", apart_nm=40_000 * NM_A_MM)
     ride.until(tag_mm + 44_000)
-    ride.step("read_by_the_tail", uid=tag_mm, read_at_nm=(tag_mm + 44_000) * NM_A_MM)
+    ride.tail_reads(tag_mm, front_mm=tag_mm + 44_000)
     assert ride.is_caught()
     ride.draw_up()
     front_mm = ride.system.front_nm // NM_A_MM
@@ -220,8 +223,10 @@ def a_tag_read_elsewhere_is_none_of_this_world() -> None:
     for off_mm, afar_mm, late_mm in ((201, 0, 0), (0, 501, 0), (0, 0, 1_100)):
         uid = front_nm // NM_A_MM - 4_000 - afar_mm - late_mm
         before = ride.system
-        ride.step("read_a_tag", uid=uid, place_mm=uid + off_mm, read_at_nm=front_nm - late_mm * NM_A_MM, **PLAIN_TRACK)
-        assert ride.system == before
+        ride.reads(uid, place_mm=uid + off_mm, front_mm=front_nm // NM_A_MM - late_mm)
+        assert replace(ride.system, head=before.head, computer=before.computer) == before
+        assert ride.system.computer.known == before.computer.known
+        ride.system = before
 
 
 def an_order_that_stops_it_brakes_it() -> None:
@@ -261,9 +266,9 @@ def a_cycle_is_run_and_sensed_in_turn() -> None:
     at_mm = front_nm // NM_A_MM
     ride.step("run_a_cycle", may_proceed=True, acknowledged=False, to_nm=front_nm, speed_um_s=0)
     ride.step("take_end", end_mm=END_MM + 1)
-    ride.step("read_a_tag", uid=at_mm - 4_000, place_mm=at_mm - 4_000, read_at_nm=front_nm, **PLAIN_TRACK)
-    ride.step("read_unlisted", read_at_nm=front_nm, in_curve=True, at_turnout=True)
-    ride.step("read_by_the_tail", uid=at_mm - 116_000, read_at_nm=front_nm)
+    ride.reads(at_mm - 4_000)
+    ride.step("read_unlisted", in_curve=True, at_turnout=True)
+    ride.tail_reads(at_mm - 116_000, front_mm=at_mm)
     ride.step("await_tag", place_mm=at_mm, uid=at_mm, **PLAIN_TRACK)
     ride.step("await_none")
     ride.step("find_whole")
@@ -314,18 +319,13 @@ def a_tag_told_after_the_train_was_located_anew_says_nothing() -> None:
     ride.draw_up()
     front_nm = ride.system.front_nm
     front_mm = front_nm // NM_A_MM
-    tag = {
-        "uid": front_mm - 4_000,
-        "place_mm": front_mm - 4_000,
-        "read_at_nm": front_nm,
-        **PLAIN_TRACK,
-    }
     ride.step("locate_anew", least_mm=front_mm - 2_000, most_mm=front_mm + 2_000)
     located = ride.system
-    ride.step("read_a_tag", **tag)
-    assert ride.system.computer == located.computer
+    ride.reads(front_mm - 4_000)
+    assert replace(ride.system.computer, head=located.computer.head) == located.computer
     ride.cycle(0)
-    ride.step("read_a_tag", **tag)
+    ride.hears(NO_FRAME, front_mm=front_mm, times=LIMITS.reader.gap_frames)
+    ride.reads(front_mm - 4_000)
     narrowed = ride.system.computer.known.motion
     assert narrowed.front_most_mm - narrowed.front_least_mm < 4_000
 
@@ -479,4 +479,5 @@ WITNESSES = (
     a_tail_does_not_count_once_its_train_is_another_than_written,
     the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
     *train_promising.WITNESSES,
+    *train_reading.WITNESSES,
 )

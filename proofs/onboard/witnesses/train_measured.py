@@ -8,7 +8,7 @@ from functools import cache
 from kernel.onboard import computer, train_length
 from kernel.onboard.computer import Computer
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import LIMITS, SITE, Ride, approaching, read_at
+from proofs.onboard.witnesses.one_train import LIMITS, SITE, Ride, approaching
 from proofs.onboard.witnesses.rolling_stock import START_MM
 
 TAG_MM = START_MM + 100_000
@@ -17,12 +17,12 @@ TAG_MM = START_MM + 100_000
 def _past_the_tag(apart_mm: int) -> Ride:
     """Give a train whose head has read a tag, and whose tail's antenna is over it, so far behind the head's."""
     ride = approaching(TAG_MM)
-    ride.step("read_a_tag", place_mm=TAG_MM, **read_at(ride, TAG_MM))
+    ride.reads(TAG_MM)
     ride.step("await_none")
     assert ride.system.formation.head_passed
     ride.step("come_apart", apart_nm=apart_mm * NM_A_MM)
     ride.until(TAG_MM + 4_000 + apart_mm)
-    ride.step("read_by_the_tail", uid=TAG_MM, read_at_nm=(TAG_MM + 4_000 + apart_mm) * NM_A_MM)
+    ride.tail_reads(TAG_MM, front_mm=TAG_MM + 4_000 + apart_mm)
     return ride
 
 

@@ -9,7 +9,7 @@ from kernel.onboard.restriction_ahead import NONE_LISTED, Ahead
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
 from kernel.onboard.tag_kind import CURVE, PLAIN, TURNOUT
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import LIMITS, PLAIN_TRACK, Ride, approaching, read_at
+from proofs.onboard.witnesses.one_train import LIMITS, PLAIN_TRACK, Ride, approaching, heard, record
 from proofs.onboard.witnesses.rolling_stock import START_MM
 
 
@@ -18,20 +18,20 @@ def the_track_is_what_the_tags_say_for_the_whole_train() -> None:
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
     assert ride.system.computer.known.limit == NO_TRACK_KNOWN
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     ride.step("await_none")
     limit = ride.system.computer.known.limit
     assert (limit.in_curve, limit.at_turnout) == (False, False)
     at_mm = computer.place_of_read(ride.system.computer).most_mm
     assert (limit.curve_until_mm, limit.turnout_until_mm) == (at_mm, at_mm)
     passed = ride.system
-    ride.step("read_unlisted", read_at_nm=ride.system.front_nm, in_curve=True, at_turnout=True)
+    ride.hears(record(tag_mm + 1), front_mm=tag_mm + 4_000)
+    ride.step("read_unlisted", in_curve=True, at_turnout=True)
     assert ride.system.computer.known.limit == replace(limit, in_curve=True, at_turnout=True)
     ride.system = passed
-    elsewhere = read_at(ride, tag_mm) | {"uid": tag_mm + 40_000, "read_at_nm": (tag_mm + 44_000) * NM_A_MM}
-    ride.step("read_a_tag", place_mm=tag_mm + 40_000, **elsewhere)
+    ride.reads(tag_mm + 40_000)
     assert ride.system == passed, "there is no such tag under it"
-    other = computer.read_by_head(LIMITS, passed.computer, 1, tag_mm + 40_000, PLAIN)
+    other = computer.read_by_head(LIMITS, heard(passed.computer, record(1)), tag_mm + 40_000)
     assert other.known.limit == replace(limit, in_curve=True, at_turnout=True)
     assert other.spacing == passed.computer.spacing
     assert other.known.motion == passed.computer.known.motion
@@ -45,9 +45,11 @@ def a_tag_that_hides_a_curve_is_none_of_this_world() -> None:
     tag_mm = START_MM + 100_000
     ride = approaching(tag_mm)
     before = ride.system
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm) | {"in_curve": True})
-    assert ride.system == before
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm) | {"in_curve": True, "kind": CURVE})
+    ride.reads(tag_mm, in_curve=True)
+    assert ride.system.passing == before.passing
+    assert ride.system.computer.known == before.computer.known
+    ride.system = before
+    ride.reads(tag_mm, in_curve=True, kind=CURVE)
     assert ride.system.passing.in_curve
     assert ride.system.computer.known.limit.in_curve
     assert not ride.system.computer.known.limit.at_turnout
@@ -70,7 +72,7 @@ def a_listed_turnout_is_entered_no_faster_than_it_allows() -> None:
     assert ride.system.computer.known.ahead == Ahead(NONE_LISTED.curve_mm, from_mm), "where it is read at the earliest"
     ride.gather(5_000)
     ride.until(tag_mm + 4_000)
-    ride.step("read_a_tag", place_mm=tag_mm, **read_at(ride, tag_mm))
+    ride.reads(tag_mm)
     curve = {"kind": CURVE, "in_curve": True, "at_turnout": False}
     ride.step("await_tag", place_mm=turnout_mm, uid=turnout_mm, **turnout)
     ride.step("note_listed", place_mm=turnout_mm + 90_000, uid=turnout_mm + 90_000, **curve)
@@ -94,7 +96,7 @@ def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
     """Awaiting the next tag its train keeps to it until that is read, and its rear has passed (T5, T12)."""
     first_mm = START_MM + 100_000
     ride = approaching(first_mm)
-    ride.step("read_a_tag", place_mm=first_mm, **read_at(ride, first_mm))
+    ride.reads(first_mm)
     curve_mm, next_mm = first_mm + 130_000, first_mm + 900_000
     curve = {"in_curve": True, "at_turnout": False}
     ride.step("await_tag", place_mm=curve_mm, uid=curve_mm, kind=CURVE, **curve)
@@ -124,7 +126,7 @@ def a_restriction_is_entered_with_the_list_that_has_it() -> None:
     ride = approaching(first_mm)
     curve, turnout = {"in_curve": True, "at_turnout": False}, {"in_curve": False, "at_turnout": True}
     ride.step("note_listed", place_mm=first_mm + 200, uid=first_mm + 200, kind=TURNOUT, **turnout)
-    ride.step("read_a_tag", place_mm=first_mm, **read_at(ride, first_mm))
+    ride.reads(first_mm)
     limit = ride.system.computer.known.limit
     assert (limit.in_curve, limit.at_turnout) == (False, True), "this tag was read, and not the next"
     ride.step("note_listed", place_mm=first_mm + 100, uid=first_mm + 100, kind=CURVE, **curve)

@@ -16,6 +16,7 @@ from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_fix import TagLimits
+from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import LengthBounds
 
@@ -122,6 +123,7 @@ class Type:
             spacing=SpacingLimits(tolerance_mm=PRESET_MM + 2 * READ_MM, width_mm=18_500),
             antennas_mm=self.length_mm - 2 * ANTENNA_MM,
             length=self.length,
+            reader=ReaderLimits(least_mv=900, most_mv=1_100, gap_frames=6),
         )
 
     @property

@@ -10,11 +10,20 @@ from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.odometry import Readings, is_located
 from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
+from kernel.onboard.tag_reader import NO_FRAME, Frame, Level
 from kernel.standstill import is_braked
 from tests.independent.physics.declared import ANTENNA_MM, Type
 
 PLAIN_TRACK = 1
 """The kind that is written in every tag of this world."""
+SOUND = Level(mv=1_000, valid=True)
+"""The level in the loop of every antenna of this world."""
+
+
+def frames_of(number: int, silent: int) -> list[Frame]:
+    """What an antenna hears as it passes a tag: silence for a gap, and two frames."""
+    heard = Frame(valid=True, uid=number, block=0, distance_mm=0, kind=PLAIN_TRACK)
+    return [*[NO_FRAME] * silent, heard, heard]
 
 
 class Host:
@@ -26,6 +35,7 @@ class Host:
         self.limits = kind.limits
         self.ceiling = NO_CEILING
         self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
+        self._mend_antennas()
         self.awaited: int | None = None
 
     def keep_to(self, ceiling_mm_s: int) -> None:
@@ -161,12 +171,20 @@ class Host:
     def head_reads(self, number: int, place_mm: int) -> bool:
         """The head reads a tag that the list has; whether it is where it should be."""
         in_window = computer.reads_in_window(self.limits, self.computer, place_mm)
-        self.computer = computer.read_by_head(self.limits, self.computer, number, place_mm, PLAIN_TRACK)
+        for frame in frames_of(number, self.limits.reader.gap_frames):
+            self.computer = computer.note_head_frame(self.limits, self.computer, frame, SOUND)
+        self.computer = computer.read_by_head(self.limits, self.computer, place_mm)
         return in_window
 
     def tail_reads(self, number: int) -> None:
         """The tail does."""
-        self.computer = computer.read_by_tail(self.limits, self.computer, number)
+        for frame in frames_of(number, self.limits.reader.gap_frames):
+            self.computer = computer.note_tail_frame(self.limits, self.computer, frame, SOUND)
+        self.computer = computer.read_by_tail(self.limits, self.computer)
+
+    def _mend_antennas(self) -> None:
+        """Staff has found both antennas sound."""
+        self.computer = computer.mend_tail(computer.mend_head(self.computer))
 
     # ---- what is told
 
@@ -194,3 +212,4 @@ class Host:
             self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
             motion = replace(self.computer.known.motion, way_mm=way_mm, anchor_way_mm=way_mm)
             self.computer = replace(self.computer, known=replace(self.computer.known, motion=motion))
+            self._mend_antennas()
