@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from proofs.alarm import alarm_distance, alarm_tone
 from proofs.catalogue import INTERLOCKING
-from proofs.crossing import arrival, crossing, due, promise, ranging_schedule, start_point
+from proofs.crossing import arrival, crossing, due, end_point, promise, ranging_schedule, start_point
 from proofs.onboard import (
     antenna_spacing,
     brake_demand,
@@ -63,6 +63,7 @@ IN_ORDER: tuple[Theory, ...] = (
     promise.THEORY,
     ranging_schedule.THEORY,
     start_point.THEORY,
+    end_point.THEORY,
     crossing.THEORY,
 )
 """The theories, in the order of the matrix."""

@@ -178,7 +178,8 @@ def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
 def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
     """A train's rear is proved out of the approach, and the train is whole (X4, T14).
 
-    By its tail's read of the end tag or of the start tag from behind, or by all its axles at the end detector.
+    By its tail's reads at an end point, beyond the road or beyond its start point (``end_point``), or by all its axles
+    at the end detector.
     """
     return note_released(crossing, gone) if is_whole else crossing
 

@@ -9,9 +9,8 @@ import numpy as np
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.crossing.faults import FAULTS
 from models.crossing.sites import HOURS, TRIALS, lawful
-from models.crossing.start_points import note_read
 from models.crossing.traffic import NEVER, drawn
-from models.crossing.watch import SET, decide, watched
+from models.crossing.watch import Machines, watched
 from models.days.system import Numbers, System
 
 FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
@@ -21,20 +20,18 @@ def one_day(
     seed: int,
     day: int,
     beyond: tuple[str, ...] = (),
-    decides: Any = decide,
-    settings: Any = SET,
-    reads: Any = note_read,
+    **planted: Any,
 ) -> Numbers:
     """Simulate one day and give its row; even days at the first crossing, odd ones at the second.
 
-    ``beyond``: faults that break an assumption, by name.  ``decides``, ``settings``, ``reads``: the machines'
-    own; tests plant faults there, and the truth is held against what is right.
+    ``beyond``: faults that break an assumption, by name.  ``planted``: in the place of one of the machines
+    (:class:`models.crossing.watch.Machines`); tests plant faults there, and the truth is held against what is right.
     """
     assert lawful()
     out = np.zeros(len(COLUMNS), np.int64)
     trial = TRIALS[day % len(TRIALS)]
     began = drawn(seed, day, trial, beyond)
-    watched(trial, began, out, decides, settings, reads)
+    watched(trial, began, out, Machines(**planted))
     out[FIRST_FAULT : FIRST_FAULT + len(FAULTS)] = began.faults["begin_s"] != NEVER
     return out
 

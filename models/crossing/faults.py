@@ -11,7 +11,7 @@ FAULTS = (
     Fault("late", "rangings came late", 0.5, 60, 1_800, "cycles", 1, 2, "ours: a loaded ground unit"),
     Fault("repeated", "rangings came twice", 0.5, 60, 1_800, "cycles", 1, 2, "ours: retries"),
     Fault("terminal", "a start point's terminal was silent", 0.2, 1, 120, "-", 0, 0, "practice: a cable, a restart"),
-    Fault("end_tags", "tails missed the end tag", 0.4, 600, 7_200, "-", 0, 0, "practice: dirt, a tag that came off"),
+    Fault("end_tags", "tails missed the end tags", 0.4, 600, 7_200, "-", 0, 0, "practice: dirt, a tag that came off"),
     Fault("end_detector", "the end detector told of no train", 0.1, 600, 3_600, "-", 0, 0, "practice: one in ten days"),
     Fault("late_contact", "contact was made late", 0.6, 600, 7_200, "m", 100, 900, "practice: shadowing"),
     Fault("no_radio", "trains without radio", 1.0, 68_400, 68_400, "1", 0.02, 0.20, "practice: other lines' trains"),
@@ -42,9 +42,11 @@ FAULTS = (
           "practice: two tracks"),
     Fault("close_behind", "trains without radio came close behind trains in contact", 0.3, 3_600, 10_800, "-", 0, 0,
           "practice: a late train"),
+    Fault("close_roads", "a second road lay so close to the first", 0.3, 68_400, 68_400, "m", 250, 700,
+          "practice: two streets of a town"),
 )  # fmt: skip
 """In the order of the simulation's windows.  ``power`` is as large as a person takes to come once it is back."""
 
-DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind")
+DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind", "close_roads")
 
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

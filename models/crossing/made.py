@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.crossing import arrival, crossing, promise, start_point
+from kernel.crossing import arrival, crossing, end_point, promise, start_point
 from kernel.crossing.arrival import Followed, Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
 from kernel.maps import Map
@@ -11,7 +11,7 @@ from models.compiled import compile_machines, packed
 from models.crossing.sites import SETTINGS
 from models.crossing.traffic import TRACKS
 
-MADE = compile_machines([arrival, crossing, promise, start_point])
+MADE = compile_machines([arrival, crossing, end_point, promise, start_point])
 NOTHING = packed(Ranging(False, 0, 0, 0))
 UNKNOWN = packed(Followed(0, 0, 0, 10**6, 0, 0, False))
 """Of a train of which there is no ranging; the ceiling is to be told."""

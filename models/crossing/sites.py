@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.crossing import start_point
+from kernel.crossing import end_point, start_point
 from kernel.crossing.arrival import ArrivalBounds
 from kernel.crossing.crossing import Settings, are_lawful, have_one_warning_time
+from kernel.crossing.end_point import EndPointSettings
 from kernel.crossing.ranging_schedule import ChannelSettings, are_in_time, longest_apart_ms
 from kernel.crossing.start_point import StartPointSettings
 from kernel.names import Tag
@@ -44,6 +45,8 @@ So many pairs may wait for their turn and a ranging that counts for three cycles
 START_POINT = StartPointSettings(Tag("before the detector"), told_cycles=2, waits_cycles=20, changes_cycles=60)
 """What is told of a tag is no older than 2 s; 20 s is from the tag to the detector at 3 m/s; no train is there within a
 minute of one that has turned back (practice)."""
+END_POINT = EndPointSettings(Tag("inner"), Tag("outer"), apart_cycles=20, told_cycles=3, changes_cycles=60)
+"""The tags lie 5 m apart: 20 s is at 0.25 m/s; no train changes ends within a minute (practice)."""
 EXCESS = 1.05
 """A driver may exceed a limit by so much before the line's train protection brakes (ours, typical)."""
 
@@ -238,7 +241,8 @@ def lawful() -> bool:
     And whether a train's computer can keep what it promises here (X2).
     """
     keeps = OWN_SPEED_M_S + gained_um_s(BRAKE) / 1e6 <= CEILING_OVER_M_S
-    return keeps and start_point.are_lawful(START_POINT) and all(is_lawful(trial) for trial in TRIALS)
+    points = start_point.are_lawful(START_POINT) and end_point.are_lawful(END_POINT)
+    return keeps and points and all(is_lawful(trial) for trial in TRIALS)
 
 
 def is_lawful(trial: Trial) -> bool:

@@ -9,62 +9,63 @@ from typing import Any
 
 from models.compiled import compiled
 from models.crossing.columns import NUMBER
+from models.crossing.end_points import hears_it_gone, pass_end_tags, stays_s
 from models.crossing.faults import KIND
 from models.crossing.made import MADE
-from models.crossing.radio import RADIO_OUT, is_on
+from models.crossing.radio import is_on
 from models.crossing.traffic import NEVER, TRACKS
 
 note_gone, note_released, note_empty = (MADE.crossing.note_gone, MADE.crossing.note_released, MADE.crossing.note_empty)
 REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED = (
     NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted")
 )
-END_TAGS, END_DETECTOR, PARTS = KIND["end_tags"], KIND["end_detector"], KIND["parts"]
+END_DETECTOR = KIND["end_detector"]
 POWER, UNLOOKED = KIND["power"], KIND["unlooked"]
 OTHER_NAME = 1_000_000
 """A strike that no ranging explains gets a name of its own: the train's number and this."""
-END_TAG_UM = 15_000_000
 END_DETECTOR_UM = 25_000_000
-"""The rear is past the road here (ours: a road of two lanes)."""
+"""The rear is past the road here, and the end point's tags (ours: a road of two lanes)."""
 
 
 # ---- rears
 
 
 @compiled
-def is_out(day: Any, run: Any, line: Any, train: int) -> Any:
-    """Tell whether a train's rear is past the road, or it has turned back beyond its start point (X4)."""
-    kind = day.trains[train].local
-    if run[train].way_um + line.length_um[kind] <= -END_TAG_UM:
-        return True
-    return run[train].pace_um < 0 and run[train].way_um > line.start_um[kind] + 20_000_000
+def prove_rear(
+    day: Any, road: Any, other: Any, line: Any, train: int, track: int, now: int, crossing: Any, hears: Any
+) -> Any:
+    """Tell that a train's rear is out of the approach: by its tail's tags, the end detector, or a person (X4, T14).
 
-
-@compiled
-def prove_rear(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
-    """Tell that a train's rear is out of the approach: by end tag, end detector, start tag, or a person (X4, T14)."""
-    if run[train].gone == 1 or not is_out(day, run, line, train):
+    What it tells of its tail is of the train by its own name; all of its axles are counted by whatever name it has.
+    What it tells of the other road's tags comes to this one's terminals too.
+    """
+    run, out = road.run, road.out
+    if other.number != road.number and hears_it_gone(
+        day, other.run, other.number, train, track, road.number, now, hears
+    ):
+        crossing = note_gone(crossing, train, True)
+    if run[train].cleared == 1:
         return crossing
-    if run[train].out_s < 0:
-        run[train].out_s = now
+    pass_end_tags(day, run, line, train, now)
+    out_s = run[train].out_s
+    if out_s < 0 or out_s == now:
         return crossing
-    rear_um, told_s = run[train].way_um + line.length_um[day.trains[train].local], run[train].out_s
-    by_tag = run[train].contact == 1 and not is_on(day, END_TAGS, told_s) and not day.on[RADIO_OUT]
-    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, told_s)
+    if run[train].gone == 0 and hears_it_gone(day, run, road.number, train, track, road.number, now, hears):
+        run[train].gone, run[train].contact = 1, 0
+        run[train].cleared = 1 - run[train].is_other
+        out[REAR_BROKEN] += stays_s(day, run, train) > 0
+        return note_gone(crossing, train, True)
+    rear_um = run[train].way_um + line.length_um[day.trains[train].local]
+    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, out_s)
     is_known = run[train].contact == 1 or run[train].struck_s >= 0
-    if is_known and not by_tag and not by_detector and now < told_s + day.trains[train].person_s:
+    if is_known and not by_detector and now < out_s + day.trains[train].person_s:
         return crossing
-    run[train].gone, run[train].contact = 1, 0
-    out[REAR_BROKEN] += stays_s(day, run, train) > 0
-    if by_tag or by_detector:
+    out[REAR_BROKEN] += run[train].gone == 0 and stays_s(day, run, train) > 0
+    run[train].gone, run[train].cleared, run[train].contact = 1, 1, 0
+    if by_detector:
         return note_gone(note_gone(crossing, train, True), OTHER_NAME + train, True)
     out[RELEASED] += is_known
     return note_released(note_released(crossing, train), OTHER_NAME + train)
-
-
-@compiled
-def stays_s(day: Any, run: Any, train: int) -> Any:
-    """Give how long a part of a train stays behind."""
-    return int(day.faults[PARTS].size) if run[train].out_s >= 0 and is_on(day, PARTS, run[train].out_s) else 0
 
 
 # ---- power, and who looks at the tracks after it

@@ -121,6 +121,7 @@ def strike(day: Any, run: Any, points: Any, track: int, train: int, out: Any) ->
     kind = day.trains[train].local
     point = point_of(points, track, kind)
     run[train].name = striker(point, OTHER_NAME + train)
+    run[train].is_other = int(run[train].name != train)
     keep_point(points, track, kind, note_strike(point))
     out[WRONG_STRIKER] += run[train].name != train and run[train].name != OTHER_NAME + train
     out[UNREAD] += run[train].contact == 1 and run[train].name != train

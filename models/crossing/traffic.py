@@ -15,6 +15,7 @@ Floats = npt.NDArray[np.float64]
 Records = npt.NDArray[np.void]
 TRACKS = 2
 HOUR_S = 3_600
+CLOSE_ROADS = KIND["close_roads"]
 SECONDS = len(HOURS) * HOUR_S
 NEVER = -1
 POOL = 1 << 16
@@ -181,6 +182,17 @@ TRICKS = ("stops_short", "turns_back", "sprints", "strong")
 """Faults of one train each."""
 
 
+def there_m(name: str, track: int, size_m: float, apart_m: float) -> float:
+    """Give how far before the first road a train does what it does; ``apart_m``: so far apart two roads are, or 0.
+
+    The second road lies beyond the first for trains on the first track, and before it for those on the other one.  Who
+    turns back does so before the road that it comes to first: between two roads a starting signal would stand.
+    """
+    if name == "turns_back" and track == 1:
+        return size_m + apart_m
+    return size_m
+
+
 def trick(source: np.random.Generator, trains: Records, windows: Records) -> None:
     """Give single trains their own fault: one of the first ten after its beginning."""
     trains["trick"], trains["trick_um"] = NEVER, NEVER
@@ -191,5 +203,8 @@ def trick(source: np.random.Generator, trains: Records, windows: Records) -> Non
             continue
         chosen = able[int(chance * min(len(able), 10))]
         trains["trick"][chosen] = KIND[name]
-        trains["trick_um"][chosen] = round(1e6 * window["size"])
+        place_m = there_m(
+            name, int(trains["track"][chosen]), float(window["size"]), float(windows[CLOSE_ROADS]["size"])
+        )
+        trains["trick_um"][chosen] = round(1e6 * place_m)
         trains["trick_s"][chosen] = window["end_s"] - window["begin_s"]

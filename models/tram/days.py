@@ -17,9 +17,9 @@ from models.tram.deciding import (
     take_off_by_hand,
 )
 from models.tram.faults import FAULTS
-from models.tram.given import LIMITS, NO_PLANT, Given, given
+from models.tram.given import LIMITS, NO_PLANT, Given, given, other_way
 from models.tram.line import (
-    AT_STOP_MM,
+    AWAY_S,
     CLOSE_S,
     DEPOT,
     FIRST_S,
@@ -34,38 +34,41 @@ from models.tram.machines import compiled
 from models.tram.moving import (
     CLEAR_MM,
     RUN_OF_TURN,
-    depot_place,
     free_tram,
     is_free_at,
     move,
-    put_on,
-    serve,
+    place_beyond,
     take_off,
 )
 from models.tram.radio import CYCLE_S
 from models.tram.state import (
+    COMES_AT,
     CONFIRMED_S,
     DUE_S,
     K_IS,
     LEAVES,
-    NEXT,
     OFF_S,
     ON,
-    PLACE,
-    SPEED,
     TURN,
-    WAITS,
     Traffic,
     begun,
 )
-from models.tram.telling import ask, begin_unit, see
+from models.tram.telling import ask, see
+from models.tram.turning import (
+    AWAITED_S,
+    NO_RUN,
+    begin_runs,
+    come,
+    destination,
+    go_over,
+    none_to_come,
+    take_up_who_comes_back,
+)
 from models.tram.watching import watch
 
 END_S = CLOSE_S + 2 * 3_600
 """By then the last tram has long left the way; the simulation ends with it."""
 DEPOT_EACH_S = 1_800
-AWAITED_S = 10**9
-"""`OFF_S` of a vehicle that was taken up for a run, and has not come yet."""
 LATEST_BEGUN_S = 400
 """So late a run begins at most that is late at the terminus; ours."""
 ELSEWHERE_S, ELSEWHERE_EACH_S = 60, 30
@@ -74,28 +77,25 @@ ASKED_AFTER_S = 600
 """So long after it was due off the way the dispatcher asks for a tram that is not heard; ours."""
 RESTARTED_AFTER_S = 3_700
 """So long after a start the centre starts anew once more; ours."""
-NO_RUN = 1
-"""`TURN` of a tram from the depot, which is in no timetable."""
+COMES_BACK_S = 3_600
+"""So much longer a day is simulated on which trams come back; ours."""
 
 
 @compiled
-def destination(day: Given, traffic: Traffic, tram: int) -> int:
-    """Give where a tram is set to leave: not always where it does."""
-    is_wrong = day.wrong_destination > 0 and tram == day.where.destination_tram
-    return int(day.wrong_destination if is_wrong else traffic.trams[tram, LEAVES])
+def take_up(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Tell the centre of the next run of the timetable; ``size[1]``: so many were.
 
-
-@compiled
-def take_up(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
-    """Tell the centre of the next run of the timetable; ``size[1]``: so many were."""
+    Where trams come back from the other way one is used again as soon as it has turned.
+    """
     run = traffic.size[1]
     if run >= len(day.begins_s) or now_s < day.begins_s[run] - TAKEN_UP_S:
         return
-    tram = free_tram(traffic, now_s)
+    tram = free_tram(traffic, there, now_s, day.turns_s if day.turns_s > 0 else AWAY_S)
     if tram < 0 or not may_take_up(traffic, tram, 0):
         return
     body = traffic.trams[tram]
     body[TURN], body[LEAVES], body[OFF_S] = RUN_OF_TURN * (run + 1), day.leaves_at[run], AWAITED_S
+    body[COMES_AT] = 0
     body[DUE_S] = day.begins_s[run] + (int(LATEST_BEGUN_S * rng.random()) if rng.random() < day.late_runs else 0)
     body[CONFIRMED_S] = now_s
     confirm(traffic, tram, 0, destination(day, traffic, tram), 1_000 * now_s)
@@ -103,36 +103,19 @@ def take_up(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) 
 
 
 @compiled
-def begin_runs(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
-    """Let trams come that were taken up, in whatever order they are ready, if the first stop is free (G5).
+def tell_from_elsewhere(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Let trams that are off the way tell so, each half minute; who cannot is taken off by a person (G5).
 
-    Whose confirmation has lapsed asks anew: a person takes the tram off, and it is confirmed once more.
+    Those on the other way are heard where they run.
     """
-    for tram in range(len(traffic.trams)):
-        body = traffic.trams[tram]
-        if body[OFF_S] != AWAITED_S or now_s < body[DUE_S] or not is_free_at(traffic, 0, 2 * AT_STOP_MM):
-            continue
-        if 1_000 * (now_s - body[CONFIRMED_S]) > day.limits.coming_ms:
-            take_off_by_hand(traffic, tram, 1_000 * now_s)
-            hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
-            if not confirm(traffic, tram, 0, destination(day, traffic, tram), 1_000 * now_s):
-                continue
-            body[CONFIRMED_S] = now_s
-            traffic.row[tally.CONFIRMED_ANEW] += 1
-        come(day, traffic, tram, traffic.size[0], 0, now_s, rng)
-        body[OFF_S] = now_s
-
-
-@compiled
-def tell_from_elsewhere(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
-    """Let trams that are off the way tell so, each half minute; who cannot is taken off by a person (G5)."""
     where = day.where
     for tram in range(len(traffic.trams)):
         body = traffic.trams[tram]
         if body[ON] == 1 or body[OFF_S] == AWAITED_S or (now_s + tram) % ELSEWHERE_EACH_S != 0:
             continue
         deaf = tram == where.deaf_tram and where.deaf_s <= now_s < where.deaf_s + day.tram_deaf_s
-        if not deaf and now_s - body[OFF_S] >= ELSEWHERE_S and rng.random() >= where.frames_lost:
+        tells = there.trams[tram, ON] == 0 and not deaf and now_s - body[OFF_S] >= ELSEWHERE_S
+        if tells and rng.random() >= where.frames_lost:
             hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
         if body[K_IS] == 1 and now_s - body[OFF_S] >= ASKED_AFTER_S:
             take_off_by_hand(traffic, tram, 1_000 * now_s)
@@ -140,23 +123,10 @@ def tell_from_elsewhere(day: Given, traffic: Traffic, now_s: int, rng: np.random
 
 
 @compiled
-def come(
-    day: Given, traffic: Traffic, tram: int, place_in_line: int, stop: int, now_s: int, rng: np.random.Generator
-) -> None:
-    """Let a tram come onto the way at a stop, and serve it."""
-    body = traffic.trams[tram]
-    traffic.row[tally.UNANNOUNCED] += 1_000 * (now_s - body[CONFIRMED_S]) > day.limits.coming_ms
-    body[PLACE], body[SPEED], body[NEXT], body[WAITS] = day.stops_mm[stop], 0, stop, 0
-    put_on(traffic, place_in_line, tram)
-    begin_unit(day, body, stop, 1_000 * now_s)
-    serve(day, traffic, tram, now_s, rng)
-
-
-@compiled
-def come_from_the_depot(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> bool:
+def come_from_the_depot(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.random.Generator) -> bool:
     """Take up a tram at the depot's stop and let it come, if it may; whether it did (G5)."""
-    tram = free_tram(traffic, now_s)
-    place = depot_place(day, traffic)
+    tram = free_tram(traffic, there, now_s, AWAY_S)
+    place = place_beyond(day, traffic, DEPOT)
     if tram < 0:
         return False
     if not is_free_at(traffic, day.stops_mm[DEPOT], CLEAR_MM):
@@ -172,12 +142,17 @@ def come_from_the_depot(day: Given, traffic: Traffic, now_s: int, rng: np.random
 
 
 @compiled
-def second(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -> None:
-    """Let a second pass: trams move, units see, stations ask, the centre decides, orders arrive."""
+def second(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Let a second pass on a way: trams move, units see, stations ask, the centre decides, orders arrive.
+
+    ``there``: the other way.
+    """
     place = 0
     while place < traffic.size[0]:
         if move(day, traffic, place, now_s, rng):
+            tram = traffic.line[place]
             take_off(traffic, place, now_s)
+            go_over(day, traffic, there, tram, now_s, rng)
         else:
             place += 1
     for place in range(traffic.size[0]):
@@ -186,39 +161,49 @@ def second(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generator) -
         ask(day, traffic, stop, now_s, rng)
     for tram in range(len(traffic.trams)):
         if traffic.due_ms[0, tram] <= 1_000 * now_s:
-            deliver_reports(day, traffic, tram, 1_000 * now_s, rng)
+            deliver_reports(day, traffic, there, tram, 1_000 * now_s, rng)
         if traffic.due_ms[1, tram] <= 1_000 * now_s:
             deliver_orders(day, traffic, tram, now_s, rng)
-    tell_from_elsewhere(day, traffic, now_s, rng)
+    tell_from_elsewhere(day, traffic, there, now_s, rng)
     watch(day, traffic, 1_000 * now_s)
 
 
 @compiled
-def none_awaited(traffic: Traffic) -> bool:
-    """Whether no tram is still to come."""
-    awaited = 0
-    for tram in range(len(traffic.trams)):
-        awaited += traffic.trams[tram, OFF_S] == AWAITED_S
-    return awaited == 0
+def restart_everything(day: Given, traffic: Traffic, there: Traffic, now_s: int) -> None:
+    """Start the centre anew, which decides for both ways."""
+    restart_centre(day.limits, traffic, 1_000 * now_s)
+    restart_centre(day.limits, there, 1_000 * now_s)
 
 
 @compiled
-def run_day(day: Given, traffic: Traffic, rng: np.random.Generator) -> None:
-    """Run a day from the first tram to the last."""
+def second_there(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.random.Generator) -> None:
+    """Let a second pass on the other way, for those that come back."""
+    take_up_who_comes_back(day, there, traffic, now_s)
+    second(day, there, traffic, now_s, rng)
+    begin_runs(day, there, now_s, rng)
+
+
+@compiled
+def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.random.Generator) -> None:
+    """Run a day from the first tram to the last; ``back``, ``there``: the other way, if trams come back on it."""
     from_depot, depot_s = day.from_depot, day.where.depot_s
     restart_s, restarts = day.where.restart_s, day.restarts
-    restart_centre(day.limits, traffic, 1_000 * FIRST_S)
-    for now_s in range(FIRST_S, END_S):
+    come_back = day.turns_s > 0 or day.away_s > 0
+    restart_everything(day, traffic, there, FIRST_S)
+    for now_s in range(FIRST_S, END_S + COMES_BACK_S if come_back else END_S):
         if restarts > 0 and now_s >= restart_s:
-            restart_centre(day.limits, traffic, 1_000 * now_s)
+            restart_everything(day, traffic, there, now_s)
             restarts, restart_s = restarts - 1, now_s + RESTARTED_AFTER_S
-        take_up(day, traffic, now_s, rng)
-        second(day, traffic, now_s, rng)
+        take_up(day, traffic, there, now_s, rng)
+        second(day, traffic, there, now_s, rng)
         begin_runs(day, traffic, now_s, rng)
-        if from_depot > 0 and now_s >= depot_s and come_from_the_depot(day, traffic, now_s, rng):
+        if come_back:
+            second_there(back, traffic, there, now_s, rng)
+        if from_depot > 0 and now_s >= depot_s and come_from_the_depot(day, traffic, there, now_s, rng):
             from_depot -= 1
             depot_s = now_s + DEPOT_EACH_S
-        if traffic.size[0] == 0 and traffic.size[1] >= len(day.begins_s) and none_awaited(traffic):
+        are_away = traffic.size[0] == 0 and there.size[0] == 0
+        if are_away and traffic.size[1] >= len(day.begins_s) and none_to_come(traffic) and none_to_come(there):
             return
 
 
@@ -230,12 +215,14 @@ def one_day(
     plant: int = NO_PLANT,
 ) -> tuple[Numbers, Given, Whole]:
     """Simulate a day: its row, what it was given, and when each run left each stop."""
-    chance = np.random.default_rng((seed, number))
-    day, drawn = given(chance, limits, present, plant)
+    chance, apart = np.random.default_rng((seed, number)), np.random.default_rng((seed, number, 2))
+    day, drawn = given(chance, apart, limits, present, plant)
+    back = other_way(day, apart)
     traffic = begun(TRAMS, STOPS, len(day.begins_s), len(tally.COLUMNS), OPEN_S)
+    there = begun(TRAMS, STOPS, 0, len(tally.COLUMNS), OPEN_S)._replace(row=traffic.row)
     for place, name in enumerate(FAULTS):
         traffic.row[tally.COLUMNS.index("fault_canyon") + place] = drawn[name] > 0
-    run_day(day, traffic, np.random.default_rng((seed, number, 1)))
+    run_day(day, back, traffic, there, np.random.default_rng((seed, number, 1)))
     return traffic.row, day, traffic.log
 
 
@@ -250,4 +237,4 @@ SYSTEM = System(
     hours=HOURS,
     one_day=lambda seed, number: one_day(seed, number)[0],
 )
-"""One way of a tram line with a centre, stations and units (G2 to G6)."""
+"""A tram line, one way or both, with a centre, stations and units (G2 to G6)."""

@@ -14,7 +14,7 @@ import numpy as np
 from kernel.tram import dispatching
 from models.compiled import packed
 from models.tram import tally
-from models.tram.given import LIMITS, NEVER_PRESENT, NEVER_STALE, NOT_ADDRESSED, Given
+from models.tram.given import ANY_WORD_ENDS, LIMITS, NEVER_PRESENT, NEVER_STALE, NOT_ADDRESSED, Given
 from models.tram.machines import MADE, compiled
 from models.tram.radio import CYCLE_S, SLOTS
 from models.tram.state import (
@@ -225,8 +225,21 @@ def first_due_ms(box: Any) -> int:
 
 
 @compiled
-def deliver_reports(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.Generator) -> None:
-    """Let the reports of a tram that are due come to the centre, which answers each with an order."""
+def hear_of_the_other_way(day: Given, there: Traffic, tram: int, made_ms: int, now_ms: int) -> None:
+    """Let what a tram told of one way end its run on the other one, if that was before (G5)."""
+    hear_elsewhere(there, tram, made_ms, now_ms)
+    if day.plant == ANY_WORD_ENDS and there.trams[tram, K_IS] == 1:
+        forget(there, tram, made_ms)
+
+
+@compiled
+def deliver_reports(
+    day: Given, traffic: Traffic, there: Traffic, tram: int, now_ms: int, rng: np.random.Generator
+) -> None:
+    """Let the reports of a tram that are due come to the centre, which answers each with an order.
+
+    ``there``: the other way.
+    """
     body, box = traffic.trams[tram], traffic.reports[tram]
     for place in range(BOX):
         message = box[place]
@@ -237,6 +250,7 @@ def deliver_reports(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: n
         )
         message[R_DUE] = FREE
         hear_report(traffic, tram, report, now_ms)
+        hear_of_the_other_way(day, there, tram, report.made_ms, now_ms)
         if body[K_IS] == 1 and report.made_ms > body[K_SINCE]:
             body[G_MARK] = max(body[G_MARK], mark(report.stop, report.left))
             if report.stands:

@@ -52,19 +52,30 @@ FAULTS = {
         0.3,
         "practice: a driver who is late, trams that change places",
     ),
+    "both_ways": Fault(
+        "trams turn at the far terminus in so long, and come back on the other way", 120, 600, "s", 0.5, "practice"
+    ),
+    "junction": Fault(
+        "trams of the other line come back so much later, and join at the junction", 10, 40, "min", 0.5, "practice"
+    ),
 }
 """By name, in the order in which they are drawn."""
+DRAWN_APART = ("both_ways", "junction")
+"""What else is drawn of a day is the same with these and without."""
 
 FRAMES_LOST = (0.0, 0.1)
 """From, to: the share of frames lost at any station, of each day.  Practice: low-power radio with line of sight."""
 
 
-def draw(chance: np.random.Generator, present: frozenset[str] | None = None) -> dict[str, float]:
+def draw(
+    chance: np.random.Generator, apart: np.random.Generator, present: frozenset[str] | None = None
+) -> dict[str, float]:
     """Draw a day's faults; 0 is none.  ``present``: those that the day has instead, whatever the chance."""
     drawn = {}
     for name, fault in FAULTS.items():
-        has = bool(chance.random() < fault.chance)
-        value = float(chance.uniform(fault.least, fault.most))
+        source = apart if name in DRAWN_APART else chance
+        has = bool(source.random() < fault.chance)
+        value = float(source.uniform(fault.least, fault.most))
         drawn[name] = value if (has if present is None else name in present) else 0.0
     return drawn
 

@@ -35,12 +35,17 @@ UNCONTROLLED = DispatchLimits(
 )
 """As if there were no centre."""
 STOP_LIMITS = StopLimits(near_mm=line.AT_STOP_MM, held_mm=line.AT_STOP_MM + 2 * BOUND_MM)
+TURNS_S = 240
+"""Where trams join at the junction others come from the terminus: they turn in so long if none is drawn; ours."""
+PATIENCE_S = 900
+"""On such a day so long passengers wait at most: the other way is not served before the first tram has turned; ours."""
 SPEED_ERROR_MM_S = 100
 """Declared: ours, typical of tachometers at walking pace."""
 
-NO_PLANT, NOT_ADDRESSED, NEVER_PRESENT, NEVER_STALE, NEVER_LOST, GPS_BEYOND = range(6)
+NO_PLANT, NOT_ADDRESSED, NEVER_PRESENT, NEVER_STALE, NEVER_LOST, GPS_BEYOND, ANY_WORD_ENDS, JOINS_UNASKED = range(8)
 """Faults that tests plant: an order is taken by any tram; every way is clear; no report is too old; a unit goes on
-where it has no place; GPS errs beyond its bound, and says that it does not."""
+where it has no place; GPS errs beyond its bound, and says that it does not; whatever is told of the other way ends a
+run, however old it is; a tram joins at the junction without asking whether one behind may run faster to there."""
 
 
 class Given(NamedTuple):
@@ -68,18 +73,51 @@ class Given(NamedTuple):
     by_hand: float
     restarts: int
     late_runs: float
+    turns_s: int
+    away_s: int
+    is_back: bool
+    patience_s: int
     plant: int
+
+
+def other_way(day: Given, chance: np.random.Generator) -> Given:
+    """Give the other way of a day: the same line from its other end, with the same faults in the same places.
+
+    Where no tram comes back nothing happens on it.
+    """
+    along = line.Day(day.stops_mm, day.boards_a_second, day.signal_s, day.begins_s, day.leaves_at)
+    back = line.other_way(along, chance)
+    where = day.where._replace(
+        canyon_mm=int(day.stops_mm[-1]) - day.where.canyon_mm - day.canyon_mm,
+        station=line.STOPS - 1 - day.where.station,
+    )
+    return day._replace(
+        stops_mm=back.stops_mm,
+        boards_a_second=back.boards_a_second,
+        signal_s=back.signal_s,
+        begins_s=back.begins_s,
+        leaves_at=back.leaves_at,
+        where=where,
+        broken_s=0,
+        from_depot=0,
+        restarts=0,
+        is_back=True,
+    )
 
 
 def given(
     chance: np.random.Generator,
+    apart: np.random.Generator,
     limits: DispatchLimits = LIMITS,
     present: frozenset[str] | None = None,
     plant: int = NO_PLANT,
 ) -> tuple[Given, dict[str, float]]:
-    """Draw a day and its faults; what is drawn does not depend on the limits."""
+    """Draw a day and its faults; what is drawn does not depend on the limits.
+
+    ``apart``: draws what a day has beside, which changes nothing else of it.
+    """
     day = line.draw(chance)
-    drawn = faults.draw(chance, present)
+    drawn = faults.draw(chance, apart, present)
     assert list(drawn) == list(FAULTS)
     where = faults.place(chance, int(day.stops_mm[-1]))
     return Given(
@@ -105,5 +143,9 @@ def given(
         by_hand=drawn["by_hand"],
         restarts=round(drawn["centre_restart"]),
         late_runs=drawn["late_at_terminus"],
+        turns_s=round(drawn["both_ways"]) or (TURNS_S if drawn["junction"] > 0 else 0),
+        away_s=round(60 * drawn["junction"]),
+        is_back=False,
+        patience_s=PATIENCE_S if drawn["both_ways"] + drawn["junction"] > 0 else line.CLOSE_S,
         plant=plant,
     ), drawn

@@ -1,4 +1,4 @@
-"""One way of a tram line on a day: stops, signals, passengers, and the trams that run on it (G2, G4).
+"""A tram line on a day, one way or both: stops, signals, passengers, and the trams that run on it (G2, G4).
 
 Ours where no other source is named.  The line is that of no town: as many stops and as close as those of the
 paper's (Kumamoto, 12 km with stops each 400 m), trams each four to six minutes.
@@ -19,6 +19,8 @@ LEAST_APART_MM, MOST_APART_MM = 300_000, 520_000
 """Practice: stops of Japanese tram lines."""
 BRANCH = 16
 """The stop where the other line turns off; each third tram is its."""
+JOINS = STOPS - 1 - BRANCH
+"""The same junction on the other way: the stop where the other line's trams come onto it."""
 DEPOT = 8
 """The stop where a tram may come from the depot."""
 OPEN_S = 6 * 3_600
@@ -76,6 +78,23 @@ class Day:
     signal_s: Whole
     begins_s: Whole
     leaves_at: Whole
+
+
+NOTHING = np.zeros(0, np.int64)
+
+
+def other_way(day: Day, chance: np.random.Generator) -> Day:
+    """Give the other way of the same line: its stops from the far end on, with signals of their own, and no timetable.
+
+    Who has run along the line comes back when it has turned.
+    """
+    return Day(
+        stops_mm=(day.stops_mm[-1] - day.stops_mm[::-1]).astype(np.int64),
+        boards_a_second=day.boards_a_second[::-1].copy(),
+        signal_s=chance.integers(0, SIGNAL_S, STOPS),
+        begins_s=NOTHING,
+        leaves_at=NOTHING,
+    )
 
 
 def is_peak(second: int) -> bool:

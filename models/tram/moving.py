@@ -11,10 +11,8 @@ from models.tram import tally
 from models.tram.given import Given
 from models.tram.line import (
     AT_STOP_MM,
-    AWAY_S,
     BOARDS_S,
     BRAKES_MM_S2,
-    DEPOT,
     GAINS_MM_S2,
     GAP_MM,
     LENGTH_MM,
@@ -30,6 +28,7 @@ from models.tram.line import (
 from models.tram.machines import compiled
 from models.tram.state import (
     BROKEN_S,
+    COMES_AT,
     D_HOLDS,
     D_RECOVERS,
     DWELL_S,
@@ -102,7 +101,8 @@ def serve(day: Given, traffic: Traffic, tram: int, now_s: int, rng: np.random.Ge
     """Begin to serve the stop: who waits since it was served last boards."""
     stop = traffic.trams[tram, NEXT]
     more = PEAK_BOARDS if day.is_peak[now_s // 3_600] == 1 else 1.0
-    waiting = passengers(day.boards_a_second[stop] * more * max(0, now_s - traffic.served_s[stop]), rng)
+    waited_s = min(max(0, now_s - traffic.served_s[stop]), day.patience_s)
+    waiting = passengers(day.boards_a_second[stop] * more * waited_s, rng)
     traffic.served_s[stop] = now_s
     traffic.trams[tram, DWELL_S] = OPENS_S + int(BOARDS_S * waiting)
 
@@ -185,12 +185,17 @@ def put_on(traffic: Traffic, place_in_line: int, tram: int) -> None:
 
 
 @compiled
-def free_tram(traffic: Traffic, now_s: int) -> int:
-    """Give a vehicle that has been away long enough, the one that has been longest; -1 if there is none."""
+def free_tram(traffic: Traffic, there: Traffic, now_s: int, away_s: int) -> int:
+    """Give a vehicle that has been away long enough, the one that has been longest; -1 if there is none.
+
+    ``there``: the other way, on which it is not, nor to come.
+    """
     found = -1
     for tram in range(len(traffic.trams)):
-        body = traffic.trams[tram]
-        if body[ON] == 0 and body[OFF_S] <= now_s - AWAY_S and (found < 0 or body[OFF_S] < traffic.trams[found, OFF_S]):
+        body, beyond = traffic.trams[tram], there.trams[tram]
+        if body[ON] == 1 or body[OFF_S] > now_s - away_s or beyond[ON] == 1 or beyond[COMES_AT] != FREE:
+            continue
+        if found < 0 or body[OFF_S] < traffic.trams[found, OFF_S]:
             found = tram
     return found
 
@@ -205,9 +210,9 @@ def is_free_at(traffic: Traffic, place_mm: int, clear_mm: int) -> bool:
 
 
 @compiled
-def depot_place(day: Given, traffic: Traffic) -> int:
-    """How many trams on the way are beyond the depot's stop."""
+def place_beyond(day: Given, traffic: Traffic, stop: int) -> int:
+    """How many trams on the way are beyond a stop."""
     beyond = 0
-    while beyond < traffic.size[0] and traffic.trams[traffic.line[beyond], PLACE] > day.stops_mm[DEPOT]:
+    while beyond < traffic.size[0] and traffic.trams[traffic.line[beyond], PLACE] > day.stops_mm[stop]:
         beyond += 1
     return beyond

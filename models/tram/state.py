@@ -26,6 +26,7 @@ TRUTH = (
     "WAITS",
     "DUE_S",
     "CONFIRMED_S",
+    "COMES_AT",
 )
 UNIT = ("U_STOP", "U_LEFT", "U_STANDS", "U_STOOD", "D_LOCATED", "D_STOP", "D_STANDS", "D_HOLDS", "D_RECOVERS", "D_MADE")
 UNIT_TIME = ("D_NOW", "H_KNOWN", "H_AGE", "H_ANSWERED")
@@ -35,7 +36,7 @@ GHOST = ("G_MARK", "G_TOLD", "G_BEHIND")
 """What reports have truly told: the farthest mark of this run, when it stood last; and whether one behind holds it."""
 NAMES = (*TRUTH, *UNIT, *UNIT_TIME, *CENTRE, *CENTRE_TOO, *GHOST)
 
-ON, TURN, PLACE, SPEED, LEAVES, NEXT, DWELL_S, PASSES, BROKEN_S, OFF_S, WAITS, DUE_S, CONFIRMED_S = map(
+ON, TURN, PLACE, SPEED, LEAVES, NEXT, DWELL_S, PASSES, BROKEN_S, OFF_S, WAITS, DUE_S, CONFIRMED_S, COMES_AT = map(
     NAMES.index, TRUTH
 )
 U_STOP, U_LEFT, U_STANDS, U_STOOD, D_LOCATED, D_STOP, D_STANDS, D_HOLDS, D_RECOVERS, D_MADE = map(NAMES.index, UNIT)
@@ -87,6 +88,7 @@ def begun(trams: int, stops: int, runs: int, columns: int, now_s: int) -> Traffi
     state = np.zeros((trams, len(NAMES)), np.int64)
     state[:, OFF_S] = NEVER_MS
     state[:, K_ELSEWHERE] = NEVER_MS
+    state[:, COMES_AT] = FREE
     return Traffic(
         trams=state,
         line=np.zeros(trams, np.int64),

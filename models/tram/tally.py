@@ -32,11 +32,12 @@ MONITORS: Mapping[str, str] = {
     "unheard": "cycles in which a station had no answer from a tram that stood there",
     "place_lost": "seconds of trams without a place",
     "orders_lapsed": "orders that lapsed at a stop because none followed",
-    "not_taken_up": "seconds that a tram from the depot waited, as one behind might recover or the way was not known",
+    "not_taken_up": "seconds that a tram waited to come midway, as one behind might recover or the way was not known",
     "confirmed_anew": "trams whose confirmation had lapsed before they came, and which asked again",
     "taken_off": "trams that a person took off, since they did not tell from elsewhere",
     "not_known_s": "seconds of trams on the way that the centre did not know, after it had started anew",
     "beyond_destination": "reports from beyond the stop where the tram was to leave: a wrong setting",
+    "given_up": "trams that waited half an hour to come back, were not confirmed, and went to the depot",
 }
 PRICES: Mapping[str, str] = {
     "held_s": "seconds for which trams were held when they could have departed",
@@ -54,6 +55,8 @@ COUNTS: Mapping[str, str] = {
     "frames": "answers of trams asked for",
     "tram_s": "seconds of trams on the way",
     "stood_s": "seconds at stops",
+    "turned": "trams that turned at the far terminus and came back",
+    "joined": "trams of the other line that joined at the junction",
 }
 COLUMNS = (*CLAIMS, *ASSUMPTIONS, *MONITORS, *(f"fault_{name}" for name in FAULTS), *PRICES, *COUNTS)
 
@@ -63,6 +66,7 @@ REACHED_TOO_SOON, WANDERED = map(COLUMNS.index, list(CLAIMS)[8:])
 PLACE_BROKEN, SPEED_BROKEN, OVERTAKEN, UNANNOUNCED = map(COLUMNS.index, list(ASSUMPTIONS)[:4])
 TAKEN_OFF_THERE, CLOCK_BROKEN, REPORT_BROKEN = map(COLUMNS.index, list(ASSUMPTIONS)[4:])
 REPORTS_REFUSED, UNHEARD, PLACE_LOST, ORDERS_LAPSED, NOT_TAKEN_UP = map(COLUMNS.index, list(MONITORS)[:5])
-CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION = map(COLUMNS.index, list(MONITORS)[5:])
+CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION, GIVEN_UP = map(COLUMNS.index, list(MONITORS)[5:])
 HELD_S, NEEDLESS_S, RECOVERIES_DUE, RECOVERIES_NOT_GIVEN, RECOVERY_S = map(COLUMNS.index, PRICES)
-RUNS, DEPARTURES, ORDERS, ORDERS_TO_HOLD, ORDERS_TO_RECOVER, FRAMES, TRAM_S, STOOD_S = map(COLUMNS.index, COUNTS)
+RUNS, DEPARTURES, ORDERS, ORDERS_TO_HOLD, ORDERS_TO_RECOVER = map(COLUMNS.index, list(COUNTS)[:5])
+FRAMES, TRAM_S, STOOD_S, TURNED, JOINED = map(COLUMNS.index, list(COUNTS)[5:])

@@ -254,11 +254,11 @@ def send(box: Any, first_ms: Any, tram: int, due_ms: int, message: tuple[int, in
 
 @compiled
 def ask(day: Given, traffic: Traffic, stop: int, now_s: int, rng: np.random.Generator) -> None:
-    """Let a station ask the first two trams of this way that it reaches (table 1)."""
-    slot = 0
+    """Let a station ask the first two trams of this way that it reaches: up 1, up 2; down 1, down 2 (table 1)."""
+    slot = most = 2 if day.is_back else 0
     for place in range(traffic.size[0]):
         tram = traffic.line[place]
-        if slot < 2 and is_in_reach(day, traffic, tram, stop):
+        if slot < most + 2 and is_in_reach(day, traffic, tram, stop):
             ask_one(day, traffic, tram, stop, slot, now_s, rng)
             slot += 1
 

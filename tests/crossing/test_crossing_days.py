@@ -16,9 +16,10 @@ from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
 from models.crossing.days import SYSTEM, one_day
 from models.crossing.faults import FAULTS, KIND
 from models.crossing.made import MADE, NO_DUES
+from models.crossing.records import SET
 from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
-from models.crossing.traffic import SECONDS, drawn
-from models.crossing.watch import SET, decide, watched
+from models.crossing.traffic import SECONDS, drawn, there_m
+from models.crossing.watch import decide, watched
 from models.days.system import Numbers
 
 BROKEN_BY = {fault.name: fault.breaks for fault in FAULTS if fault.breaks}
@@ -145,6 +146,40 @@ def test_trains_run_side_by_side_and_close_behind() -> None:
         assert 0.3 < within["radio"].mean() < 0.8
         pairs = {(int(at_s), int(radio)) for at_s, radio in zip(within["at_s"], within["radio"], strict=True)}
         assert sum((at_s, 1) in pairs and (at_s, 0) in pairs for at_s, _ in pairs) > 12
+
+
+@compiled
+def of_any_tag(settings: Any, read: Any, age: Any) -> Any:
+    """Whichever two tags a tail has read, its train is gone."""
+    return read.is_whole
+
+
+def test_two_roads_close_together() -> None:
+    """Each train comes to both; what is told of the tags beyond the one opens the other for nobody (X4, T14).
+
+    Without looking at the tags the second road opens, or stays open, before a train that has passed the first one.
+    """
+    rows = days(4, beyond=("close_roads",))
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    assert rows[:, NUMBER["fault_close_roads"]].all()
+    assert (rows[:, NUMBER["arrivals_beside"]] == rows[:, NUMBER["arrivals"]]).all()
+    assert (rows[:, NUMBER["closed_beside_s"]] > 0.3 * rows[:, NUMBER["closed_s"]]).all()
+    broken = counted(days(4, beyond=("close_roads",), hears=of_any_tag), CLAIMS)
+    assert {"late_warning", "short_closure", "opened_before_rear"} <= set(broken)
+
+
+def test_a_second_road_changes_nothing_of_the_days_trains() -> None:
+    """But who turns back does so before the road that it comes to first."""
+    compared = 0
+    for number in range(12):
+        alone, two = (drawn(4, number, STRAIGHT, beyond=more) for more in ((), ("close_roads",)))
+        if alone.faults[KIND["close_roads"]]["begin_s"] < 0:
+            turns = (two.trains["trick"] == KIND["turns_back"]) & (two.trains["track"] == 1)
+            assert (alone.trains[~turns] == two.trains[~turns]).all()
+            compared += 1
+    assert compared > 3
+    assert [there_m("turns_back", track, 300.0, 400.0) for track in (0, 1)] == [300.0, 700.0]
+    assert [there_m("stops_short", track, 300.0, 400.0) for track in (0, 1)] == [300.0, 300.0]
 
 
 # ---- what the days are made of

@@ -94,6 +94,64 @@ def test_what_is_planted_is_reported(plant: int, present: frozenset[str], broken
     assert sum(column(one_day(3, number, present=present)[0], broken) for number in range(4)) == 0
 
 
+# ---- both directions, and a junction
+
+BACK, LATE_TELEGRAMS = frozenset({"both_ways"}), frozenset({"both_ways", "repeats"})
+JUNCTION = frozenset({"junction"})
+
+
+def test_trams_turn_at_the_terminus_and_join_at_the_junction() -> None:
+    """Each of this line comes back by the terminus, each of the other one by the junction; no claim breaks (G4, G5)."""
+    for present, came in ((NONE, set()), (BACK, {"turned"}), (JUNCTION, {"turned", "joined"})):
+        row = one_day(3, 0, present=present)[0]
+        assert {name for name in ("turned", "joined") if column(row, name) > 40} == came
+        assert column(row, "given_up") <= 2
+        for name in (*SYSTEM.claims, *SYSTEM.assumptions):
+            assert column(row, name) == 0, name
+
+
+def test_with_every_fault_at_once_both_ways_hold() -> None:
+    rows = np.array([one_day(3, number, present=frozenset(FAULTS))[0] for number in range(4)])
+    for name in (*SYSTEM.claims, *SYSTEM.assumptions):
+        assert column(rows, name) == 0, name
+    assert min(column(rows, "turned"), column(rows, "joined")) > 40
+
+
+@pytest.mark.parametrize(
+    ("plant", "present", "broken"),
+    [
+        (plan.ANY_WORD_ENDS, LATE_TELEGRAMS, "recovery_occupied"),
+        (plan.ANY_WORD_ENDS, LATE_TELEGRAMS, "recovery_unknown"),
+        (plan.JOINS_UNASKED, JUNCTION, "recovery_occupied"),
+    ],
+)
+def test_a_guard_of_turning_or_joining_is_missed(plant: int, present: frozenset[str], broken: str) -> None:
+    """A word of the other way, told late, ends a run of this one; a tram joins before one that recovers (G5)."""
+    assert sum(column(one_day(3, number, present=present, plant=plant)[0], broken) for number in range(4)) > 0
+    assert sum(column(one_day(3, number, present=present)[0], broken) for number in range(4)) == 0
+
+
+def test_a_day_without_turning_is_what_it_was() -> None:
+    """What is drawn of turning and joining changes nothing else of a day."""
+    days = [plan.given(np.random.default_rng(1), np.random.default_rng(apart), present=NONE) for apart in (2, 3)]
+    assert all(np.array_equal(one, other) for one, other in zip(days[0][0][:5], days[1][0][:5], strict=True))
+    assert days[0][0].where == days[1][0].where
+    assert days[0][1] == days[1][1]
+
+
+def test_the_other_way_is_the_same_line_from_its_other_end() -> None:
+    """Its stops, its canyon and its deaf station lie at the same places."""
+    for number in range(9):
+        apart = np.random.default_rng(number)
+        day, _ = plan.given(np.random.default_rng(number), apart, present=frozenset({"canyon", "station_deaf"}))
+        back = plan.other_way(day, apart)
+        line_mm = day.stops_mm[-1]
+        assert (back.stops_mm + day.stops_mm[::-1] == line_mm).all()
+        assert back.where.canyon_mm + back.canyon_mm == line_mm - day.where.canyon_mm
+        assert back.stops_mm[back.where.station] == line_mm - day.stops_mm[day.where.station]
+        assert (back.boards_a_second == day.boards_a_second[::-1]).all()
+
+
 @pytest.mark.parametrize("name", FAULTS)
 def test_each_fault_makes_a_difference(name: str) -> None:
     others = [place for place, each in enumerate(SYSTEM.columns) if not each.startswith("fault_")]

@@ -9,7 +9,7 @@ from kernel.tram import display as on_board
 from kernel.tram.centre import Centre, Tram
 from kernel.tram.dispatching import Hand, Known, Order, Report, is_beyond_its_destination, mark
 from models.tram.dispatching import Body, Given, place
-from proofs.tram.witnesses import holds
+from proofs.tram.witnesses import holds, ways
 from proofs.tram.witnesses import on_board as orders_shown
 from proofs.tram.witnesses.line import (
     EARLY,
@@ -475,6 +475,7 @@ def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
 WITNESSES = (
     *orders_shown.WITNESSES,
     *holds.WITNESSES,
+    *ways.WITNESSES,
     a_tram_recovers_to_the_next_stop,
     none_recovers_sooner,
     none_recovers_towards_a_tram_at_the_next_stop,

@@ -1,0 +1,56 @@
+"""Trams of both directions, and of two lines that share some stops: turning, and joining at a junction (G4 to G6)."""
+
+from __future__ import annotations
+
+from proofs.tram.witnesses.line import FIRST, NEITHER, RECOVERS, SECOND, THIRD, Day, two_stops_apart
+
+
+def what_was_told_of_the_other_way_ends_no_run_on_this_one() -> None:
+    """A tram turns and comes back; what it told on the other way comes late and again, and it stays known (G5, G6)."""
+    day = Day()
+    told_ms = day.system.centre.now_ms
+    day.step("tell_elsewhere", tram=FIRST)
+    day.wait(1)
+    day.come(FIRST, 1, 1)
+    day.depart(FIRST)
+    for _ in range(2):
+        before = day.system
+        assert day.step("hear_elsewhere", tram=FIRST, made_ms=told_ms) == before
+    day.come(SECOND, 2, 1, tells=False)
+    day.wait(240_000)
+    day.tell(SECOND)
+    assert day.says(SECOND) == NEITHER
+    day.arrive(FIRST)
+    day.wait(1)
+    day.depart(FIRST)
+    day.tell(SECOND)
+    assert day.says(SECOND) == RECOVERS
+    day.leave(FIRST)
+    day.wait(1)
+    day.off(FIRST)
+
+
+def a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to() -> None:
+    """At the junction it waits for one that recovers to there; once it is to come none behind it recovers (G5)."""
+    day = two_stops_apart()
+    assert day.says(SECOND) == RECOVERS
+    day.off(THIRD)
+    assert not day.confirm(THIRD, 2)
+    day.depart(SECOND)
+    assert not day.confirm(THIRD, 2)
+    day = two_stops_apart()
+    day.off(THIRD)
+    assert day.confirm(THIRD, 2)
+    assert day.says(SECOND) == NEITHER
+    day.leave(FIRST)
+    day.off(FIRST)
+    day.begin(THIRD, 1)
+    assert day.says(SECOND) == NEITHER
+    day.depart(THIRD)
+    assert day.says(SECOND) == RECOVERS
+
+
+WITNESSES = (
+    what_was_told_of_the_other_way_ends_no_run_on_this_one,
+    a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to,
+)
