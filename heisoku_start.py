@@ -81,18 +81,20 @@ def loaded() -> str | None:
 
 
 def interrupt(number: int, frame: FrameType | None) -> None:
-    """Interrupt the program; a moment later where Python would print the exception and go on, as finalisers do."""
-    within = [] if frame is None else [frame.f_code.co_filename]
-    while frame is not None:
-        within.append(frame.f_code.co_name)
-        frame = frame.f_back
-    if within and (within[0].startswith("<frozen importlib") or "__del__" in within):
-        import os
-        import threading
+    """Interrupt the program; a moment later where Python would print the exception and go on, as finalisers do.
 
-        threading.Timer(AGAIN_AFTER_S, os.kill, (os.getpid(), number)).start()
-        return
-    raise KeyboardInterrupt
+    So do callbacks of the compiler's library (llvmlite), whose objects have no way back either while they are made.
+    """
+    is_dropped = frame is not None and frame.f_code.co_filename.startswith("<frozen importlib")
+    while frame is not None and not is_dropped:
+        is_dropped = frame.f_code.co_name == "__del__" or "llvmlite" in frame.f_code.co_filename
+        frame = frame.f_back
+    if not is_dropped:
+        raise KeyboardInterrupt
+    import os
+    import threading
+
+    threading.Timer(AGAIN_AFTER_S, os.kill, (os.getpid(), number)).start()
 
 
 def hear_interruptions(heard: bool) -> None:
