@@ -83,11 +83,12 @@ def loaded() -> str | None:
 def interrupt(number: int, frame: FrameType | None) -> None:
     """Interrupt the program; a moment later where Python would print the exception and go on, as finalisers do.
 
-    So do callbacks of the compiler's library (llvmlite), whose objects have no way back either while they are made.
+    So do callbacks of the compiler's library (llvmlite).  Its objects and Z3's complain if they are let go half made.
     """
     is_dropped = frame is not None and frame.f_code.co_filename.startswith("<frozen importlib")
     while frame is not None and not is_dropped:
-        is_dropped = frame.f_code.co_name == "__del__" or "llvmlite" in frame.f_code.co_filename
+        made = frame.f_code.co_name == "__init__" and frame.f_globals.get("__name__") == "z3.z3"
+        is_dropped = made or frame.f_code.co_name == "__del__" or "llvmlite" in frame.f_code.co_filename
         frame = frame.f_back
     if not is_dropped:
         raise KeyboardInterrupt
