@@ -43,7 +43,7 @@ class AtEndPoint:
     last, whether it read it or not.
     ``before``, ``last``: what its tail has read last, in the cycles ``before_at`` and ``last_at``.
     ``is_told``, ``told``: one of the telegrams that it has sent, any of them.
-    ``wrong``: history: it was told gone while it was inside, or a part of it.
+    ``gone``, ``wrong``: history: it was told gone; it was so while it was inside, or a part of it.
     """
 
     in_service: bool
@@ -58,6 +58,7 @@ class AtEndPoint:
     last_at: int
     is_told: bool
     told: Told
+    gone: bool
     wrong: bool
 
 
@@ -191,7 +192,8 @@ def hear(site: Place, system: AtEndPoint, age_cycles: int) -> AtEndPoint:
     if not only_what_was_told_is_heard(system) or not an_age_counts_from_the_read(system, age_cycles):
         return system
     is_gone = machine.has_left(site.settings, system.told.read, age_cycles)
-    return replace(system, wrong=system.wrong or (is_gone and (system.end != OUT or system.left_behind)))
+    wrong = is_gone and (system.end != OUT or system.left_behind)
+    return replace(system, gone=system.gone or is_gone, wrong=system.wrong or wrong)
 
 
 def run_a_cycle(site: Place, system: AtEndPoint) -> AtEndPoint:

@@ -18,6 +18,7 @@ def it_is_not_in_service(site: Place, system: AtEndPoint) -> bool:
         and system.last != site.settings.outer
         and system.last_at <= system.now
         and not system.is_told
+        and not system.gone
         and not system.wrong
     )
 

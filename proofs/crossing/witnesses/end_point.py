@@ -25,7 +25,7 @@ class End(Play[Place, AtEndPoint]):
     def __init__(self, settings: EndPointSettings = SETTINGS) -> None:
         """Begin."""
         nothing = Told(TailRead(START, START, 10, False), 20)
-        start = AtEndPoint(False, 100, INSIDE, False, 0, 0, START, 10, START, 20, False, nothing, False)
+        start = AtEndPoint(False, 100, INSIDE, False, 0, 0, START, 10, START, 20, False, nothing, False, False)
         super().__init__(THEORY, Place(settings), start)
         self.step("put_into_service")
         assert self.system.in_service == machine.are_lawful(settings)
