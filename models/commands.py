@@ -152,17 +152,22 @@ def metres(option: str, text: str) -> int:
     return distance_mm
 
 
-def writable(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
-    """Find out before the work, not after it, that a record cannot be written, or would take the place of a file.
-
-    ``given``: the files that the command reads; none of them is written over, and no two records go into one file.
-    """
+def keep_apart(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
+    """Refuse what would be written in the place of a file that the command reads (``given``), or twice into one."""
     taken = {path.resolve(): "is read by this command" for path in given if path is not None}
     for path in paths:
         if path is not None and path != STANDARD_OUTPUT and (not path.exists() or path.is_file()):
             if path.resolve() in taken:
-                refuse(f"{path}: {taken[path.resolve()]}; name another file")
+                refuse(f"{path}: {taken[path.resolve()]}; write elsewhere")
             taken[path.resolve()] = "is to be written twice"
+
+
+def writable(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
+    """Find out before the work, not after it, that a record cannot be written, or would take a file's place.
+
+    ``given``: the files that the command reads.
+    """
+    keep_apart(*paths, given=given)
     for path in paths:
         if path is None or path == STANDARD_OUTPUT:
             continue

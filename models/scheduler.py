@@ -84,31 +84,22 @@ class Scheduler:
 
     def _submitted(self, do: Callable[[Work], Found], todo: Sequence[Work]) -> list[Any]:
         agreed = self.same()
-        with self._reaching():
+        with reaching(self.address):
             return [self.client.submit(done_alike, do, each, self.same, agreed, pure=False) for each in todo]
 
     def _found(self, future: Any) -> Any:
-        with self._reaching():
+        with reaching(self.address):
             error = future.exception()
         if future.status not in ("finished", "error"):
             raise lost(self.address)
         if error is not None:
             raise SchedulerError(f"a worker of {self.address} failed: {words_of(error)}", UNDECIDED)
-        with self._reaching():
+        with reaching(self.address):
             found = future.result()
         if isinstance(found, _Differs):
             line = f"a worker of {self.address} has other sources or versions than these; give it the same"
             raise SchedulerError(f"{line}, and start again")
         return found
-
-    @contextmanager
-    def _reaching(self) -> Iterator[None]:
-        from distributed.client import FutureCancelledError
-
-        try:
-            yield
-        except (OSError, TimeoutError, FutureCancelledError) as error:
-            raise lost(self.address) from error
 
 
 _ONE_AT_A_TIME = threading.Lock()
@@ -160,6 +151,21 @@ def _quieten() -> None:
     names = [name for name in logging.root.manager.loggerDict if name.split(".")[0] == "distributed"]
     for name in ("distributed", *names):
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+
+
+@contextmanager
+def reaching(address: str) -> Iterator[None]:
+    """Ask something of a scheduler that may be gone.
+
+    Raises:
+        SchedulerError: it is.
+    """
+    from distributed.client import FutureCancelledError
+
+    try:
+        yield
+    except (OSError, TimeoutError, FutureCancelledError) as error:
+        raise lost(address) from error
 
 
 def lost(address: str) -> SchedulerError:

@@ -191,7 +191,7 @@ def wrong(words: tuple[str, ...], how: Disturbance, moment: float) -> tuple[int,
         return process.returncode, ["it did not end"]
     found = list(_judged(process.returncode, (told or b"") + complaints, usual.code))
     if how.to_process in (interrupted, ended) and disturbed_at is not None:
-        found += _unheeded(process.returncode, time.monotonic() - disturbed_at)
+        found += unheeded(process.returncode, time.monotonic() - disturbed_at)
     found += _left_running(process.pid)
     found += _damaged(out)
     shutil.rmtree(out)
@@ -207,7 +207,7 @@ def _judged(code: int, said: bytes, usual: int) -> Iterator[str]:
         yield said.decode("utf-8", "replace")[-600:]
 
 
-def _unheeded(code: int, seconds: float) -> list[str]:
+def unheeded(code: int, seconds: float) -> list[str]:
     """A verdict long after it should have ended."""
     heeded = code in (UNDECIDED, *ENDED) or seconds <= HEEDED_WITHIN_S
     return [] if heeded else [f"went on for {seconds:.0f} s, to exit {code}"]

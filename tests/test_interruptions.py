@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from models.exit_codes import UNDECIDED
-from tests.interruptions import COMMANDS, ROOT, Disturbance, begun, closed, drawn, ended, interrupted, wrong
+from tests.interruptions import COMMANDS, ROOT, Disturbance, begun, closed, drawn, ended, interrupted, unheeded, wrong
 
 CHECK, PROVE = COMMANDS[0], COMMANDS[4]
 
@@ -72,3 +72,11 @@ def test_an_interruption_is_heard_where_python_would_drop_it() -> None:
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     assert (program.stdout, program.stderr) == ("heard\n", "")
+
+
+@pytest.mark.parametrize(
+    ("code", "seconds", "heeded"),
+    [(0, 60.0, False), (1, 60.0, False), (0, 2.0, True), (UNDECIDED, 60.0, True), (-signal.SIGINT, 60.0, True)],
+)
+def test_a_verdict_long_after_an_interruption_is_wrong(code: int, seconds: float, heeded: bool) -> None:
+    assert (unheeded(code, seconds) == []) == heeded

@@ -18,7 +18,7 @@ from fuzz.campaign.pool import TRIES
 from fuzz.campaign.problems import CampaignError
 from fuzz.campaign.worker import Answer, Work, answered_in_time
 from fuzz.targets.target import Batch
-from models.scheduler import REACHED_WITHIN_S, SchedulerError, connected, lost, words_of
+from models.scheduler import REACHED_WITHIN_S, SchedulerError, connected, lost, reaching, words_of
 
 COUNTED_EVERY_S = 2.0
 BATCHES_A_THREAD = 2
@@ -35,10 +35,8 @@ class Scheduled:
         self._failed: dict[Batch, int] = {}
         self._threads, self._counted = 0, 0.0
         self._alone_said = False
-        try:
+        with told_of_campaigns():
             self._client: Any = connected(address)
-        except SchedulerError as error:
-            raise CampaignError(str(error), error.code) from error
 
     def wanted(self) -> int:
         """Two for each thread of the scheduler's workers, counted now and then."""
@@ -72,8 +70,7 @@ class Scheduled:
                 future = self._ended.get_nowait()
         except queue.Empty:
             pass
-        if self._client.status != "running":
-            raise self._lost()
+        self._end_if(self._client.status != "running")
         return found
 
     def close(self) -> None:
@@ -83,22 +80,20 @@ class Scheduled:
 
     @contextmanager
     def _reaching(self) -> Iterator[None]:
-        try:
+        with told_of_campaigns(), reaching(self._address):
             yield
-        except (OSError, TimeoutError) as error:
-            raise self._lost() from error
 
-    def _lost(self) -> CampaignError:
-        error = lost(self._address)
-        return CampaignError(str(error), error.code)
+    def _end_if(self, is_gone: bool) -> None:
+        with told_of_campaigns():
+            if is_gone:
+                raise lost(self._address)
 
     def _hear(self, future: Any) -> list[Outcome]:
         from distributed import KilledWorker
 
         if future.key not in self._under_way:
             return []
-        if future.status not in ("finished", "error"):
-            raise self._lost()
+        self._end_if(future.status not in ("finished", "error"))
         with self._reaching():
             error = future.exception()
             answer: Answer = future.result() if error is None else Answer("failed", words=words_of(error))
@@ -122,3 +117,12 @@ class Scheduled:
         line = f"batch {batch.number} of {batch.target} {how}: {words}; it is left out"
         self._say(line)
         return Outcome(batch, None, how, line)
+
+
+@contextmanager
+def told_of_campaigns() -> Iterator[None]:
+    """What ends a scheduler's work ends a campaign, in the same words."""
+    try:
+        yield
+    except SchedulerError as error:
+        raise CampaignError(str(error), error.code) from error

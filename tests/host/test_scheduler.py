@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from models.exit_codes import BAD_INPUT, HOLDS, UNDECIDED
-from models.processes import Workers, as_they_end, spread
+from models.processes import Workers, as_they_end, number, spread
 from models.scheduler import SchedulerError, scheduled
 from tests.host import scheduling
 from tests.host.scheduling import ROOT, needs_dask
@@ -48,6 +48,11 @@ def this_process() -> str:
 def wait_and_square(number: int) -> int:
     time.sleep(1.0)
     return number * number
+
+
+def wait_and_tell_numbers(_: int) -> tuple[int, int]:
+    time.sleep(0.5)
+    return os.getpid(), number()
 
 
 def fail(number: int) -> int:
@@ -138,6 +143,16 @@ def test_a_process_that_says_otherwise_of_itself_is_not_believed(tmp_path: Path)
         pytest.raises(SchedulerError, match="has other sources or versions"),
     ):
         list(spread(square, [1], crew))
+
+
+@needs_dask
+@pytest.mark.slow
+def test_no_two_processes_of_other_machines_have_one_number(tmp_path: Path) -> None:
+    """Numbers of the system may be the same on two of them, so it is none of these."""
+    with scheduling.scheduled(tmp_path) as (address, _), scheduled(address, alike) as crew:
+        told = set(spread(wait_and_tell_numbers, range(8), crew))
+    assert len(told) == len({one for one, _ in told}) == len({other for _, other in told}) == 2
+    assert {one for one, _ in told}.isdisjoint(other for _, other in told)
 
 
 @needs_dask

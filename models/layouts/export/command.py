@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from models.commands import bad_input_refused, console, refuse, tell
+from models.commands import bad_input_refused, console, keep_apart, refuse, tell
 from models.exit_codes import DOES_NOT_HOLD
 from models.streams import write_whole
 
@@ -44,9 +44,7 @@ def export(layout: Layout, output: Folder, file: Files = None) -> None:
     if output.exists() and not output.is_dir():
         refuse(f"{output}: is no folder; name another")
     asked = [name for name in NAMES if not file or name in file]
-    for name in asked:
-        if (output / name).resolve() == layout.resolve():
-            refuse(f"{output / name}: is the layout that is exported; name another folder")
+    keep_apart(*(output / name for name in asked), given=(layout,))
     try:
         with bad_input_refused(), console(sys.stderr).status("exporting"):
             imported = load(layout)
