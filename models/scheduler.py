@@ -22,8 +22,6 @@ Work = TypeVar("Work")
 Found = TypeVar("Found")
 
 REACHED_WITHIN_S = 10
-LOOKED_EVERY_S = 2.0
-"""So often it is looked whether a scheduler is still there, while nothing ends."""
 BITS_OF_A_NUMBER = 53
 """Of the number of a process among those of other machines: as many as any reader of JSON takes."""
 
@@ -64,6 +62,8 @@ class Scheduler:
     def as_they_end(self, do: Callable[[Work], Found], todo: Sequence[Work]) -> Iterator[Found]:
         """Do each piece of work in one of the processes; what comes of them, whichever ends first.
 
+        Where the scheduler is gone all that was under way ends, too.
+
         Raises:
             SchedulerError: as above.
         """
@@ -72,15 +72,7 @@ class Scheduler:
         for future in futures:
             future.add_done_callback(ended.put)
         for _ in futures:
-            yield self._found(self._next_of(ended))
-
-    def _next_of(self, ended: queue.SimpleQueue[Any]) -> Any:
-        while True:
-            try:
-                return ended.get(timeout=LOOKED_EVERY_S)
-            except queue.Empty:
-                if self.client.status != "running":
-                    raise lost(self.address) from None
+            yield self._found(ended.get())
 
     def _submitted(self, do: Callable[[Work], Found], todo: Sequence[Work]) -> list[Any]:
         agreed = self.same()
@@ -90,8 +82,6 @@ class Scheduler:
     def _found(self, future: Any) -> Any:
         with reaching(self.address):
             error = future.exception()
-        if future.status not in ("finished", "error"):
-            raise lost(self.address)
         if error is not None:
             raise SchedulerError(f"a worker of {self.address} failed: {words_of(error)}", UNDECIDED)
         with reaching(self.address):

@@ -70,7 +70,9 @@ class Scheduled:
                 future = self._ended.get_nowait()
         except queue.Empty:
             pass
-        self._end_if(self._client.status != "running")
+        if self._client.status != "running":
+            with told_of_campaigns():
+                raise lost(self._address)
         return found
 
     def close(self) -> None:
@@ -83,17 +85,11 @@ class Scheduled:
         with told_of_campaigns(), reaching(self._address):
             yield
 
-    def _end_if(self, is_gone: bool) -> None:
-        with told_of_campaigns():
-            if is_gone:
-                raise lost(self._address)
-
     def _hear(self, future: Any) -> list[Outcome]:
         from distributed import KilledWorker
 
         if future.key not in self._under_way:
             return []
-        self._end_if(future.status not in ("finished", "error"))
         with self._reaching():
             error = future.exception()
             answer: Answer = future.result() if error is None else Answer("failed", words=words_of(error))
