@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from unicodedata import normalize
 
 from models.layouts.findings import Findings
 
 DRAWN_ALIKE = (
-    "АВЕЗКМНОРСТУХаеорсухіјѕԁԛԝЅІЈΑΒΕΖΗΙΚΜΝΟΡΤΥΧοανρ",
-    "ABE3KMHOPCTYXaeopcyxijsdqwSIJABEZHIKMNOPTYXoavp",
+    "АВЕЗКМНОРСТУХаеорсухіјѕԁԛԝЅІЈΑΒΕΖΗΙΚΜΝΟΡΤΥΧοανρһҺӏӀүҮԌԜѵѴѡҽЬбӠгϹϲϳͿϜϺυιɑɡΓΠΦΨΛκπτφψ",
+    "ABE3KMHOPCTYXaeopcyxijsdqwSIJABEZHIKMNOPTYXoavphhlIyYGWvVweb63rCcjJFMuiagГПФѰЛкптфѱ",
 )
-"""Cyrillic and Greek letters, and the Latin ones that they are drawn as."""
+"""Letters of Cyrillic, Greek and phonetic script, and the Latin ones, or Cyrillic ones, that they are drawn as."""
 DRAWN_ALIKE_IN_JAPAN = (
     "‐‑‒–—―−ー一二力口工夕八卜才千へりべぺ〇",
     "---------ニカロエタハトオチヘリベペ○",
@@ -26,14 +26,28 @@ LOOK_ALIKE = "no two names look the same"
 
 def drawn(name: str) -> str:
     """A name as it is drawn: one Unicode form, no space at its ends or twice, one of the letters drawn alike."""
+    return _put_for_one_another(name, PLAIN)
+
+
+def _put_for_one_another(name: str, letters: Mapping[int, str | int]) -> str:
+    """A name in one Unicode form, with other letters for some; an accent is no part of the letter that it is on."""
     if name.isascii():
         return " ".join(name.split()) if " " in name else name
-    return " ".join(normalize("NFKC", name).translate(PLAIN).split())
+    # First as they stand: taken apart, a lunate sigma, which is drawn as c, would be a plain one.
+    apart = normalize("NFKD", name.translate(letters))
+    return " ".join(normalize("NFC", apart.translate(letters)).split())
+
+
+SMALL = {ord(odd.casefold()): drawn(plain.casefold()) for odd, plain in zip(*DRAWN_ALIKE, strict=True)} | PLAIN
+"""The same, and letters whose capitals are drawn alike: н is read as h, since Н is drawn as H."""
 
 
 def read(name: str) -> str:
-    """A name as it is read aloud, or from a screen: without its case, letters that are read as digits as these."""
-    return drawn(name).casefold().translate(DIGITS)
+    """A name as it is read aloud, or from a screen: without its case, letters that are read as digits as these.
+
+    Not all letters go by their capitals: ν is drawn as v and Ν as N, υ as u and Υ as Y.
+    """
+    return _put_for_one_another(drawn(name).casefold(), SMALL).translate(DIGITS)
 
 
 def say_what_is_alike(what: str, names: Iterable[str], findings: Findings) -> None:

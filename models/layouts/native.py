@@ -128,6 +128,7 @@ class NativeReader:
     ) -> None:
         """A node that is no leg: where two tracks meet it is a joint, where one ends it is an end of track."""
         place = f"tracks.{ends[0][0]}"
+        name = self._name("tracks", node)
         if len(ends) > 2:
             met = ", ".join(f"'{track}'" for track, _ in ends)
             raise self.bad(place, f"node '{node}' joins {len(ends)} ends of track ({met})", "use a point to join three")
@@ -136,7 +137,6 @@ class NativeReader:
             junctions[f"joint {node}"] = Junction(f"joint {node}", joint, {"a": ends[0], "b": ends[1]})
             return
         (track, side) = ends[0]
-        name = self._name("tracks", node)
         if name in marks:
             raise self.bad(place, f"end of track '{node}' has the name of a boundary", "rename one of the two")
         marks[name] = Mark(name, track, tracks[track] if side == HIGH else 0, cuts=False)

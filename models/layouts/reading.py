@@ -24,6 +24,16 @@ LONGEST_NAME = 200
 YAML_KEY = re.compile(r"""^(---|["']?[\w.-]+["']?\s*:(\s|$))""")
 
 
+UNSEEN = re.compile(
+    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180d\u180f\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0100-\U000e01ef]"
+)
+"""Printable, and drawn as nothing: Default_Ignorable_Code_Point of Unicode, and the Braille cell without dots."""
+HALF = re.compile("[\ud800-\udfff]")
+"""Half of a character, which no text holds."""
+ESCAPES = re.compile(r"\\(?:u[dD][89abAB][\da-fA-F]{2}\\u[dD][c-fC-F][\da-fA-F]{2}|(u[dD][89a-fA-F][\da-fA-F]{2})|.)")
+"""What a backslash in JSON says: a character in two halves, one half alone, or anything else."""
+
+
 DOTTED_KEY = re.compile(rf"""(?<![\w"'-])(?:(?>[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*+\.[ \t]*+){{{DEEPEST_NESTING}}}""")
 """A key of so many parts; Python's parser takes time with the square of them."""
 
@@ -169,9 +179,13 @@ def path_text(steps: Sequence[object]) -> str:
 
 
 def identifier(file: str, place: str, name: str) -> str:
-    """A name that can be printed on one line."""
+    """A name that can be printed on one line, and of which every character is seen."""
     if not name or len(name) > LONGEST_NAME or not name.isprintable():
         raise BadInput(file, place, f"{_short(name)} is not usable as a name", "use 1 to 200 printable characters")
+    unseen = UNSEEN.search(name)
+    if unseen is not None:
+        what = f"{_short(name)} is not usable as a name: it holds U+{ord(unseen[0]):04X}, which nobody sees"
+        raise BadInput(file, place, what, "take that character out")
     return name
 
 

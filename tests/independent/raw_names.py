@@ -6,8 +6,10 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 
 ALIKE = (
-    *("AАΑ", "BВΒ", "EЕΕ", "3З", "KКΚ", "MМΜ", "HНΗ", "OОΟ", "PРΡ", "CС", "TТΤ", "YУΥ", "XХΧ", "ZΖ", "IІΙ", "NΝ"),
-    *("aаα", "eе", "oоο", "pрρ", "cс", "yу", "xх", "iі", "jј", "sѕ", "dԁ", "qԛ", "wԝ", "SЅ", "JЈ", "vν"),
+    *("AАΑ", "BВΒ", "EЕΕ", "3ЗӠ", "KКΚ", "MМΜϺ", "HНΗ", "OОΟ", "PРΡ", "CСϹ", "TТΤ", "YУΥҮ", "XХΧ", "ZΖ", "IІΙӀ", "NΝ"),
+    *("aаαɑ", "eеҽ", "oоο", "pрρ", "cсϲ", "yуү", "xх", "iіι", "jјϳ", "sѕ", "dԁ", "qԛ", "wԝѡ", "SЅ", "JЈͿ", "vνѵ"),
+    *("hһҺ", "lӏ", "GԌ", "WԜ", "VѴ", "bЬ", "6б", "rг", "FϜ", "uυ", "gɡ"),
+    *("ГΓ", "ПΠ", "ФΦ", "ѰΨ", "ЛΛ", "кκ", "пπ", "тτ", "фφ", "ѱψ"),
     *(
         "-‐‑‒–—―−ー一",
         "ニ二",
@@ -31,7 +33,9 @@ FIRST = {sign: group[0] for group in ALIKE for sign in group}
 
 def as_drawn(name: str) -> str:
     """What is left of a name when signs drawn alike are one sign, and spaces at its ends and twice are gone."""
-    signs = "".join(FIRST.get(sign, sign) for sign in unicodedata.normalize("NFKC", name))
+    signs = "".join(FIRST.get(sign, sign) for sign in name)
+    bare = "".join(FIRST.get(sign, sign) for sign in unicodedata.normalize("NFKD", signs))
+    signs = unicodedata.normalize("NFKC", bare)
     return " ".join(part for part in signs.split(" ") if part)
 
 

@@ -184,6 +184,7 @@ def test_the_joints_that_a_file_lists_are_those_that_it_has(listed: list[str], n
 
 
 ALIKE = [("é", "e\u0301"), ("W", "W "), (" W", "W"), ("B", "В"), ("a  b", "a b"), ("ﬁn", "fin"), ("A", "Α")]
+ALIKE += [("h", "һ"), ("l", "ӏ"), ("c", "ϲ"), ("C", "Ϲ"), ("G", "Ԍ"), ("ë", "ё"), ("J", "Ϳ")]
 
 
 @pytest.mark.parametrize(("one", "other"), ALIKE)
@@ -193,7 +194,7 @@ def test_names_that_look_the_same_are_a_violation(one: str, other: str) -> None:
     assert [sorted(v.elements) for v in found(imported, LOOK_ALIKE)] == [sorted((one, other))]
 
 
-@pytest.mark.parametrize(("one", "other"), [("W", "w"), ("P0", "PO"), ("P1", "Pl"), ("PI", "Pl")])
+@pytest.mark.parametrize(("one", "other"), [("W", "w"), ("ВОКЗАЛ", "вокзал"), ("P0", "PO"), ("P1", "Pl"), ("PI", "Pl")])
 def test_names_that_read_alike_are_a_remark(one: str, other: str) -> None:
     assert read(one) == read(other)
     imported = read_in(line(**{one: 100_000, other: 500_000}))

@@ -153,6 +153,16 @@ in = { from = "W", direction = "forward", to = "V" }
 """
 
 DANGEROUS_TRACKS = {
+    "end of no visible difference.toml": danger_of(
+        SIDE_BY_SIDE.replace("stop n", "stop m\ufe0f"),
+        "two ends of track have names that differ by what nobody sees: were they meant to be joined?",
+        "it holds U+FE0F, which nobody sees",
+    ),
+    "joint of no visible difference.toml": danger_of(
+        SIDE_BY_SIDE.replace("stop n", "west\u2800").replace('"west"', '"west\u2800"'),
+        "two ends of track are joined by a name that holds what nobody sees",
+        "it holds U+2800, which nobody sees",
+    ),
     "tip to tip.toml": danger_of(
         TIP_TO_TIP,
         "two boundaries 6.338 m apart over two points, each with others far away: their tags come too close",
