@@ -6,11 +6,12 @@ the later ``track_nodes`` with ``track_nodes_directions``.  Positions are metres
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from jsonschema import Draft202012Validator
 
+from models.layouts.alike import read
 from models.layouts.assemble import assemble
 from models.layouts.blocks import find_blocks
 from models.layouts.findings import Findings
@@ -192,12 +193,16 @@ class Reader:
             place = f"{self.dialect.extended} '{name}'"
             if name in KINDS:
                 raise self.bad(place, "has the id of a type that every file has", "give it another id")
+            self._told_apart(place, "ports", item["ports"])
+            self._told_apart(place, "groups", item["groups"])
             for group, passages in item["groups"].items():
                 used = [port for passage in passages for port in (passage["src"], passage["dst"])]
                 if not set(used) <= set(item["ports"]) or len(used) != len(set(used)):
                     raise self.bad(place, f"group '{group}' names a port it has not, or one twice", "correct the group")
             if not item["groups"]:
                 raise self.bad(place, "has no groups", "give the connections of its ports")
+            if len(set(item["ports"])) < 2:
+                raise self.bad(place, "has fewer than two ports: nothing runs over it", "give the ports that it joins")
             joined = {way[end] for ways in item["groups"].values() for way in ways for end in ("src", "dst")}
             idle = sorted(set(item["ports"]) - joined)
             if idle:
@@ -206,6 +211,14 @@ class Reader:
             groups = {group: tuple((p["src"], p["dst"]) for p in ways) for group, ways in item["groups"].items()}
             found[name] = Kind(tuple(item["ports"]), groups)
         return found
+
+    def _told_apart(self, place: str, what: str, names: Collection[str]) -> None:
+        """Refuse names of one type's ports or groups that are read alike: a switch would lie in either for both."""
+        by_read: dict[str, str] = {}
+        for name in names:
+            other = by_read.setdefault(read(identifier(self.file, f"{place} {what}", name)), name)
+            if other != name:
+                raise self.bad(place, f"{what} {other!a} and {name!a} read alike", "rename one of the two")
 
     def _junction(
         self, name: str, item: Mapping[str, Any], kinds: Mapping[str, Kind], tracks: Mapping[str, int]

@@ -20,7 +20,7 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
-from models.layouts.alike import say_what_is_alike
+from models.layouts.alike import read, say_what_is_alike
 from models.layouts.conflicts import compare_conflicts
 from models.layouts.findings import Findings
 from models.layouts.reading import by_name, identifier, validate
@@ -137,14 +137,19 @@ def _say_which_ways(routes: Iterable[TableRoute], findings: Findings) -> None:
 
 
 def _say_how_points_lie(routes: Iterable[TableRoute], findings: Findings) -> None:
-    """A point lies one way or the other: a third word is one of these, and so is one that differs by case or spaces."""
+    """A point lies one way or the other: a third word is one of these, and so is one that is read like another.
+
+    Case alone is compared as well, since of a letter that is drawn as a Latin one the other case may not be.
+    """
     first: dict[str, dict[str, str]] = {}
     for route in routes:
         for point, position in route.points.items():
             first.setdefault(point, {}).setdefault(position, route.name)
     for point, found in first.items():
-        if len(found) > 2 or len({word.strip().casefold() for word in found}) < len(found):
-            words = ", ".join(f"'{word}' (route '{name}')" for word, name in found.items())
+        alike = any(len(set(map(key, found))) < len(found) for key in (read, str.casefold))
+        if len(found) > 2 or alike:
+            shown = ascii if alike else repr
+            words = ", ".join(f"{shown(word)} (route '{name}')" for word, name in found.items())
             text = f"point '{point}' is told to lie {words}: give one word for each of its two positions"
             findings.violation("a point lies one way or the other", (point, *found.values()), text)
 
@@ -226,9 +231,9 @@ def _read_route(file: str, name: str, row: Mapping[str, Any]) -> TableRoute:
         name=name,
         source=identifier(file, f"{place} source", row["source"]),
         destination=identifier(file, f"{place} destination", row["destination"]),
-        orientation=row["orientation"],
+        orientation=identifier(file, f"{place} orientation", row["orientation"]),
         path=tuple(lists["path"]),
         sections=tuple(lists["sections"]),
-        points={item["id"]: item["position"] for item in row["points"]},
+        points={item["id"]: identifier(file, f"{place} points", item["position"]) for item in row["points"]},
         conflicts=frozenset(lists["conflicts"]),
     )

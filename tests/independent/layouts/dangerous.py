@@ -66,6 +66,12 @@ def kind(name: str, *ways: tuple[str, str], ports: str) -> list[dict[str, Any]]:
     return [{"id": name, "ports": ports.split(), "groups": groups}]
 
 
+def groups(*names: str) -> list[dict[str, Any]]:
+    """A type of switch with two groups, from A to B and from A to C."""
+    ways = {name: [{"src": "A", "dst": leg}] for name, leg in zip(names, "BC", strict=True)}
+    return [{"id": "own", "ports": ["A", "B", "C"], "groups": ways}]
+
+
 LINE_OF_FOUR = {"A": ("t", 100.0), "B": ("t", 300.0), "C": ("t", 600.0), "D": ("t", 800.0)}
 STOPS = [{"id": "middle", "track": "t", "position": 450.0}]
 CURVES = [{"radius": 90.0, "begin": 300.0, "end": 500.0}]
@@ -95,6 +101,9 @@ CD = [{"id": name, "track": "t", "position": at} for name, (_, at) in LINE_OF_FO
 BEYOND = [{"id": "stop", "track": "s", "position": 1.0}]
 AT_END = [{"id": "stop", "track": "t", "position": 900.0}]
 AT_STOP = '"release_detectors": ["stop"]'
+ONE_SWITCH = {"W": ("w", 800.0), "E": ("e", 100.0), "S": ("s", 100.0)}, [("main", "W", "E")]
+SWITCHED = switch("own", A=("w", "END"), B=("e", "BEGIN"), C=("s", "BEGIN"))
+NO_PORTS = [{"id": "odd", "ports": [], "groups": {"G": []}}]
 NO_GROUPS = [{"id": "empty", "ports": [], "groups": {}}]
 MIDDLE = [{"id": "stop", "track": "e", "position": 0.0}]
 
@@ -255,6 +264,16 @@ OTHERS = {
         railjson(LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=NO_GROUPS),
         "a type of switch has no position at all",
         "has no groups",
+    ),
+    "groups alike.json": danger_of(
+        railjson(*ONE_SWITCH, extended_switch_types=groups("plus", "plu\u0455"), switches=[SWITCHED]),
+        "two positions of a switch have names that look the same: who lays it for one route reads the other's",
+        "groups 'plus' and 'plu\\u0455' read alike",
+    ),
+    "type without ports.json": danger_of(
+        railjson(LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=NO_PORTS, switches=[switch("odd")]),
+        "a type of switch joins nothing: whatever stands there on the track is left out",
+        "has fewer than two ports",
     ),
     "port of another.json": danger_of(
         railjson(LINE_OF_FOUR, [("r", "A", "B")], extended_switch_types=kind("odd", ("A", "C"), ports="A B")),
