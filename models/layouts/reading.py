@@ -92,6 +92,11 @@ def parse_json(file: str, text: str) -> Any:
             raise BadInput(file, f"key '{twice}'", "stands twice in one object", "keep one of the two")
         return found
 
+    half = next((escape for escape in ESCAPES.finditer(text) if escape[1]), None)
+    if half is not None:
+        line, column = text.count("\n", 0, half.start()) + 1, half.start() - text.rfind("\n", 0, half.start())
+        place, what = f"line {line} column {column}", f"holds {half[0]}, which is half of a character"
+        raise BadInput(file, place, what, "give the other half, or take this one out")
     try:
         return json.loads(text, parse_constant=refuse, object_pairs_hook=once)
     except json.JSONDecodeError as error:

@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from models.layouts.reading import DEEPEST_NESTING, too_deep
+from models.layouts.reading import DEEPEST_NESTING, HALF, too_deep
 from models.layouts.results import BadInput
 
 Loader: Any = getattr(yaml, "CLoader", yaml.Loader)
@@ -48,6 +48,8 @@ class _Builder:
             if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None) is not None:
                 raise self.bad(event, "uses an anchor or alias", "write the entry out")
             if isinstance(event, yaml.ScalarEvent):
+                if HALF.search(event.value):  # which the compiled parser refuses itself
+                    raise self.bad(event, "holds half of a character", "take it out")
                 self.put(event, event.value)
             elif isinstance(event, yaml.CollectionStartEvent):
                 if len(self.open) >= DEEPEST_NESTING:

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
-from models.layouts import BadInput, load, load_text, reading
+from models.layouts import BadInput, load, load_text, reading, yaml_text
 from models.layouts.generate import as_toml
 from tests.layouts.stations import SHARED, needs_shared, plain_station, railjson_of
 
@@ -38,6 +39,7 @@ def _link(name: str, first: tuple[str, str], second: tuple[str, str]) -> Data:
     return {"id": name, "switch_type": "link", "ports": ports}
 
 
+NO_PORTS = {"id": "odd", "ports": [], "groups": {"G": []}}
 RAILJSON: dict[str, tuple[bytes, str]] = {
     "truncated": (json.dumps(GOOD).encode()[:-200], "line 1"),
     "empty": (b"", "empty"),
@@ -88,6 +90,13 @@ RAILJSON: dict[str, tuple[bytes, str]] = {
     "key twice": (b'{"routes": [], "routes": []}', "'routes'"),
     "name of two lines": (edited(lambda d: d["detectors"][0].update(id="a\nb")), "detectors[0].id"),
     "half a character": (json.dumps(GOOD).encode().replace(b'"t1"', b'"\\ud800"'), "\\ud800"),
+    "half a character in what is not read": (
+        edited(lambda d: d.update({"derailers\ud83d": [{"id": "a\ud83d\ude00\\ud800\ud800"}]})),
+        "holds \\ud83d",
+    ),
+    "half a character behind others": (b'{\n"a": "\\\\ud800 \\ud83d\\ude00 \\u00e9 \\udC00"}', "line 2 column 35"),
+    "no ports": (edited(lambda d: d.update(extended_switch_types=[NO_PORTS])), "has fewer than two ports"),
+    "a name that is not seen": (edited(lambda d: d["detectors"][0].update(id="a\u3164")), "U+3164"),
     "group joins a port twice": (
         edited(
             lambda d: d.update(
@@ -267,3 +276,26 @@ def test_a_file_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reading, "LARGEST_FILE", 10_000)
     with pytest.raises(BadInput, match="holds more than 10,000 bytes"):
         load(Path("/dev/zero"))
+
+
+@pytest.mark.parametrize("loader", [yaml_text.Loader, yaml.Loader])
+def test_half_a_character_in_yaml_is_refused_by_either_parser(loader: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(yaml_text, "Loader", loader)
+    with pytest.raises(BadInput, match="line 2"):
+        load_text("half.yml", 'interlocking-table: []\nodd: "\\ud800"\n')
+
+
+def unseen() -> list[str]:
+    """Default_Ignorable_Code_Point as Unicode 15 has it, and the Braille cell without dots."""
+    ranges = "ad 34f 61c 115f-1160 17b4-17b5 180b-180f 200b-200f 202a-202e 2060-206f 2800 3164 fe00-fe0f feff ffa0"
+    ends = [[int(end, 16) for end in each.split("-")] for each in f"{ranges} fff0-fff8 1bca0-1bca3 1d173-1d17a".split()]
+    return [
+        chr(sign) for first, *last in [*ends, [0xE0000, 0xE0FFF]] for sign in range(first, (last or [first])[0] + 1)
+    ]
+
+
+def test_what_is_drawn_as_nothing_is_no_part_of_a_name() -> None:
+    for sign in unseen():
+        with pytest.raises(BadInput, match="not usable as a name"):
+            reading.identifier("x", "y", f"a{sign}b")
+    assert reading.identifier("x", "y", "3番線 Übergabe 1") == "3番線 Übergabe 1"
