@@ -2,7 +2,7 @@
 
 Blocks are the sections, and the pieces of path that belong to no section: those are the track of
 the points between sections.  Which piece of path belongs to which section is read off the table as
-a whole: they are the pieces that nearly always come with it.
+a whole: they are the pieces that come with it.
 
 A route starts in the last block of the routes of its orientation that end at its source signal;
 where there is none, in the block that routes the other way run into over the same leg.
@@ -26,6 +26,7 @@ from models.layouts.findings import Findings
 from models.layouts.reading import by_name, identifier, validate
 from models.layouts.results import BadInput, Imported
 from models.layouts.table_layout import assemble_table, homes
+from models.layouts.table_ways import named
 
 _NAMED = {"type": "array", "items": {"type": "object", "required": ["id"], "properties": {"id": {"type": "string"}}}}
 _POSITIONED = {
@@ -93,8 +94,12 @@ def import_table(file: str, data: Any, trains: tuple[str, ...]) -> Imported:
     _say_what_is_not_read(data, findings)
     _say_which_ways(routes.values(), findings)
     _say_how_points_lie(routes.values(), findings)
-    home = homes(list(routes.values()))
-    fouls = _fouling(file, data.get("fouling", ()), routes.values(), home)
+    home, unclear = homes(list(routes.values()))
+    for sections, pieces in unclear.items():
+        text = f"{named(pieces)} always come with sections {named(sections)}: nothing tells which lies in which"
+        findings.remark(pieces, text, "derived")
+    whose = {name: sections for sections, pieces in unclear.items() for name in pieces}
+    fouls = _fouling(file, data.get("fouling", ()), routes.values(), home, whose)
     compare_conflicts(list(routes.values()), fouls, findings)
     for what, each in (
         ("routes", lambda route: [route.name]),
@@ -116,8 +121,8 @@ def _say_what_is_not_read(data: Mapping[str, Any], findings: Findings) -> None:
     for row in data["interlocking-table"]:
         for field in sorted(field for field in set(row) - set(_ROUTE["properties"]) - WITHOUT_EFFECT if row[field]):
             told.setdefault(field, []).append(row["id"])
-    for field, named in sorted(told.items()):
-        findings.remark(named, f"{field} of {len(named)} routes is not read: what it asks is asked by nobody", "unread")
+    for field, rows in sorted(told.items()):
+        findings.remark(rows, f"{field} of {len(rows)} routes is not read: what it asks is asked by nobody", "unread")
 
 
 WITHOUT_EFFECT = frozenset(("length", "signals"))
@@ -155,7 +160,11 @@ def _say_how_points_lie(routes: Iterable[TableRoute], findings: Findings) -> Non
 
 
 def _fouling(
-    file: str, pairs: Iterable[list[str]], routes: Iterable[TableRoute], home: Mapping[str, str]
+    file: str,
+    pairs: Iterable[list[str]],
+    routes: Iterable[TableRoute],
+    home: Mapping[str, str],
+    unclear: Mapping[str, Sequence[str]],
 ) -> dict[str, frozenset[str]]:
     """The sections and pieces that a train in each also obstructs, both ways: what a table does not draw."""
     known = {name for route in routes for name in (*route.path, *route.sections)}
@@ -169,6 +178,9 @@ def _fouling(
             if name in sections and home.get(name, name) != name:
                 what = f"'{name}' is a section, and a piece of section '{home[name]}'"
                 raise BadInput(file, f"fouling[{index}]", what, "give one of the two another name")
+            if name in unclear and name not in sections:
+                what = f"'{name}' may lie in section {' or '.join(unclear[name])}: no route tells in which"
+                raise BadInput(file, f"fouling[{index}]", what, "give the section")
             found[name] = found.get(name, frozenset()) | {other}
     return found
 

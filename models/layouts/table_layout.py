@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
@@ -23,26 +23,56 @@ from models.layouts.track import LOW
 if TYPE_CHECKING:
     from models.layouts.table import TableRoute
 
-ALWAYS_TOGETHER = 0.8
-"""A piece of path belongs to a section if at least this share of the routes over either have both."""
+NEARLY_ALWAYS = 0.8
+"""A piece of path belongs to no section if fewer than this share of the routes over either have both."""
 
 
-def homes(routes: Sequence[TableRoute]) -> dict[str, str]:
-    """The section that each piece of path belongs to; pieces that belong to none are left out."""
-    over: dict[str, set[str]] = defaultdict(set)
-    through: dict[str, set[str]] = defaultdict(set)
-    for route in routes:
-        for piece in route.path:
-            over[piece].add(route.name)
-        for section in route.sections:
-            through[section].add(route.name)
+def homes(routes: Sequence[TableRoute]) -> tuple[dict[str, str], dict[tuple[str, ...], list[str]]]:
+    """The section that each piece of path belongs to, if it does; and the pieces that nothing tells the section of.
+
+    A piece belongs to what comes with it most, which is a section or a point, and the track under a point belongs to
+    no section.  Where several sections always come together, their pieces are theirs in running order, and those that
+    no other track parts are of one section; where either leaves a choice, the pieces come second in the answer.
+    """
+    over, through = _listed(routes, lambda route: route.path), _listed(routes, lambda route: route.sections)
+    lying = _listed(routes, lambda route: route.points)
+    together: dict[tuple[str, ...], list[str]] = defaultdict(list)
+    for piece, rows in over.items():
+        share = {section: _share(rows, others) for section, others in through.items()}
+        best, at_point = max(share.values()), max((_share(rows, others) for others in lying.values()), default=0)
+        if best >= NEARLY_ALWAYS and (best == 1 or best > at_point):
+            together[tuple(section for section in share if share[section] == best)].append(piece)
     found: dict[str, str] = {}
-    for piece in sorted(over):
-        share = {s: len(over[piece] & through[s]) / len(over[piece] | through[s]) for s in sorted(through)}
-        best = max(share, key=lambda section: share[section])
-        if share[best] >= ALWAYS_TOGETHER:
-            found[piece] = best
+    unclear: dict[tuple[str, ...], list[str]] = {}
+    for sections, pieces in together.items():
+        runs = _unparted(pieces, next(route.path for route in routes if pieces[0] in route.path))
+        shares = runs if len(runs) >= len(sections) else [[piece] for piece in pieces]
+        found |= {piece: sections[min(at, len(sections) - 1)] for at, run in enumerate(shares) for piece in run}
+        if 1 < len(sections) < len(shares):
+            unclear[sections] = pieces
+    return found, unclear
+
+
+def _unparted(pieces: Iterable[str], path: Sequence[str]) -> list[list[str]]:
+    """Pieces in running order, those together that lie side by side on a path."""
+    places = [*path, *pieces]
+    runs = groupby(enumerate(pieces), key=lambda numbered: places.index(numbered[1]) - numbered[0])
+    return [[piece for _, piece in run] for _, run in runs]
+
+
+def _listed(routes: Iterable[TableRoute], names: Callable[[TableRoute], Iterable[str]]) -> dict[str, set[str]]:
+    """The routes that list each name, which come in running order where the same routes do."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for route in routes:
+        for name in names(route):
+            found[name].add(route.name)
     return found
+
+
+def _share(rows: set[str], others: set[str]) -> float:
+    """The share of the routes in either that are in both."""
+    both = len(rows & others)
+    return both / (len(rows) + len(others) - both)
 
 
 @dataclass
@@ -202,17 +232,19 @@ def _start_by_track(row: Row, met: set[Block], sections: Set[str], findings: Fin
 def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
     """The block of each point: the piece of path that belongs to no section, by its place in the order.
 
-    Points and pieces both stand in running order in the table; most routes decide.
+    Points and pieces both stand in running order in the table, and most routes decide.  Of a point that no row tells
+    so, all the points of a row with one such piece stand there; where no piece is ahead, it is on nobody's path.
     """
     sections = {section for row in rows for section in row.route.sections}
-    votes: dict[Point, Counter[Block]] = defaultdict(Counter)
+    in_order: dict[Point, Counter[Block]] = defaultdict(Counter)
+    on_one: dict[Point, Counter[Block]] = defaultdict(Counter)
     for row in rows:
         loose = [block for block in row.covers if block not in sections]
-        for point, block in zip(row.needs, loose, strict=False):
-            votes[point][block] += 1 if len(loose) == len(row.needs) else 0
+        for point, block in zip(row.needs, loose, strict=False) if len(loose) == len(row.needs) else ():
+            in_order[point][block] += 1
         for point in row.needs:
-            votes[point][Block(f"at {point}")] += 0
-    stands_in = {point: min(found, key=lambda block: (-found[block], block)) for point, found in votes.items()}
+            on_one[point].update(loose if len(loose) == 1 else ())
+    stands_in = {point: _ahead(in_order[point] or found) or Block(f"at {point}") for point, found in on_one.items()}
     for block in sorted({block for row in rows for block in row.covers} - set(stands_in.values()) - sections):
         over = [row.route.name for row in rows if block in row.covers]
         text = f"'{block}' belongs to no section, and no point stands there: nothing tells of a train in it"
@@ -226,6 +258,12 @@ def _stand(rows: Sequence[Row], findings: Findings) -> dict[Point, Block]:
             text = f"route '{row.route.name}' gives a position for point '{point}', which is not on its path"
             findings.violation("a route's positions are of its points", (row.route.name, point), text)
     return stands_in
+
+
+def _ahead(votes: Counter[Block]) -> Block | None:
+    """The block with more votes than every other."""
+    most = [block for block, count in votes.items() if count == max(votes.values())]
+    return most[0] if len(most) == 1 else None
 
 
 def _fouling(home: Mapping[str, str], fouls: Mapping[str, frozenset[str]]) -> dict[Block, frozenset[Block]]:

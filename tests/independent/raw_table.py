@@ -2,7 +2,8 @@
 
 A table knows track only by the segments that its rows list.  Which segments a section is made of, and
 on which one a point stands, is not written in it; both follow from the rows, because a section's own
-segments are those listed by exactly the rows that list the section, and so for points.
+segments are those listed by exactly the rows that list the section, and so for points.  Several sections of the same
+rows have theirs in running order.
 """
 
 from __future__ import annotations
@@ -103,7 +104,8 @@ def enumerate_data(data: dict[str, Any]) -> Enumerated:
     block_of: dict[str, str] = {}
     for segment, by in listed.items():
         sections = [section for section, names in of_section.items() if names == by]
-        block_of[segment] = sections[0] if len(sections) == 1 else segment
+        place = [other for other, names in listed.items() if names == by].index(segment)
+        block_of[segment] = sections[min(place, len(sections) - 1)] if sections else segment
     bare = [segment for segment in listed if block_of[segment] == segment]
     stands_in: dict[str, str] = {}
     for point, by in of_point.items():

@@ -185,6 +185,27 @@ def test_tracks_of_a_table_that_merge_without_a_point_are_found() -> None:
     assert [(v.axiom, v.elements) for v in found] == [("tracks merge at a point", ("1", "2", "a", "b", "c"))]
 
 
+@pytest.mark.parametrize(
+    ("path", "sections", "told"),
+    [(["a", "b"], ["x", "y"], []), (["a", "b"], ["x"], []), (["a", "b", "c"], ["x", "y"], [("a", "b", "c")])],
+)
+def test_pieces_of_several_sections_that_always_come_together_are_told(
+    path: list[str], sections: list[str], told: list[tuple[str, ...]]
+) -> None:
+    imported = import_table("one", {"interlocking-table": rows_up(("1", path, sections))}, ("T1",))
+    assert [
+        remark.elements for remark in imported.remarks if "nothing tells which lies in which" in remark.text
+    ] == told
+    assert check(imported).verdict == "holds"
+
+
+def test_a_row_that_forgets_a_section_is_told_of_and_no_other() -> None:
+    rows = rows_up(*((str(number), ["a1", f"b{number}"], ["a", f"b {number}"]) for number in range(6)))
+    rows[0]["sections"] = [{"id": "b 0"}]
+    found = of_rule(import_table("forgets", {"interlocking-table": rows}, ("T1",)), "sections are those of the path")
+    assert [violation.elements for violation in found] == [("0", "a")]
+
+
 def test_a_crossing_that_a_table_does_not_draw_is_found() -> None:
     rows = rows_up(("1", ["a1"], ["a"]), ("2", ["c1"], ["c"]))
     found = check(import_table("diamond", {"interlocking-table": rows}, ("T1",))).violations

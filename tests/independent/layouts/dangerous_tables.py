@@ -112,6 +112,78 @@ def _lying(beyond: str, at_start: str = "") -> str:
     )
 
 
+def _ending(*words: str) -> str:
+    """Routes that end on a point and before it, by the words for the two ways that it lies."""
+    lies = [{"points": [{"id": "P", "position": word}]} for word in words]
+    to_point = {**row("1", "AS", "up", "a", "5 7"), "path": [{"id": "piece a"}, {"id": "loose"}], **lies[0]}
+    from_point = {**over_point("5", "FE", "down", "a", "1 7"), **lies[1]}
+    return table(to_point, from_point, row("7", "AM", "up", "a", "1 5"), row("8", "KF", "down", "c"))
+
+
+def over_points(name: str, ends: str, way: str, path: str, points: str = "") -> dict[str, Any]:
+    """A row over pieces, of which ``p`` and ``q`` are of no section, and points, each with the sign of its position."""
+    told = {
+        "path": [{"id": piece if piece in ("p", "q") else f"piece {piece}"} for piece in path.split()],
+        "points": [{"id": point[0], "position": point[1:]} for point in points.split()],
+    }
+    return {**row(name, ends, way, " ".join(piece for piece in path.split() if piece not in ("p", "q"))), **told}
+
+
+def compared(*rows: dict[str, Any], **more: Any) -> str:
+    """A table in which rows declare the conflicts that follow: they share a piece, or want a point otherwise."""
+
+    def conflict(one: dict[str, Any], other: dict[str, Any]) -> bool:
+        lies = [{point["id"]: point["position"] for point in each["points"]} for each in (one, other)]
+        shared = {piece["id"] for piece in one["path"]} & {piece["id"] for piece in other["path"]}
+        return bool(shared) or any(lies[1].get(point, at) != at for point, at in lies[0].items())
+
+    against = [[{"id": other["id"]} for other in rows if other is not one and conflict(one, other)] for one in rows]
+    return table(*({**one, "conflicts": others} for one, others in zip(rows, against, strict=True)), **more)
+
+
+SWITCHED = (
+    over_points("1", "AE", "up", "s p a", "P+"),
+    over_points("2", "AF", "up", "s p b", "P-"),
+    over_points("3", "GZ", "down", "p s", "P+"),
+    over_points("4", "HZ", "down", "p s", "P-"),
+    over_points("8", "UG", "down", "a"),
+    over_points("9", "VH", "down", "b"),
+)
+"""Rows over a section, the point behind it and on over either leg, and back; and those that end before the point."""
+SLIP = (
+    over_points("1", "AC", "up", "a p c", "P+ Q+"),
+    over_points("2", "AD", "up", "a p d", "P+ Q-"),
+    over_points("3", "BC", "up", "b p c", "P- Q+"),
+    over_points("4", "BD", "up", "b p d", "P- Q-"),
+)
+"""Rows over a slip, whose two points stand on one piece."""
+THROUGH_BOTH = over_points("1", "AB", "up", "s p m q e", "P+ Q+")
+PARTED = (
+    over_points("4", "AD", "up", "s p d", "P-"),
+    over_points("5", "JK", "down", "c q", "Q-"),
+    over_points("6", "AN", "up", "s"),
+)
+"""Beside a row over two points, those that tell the track under either from the section before it."""
+IN_NO_ORDER = over_points("3", "AC", "up", "s p m q c", "Q- P+")
+
+
+def _back(points: str) -> dict[str, Any]:
+    """The row back over both points, which it lists so."""
+    return over_points("2", "FG", "down", "e q m p s", points)
+
+
+def within(each: dict[str, Any], *sections: str) -> dict[str, Any]:
+    """A row with these sections, whatever its pieces are called."""
+    return {**each, "sections": [{"id": section} for section in sections]}
+
+
+def _three_pieces(**more: Any) -> str:
+    """Two sections that always come together, over three pieces of which one has the name of a section; and another."""
+    path = {"path": [{"id": f"piece {piece}"} for piece in "xy"] + [{"id": "section z"}]}
+    others = "2" if more else ""
+    return table({**row("1", "AB", "up", "x z", others), **path}, row("2", "CD", "up", "u", others and "1"), **more)
+
+
 TABLES_THAT_HOLD = {
     "table.yml": table(*ROWS),
     "tracks cross in a section.yml": table(
@@ -130,15 +202,32 @@ TABLES_THAT_HOLD = {
         row("1", "AB", "up", "x y", "2 3"), row("2", "CD", "down", "x w", "1"), row("3", "EC", "down", "y", "1")
     ),
     "starts on a point.yml": _lying("right", "right"),
-    "ends on a point.yml": table(
-        {
-            **row("1", "AS", "up", "a", "5 7"),
-            "path": [{"id": "piece a"}, {"id": "loose"}],
-            "points": [{"id": "P", "position": "left"}],
-        },
-        {**over_point("5", "FE", "down", "a", "1 7"), "points": [{"id": "P", "position": "right"}]},
-        row("7", "AM", "up", "a", "1 5"),
-        row("8", "KF", "down", "c"),
+    "ends on a point.yml": _ending("left", "right"),
+    "two sections.yml": table(row("1", "AB", "up", "x y", "2"), row("2", "BA", "down", "y x", "1")),
+    "three pieces.yml": _three_pieces(),
+    "section and piece of one name.yml": _three_pieces(fouling=[["section z", "section u"]]),
+    "over the point alone.yml": compared(*SWITCHED, over_points("5", "ME", "up", "p a", "P+")),
+    "over the section alone.yml": compared(*SWITCHED, over_points("5", "AM", "up", "s")),
+    "over and from the point.yml": compared(
+        *(*SWITCHED, over_points("5", "AM", "up", "s"), over_points("7", "AT", "up", "s p", "P+")),
+        {**over_points("6", "TE", "up", "a"), "points": [{"id": "P", "position": "+"}]},
+    ),
+    "a piece left out.yml": compared(
+        *(within(over_points(ends, ends, "up", "s t"), "x") for ends in ("AB", "AC")),
+        *(within(over_points(ends, ends, "down", "t s"), "x") for ends in ("DY", "DZ")),
+        within(over_points("AN", "AN", "up", "t"), "x"),
+    ),
+    "slip.yml": compared(*SLIP),
+    "single slip.yml": compared(*SLIP[:3]),
+    "points of one row in no order.yml": compared(THROUGH_BOTH, _back("Q+ P+"), IN_NO_ORDER, *PARTED),
+    "points in running order.yml": compared(THROUGH_BOTH, _back("Q+ P+"), *PARTED),
+    "two pieces each.yml": compared(
+        over_points("3", "NR", "up", "k p", "P-"),
+        within(over_points("1", "AB", "up", "s t p u e", "P+"), "x", "y"),
+        within(over_points("2", "FG", "down", "e u p t s", "P+"), "y", "x"),
+    ),
+    "one of two sections fouls.yml": table(
+        row("1", "AB", "up", "x y", "2"), row("2", "CD", "up", "u", "1"), fouling=[["piece y", "section u"]]
     ),
     "starts where others run on.yml": table(row("1", "ZB", "up", "w x", "2"), row("2", "AB", "up", "x", "1")),
     "sections foul.yml": table(
@@ -181,6 +270,45 @@ DANGEROUS_TABLES = {
         "a position is told by two words, and two legs of a point are taken to lie for one train",
         "a point lies one way or the other",
         *("P", "1", "5"),
+    ),
+    "points in either order.yml": danger_of(
+        compared(THROUGH_BOTH, _back("P+ Q+"), IN_NO_ORDER, *PARTED),
+        "rows disagree on the order of two points: nobody knows which of them stands first",
+        "a route's positions are of its points",
+        *("P", "Q", "1", "2", "3", "4", "5"),
+    ),
+    "always together.yml": danger_of(
+        compared(over_points("1", "AE", "up", "s p", "P+"), over_points("2", "GZ", "down", "p s", "P+")),
+        "a section and the track under a point always come together: nobody knows on which the point stands",
+        "a route's positions are of its points",
+        *("P", "1", "2"),
+    ),
+    "left in two alphabets.yml": danger_of(
+        _ending("left", "l\u0435ft"),
+        "a position is told twice in letters that look the same, one of another alphabet: two legs lie for one train",
+        "a point lies one way or the other",
+        *("P", "1", "5"),
+    ),
+    "capitals of other letters.yml": danger_of(
+        _ending("ΚΑΝΟΝΙΚΑ", "κανονικα"),
+        "a position is told twice, in capitals and not, of which one is drawn as another letter than the other",
+        "a point lies one way or the other",
+        *("P", "1", "5"),
+    ),
+    "left and something unseen.yml": danger_of(
+        _ending("left", "left\u200b"),
+        "a position is told twice, once with a space of no width: two legs of a point are taken to lie for one train",
+        "route '5' points: 'left\\u200b' is not usable as a name",
+    ),
+    "up and something unseen.yml": danger_of(
+        table(row("1", "AB", "up", "x", "2"), row("2", "BA", "up\u200b", "x", "1")),
+        "a direction is told twice, once with a space of no width, and is taken for the other",
+        "route '2' orientation: 'up\\u200b' is not usable as a name",
+    ),
+    "fouling of a piece of either.yml": danger_of(
+        _three_pieces(fouling=[["piece y", "section u"]]),
+        "what fouls is a piece that may lie in either of two sections: the wrong one may be kept free",
+        "'piece y' may lie in section section x or section z",
     ),
     "a third position.yml": danger_of(
         table(

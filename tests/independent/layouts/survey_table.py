@@ -101,7 +101,7 @@ def _mark(end: End) -> str:
 
 
 def _sections(rows: Rows) -> dict[str, str]:
-    """Segment -> the section that exactly the rows over it list."""
+    """Segment -> the section that exactly the rows over it list; of several each has its own, in running order."""
     by_section: dict[str, set[str]] = {}
     over: dict[str, set[str]] = {}
     for row in rows:
@@ -109,8 +109,12 @@ def _sections(rows: Rows) -> dict[str, str]:
             by_section.setdefault(section["id"], set()).add(row["id"])
         for name in row["over"]:
             over.setdefault(name, set()).add(row["id"])
-    same = {name: [section for section, listing in by_section.items() if listing == by] for name, by in over.items()}
-    return {name: sections[0] for name, sections in same.items() if len(sections) == 1}
+    found: dict[str, str] = {}
+    for name, by in over.items():
+        sections = [section for section, listing in by_section.items() if listing == by]
+        place = [other for other, rows_over in over.items() if rows_over == by].index(name)
+        found |= {name: sections[min(place, len(sections) - 1)]} if sections else {}
+    return found
 
 
 def _junctions(
