@@ -7,6 +7,7 @@ a route of its own: the rest of the one it was on, beginning in the block its fr
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TypeVar
@@ -32,7 +33,8 @@ def with_continuations(layout: Layout, ground: Ground) -> tuple[Layout, Ground]:
     stands there on another leg is refused and not led over points that lie against it.  There is
     none where it would break an axiom: where track leads into the rest of the route from a block
     that the whole route claims, or where trains that came another way would be led elsewhere; nor
-    where the block it begins in holds another track that no needed point closes.
+    where the block it begins in holds another track that no needed point closes, or shares a second boundary with the
+    block that the train came from or the one that it goes on to.
     """
     rests = [rest for route in sorted(layout.routes) for rest in _rests(layout, route)]
     wider, ground_wider = _layout(layout, rests), _ground(layout, ground, rests)
@@ -201,14 +203,21 @@ def _holds(layout: Layout, ground: Ground, route: Route) -> bool:
 def _stands_on_its_track(layout: Layout, ground: Ground, rest: Rest) -> bool:
     """Whether what is left of a route closes every way out of its start, but its own and the one it came by.
 
-    Another track of that block would lead elsewhere a train that stands upon it (``models.layouts.standing``).
+    Another track of that block would lead elsewhere a train that stands upon it (``models.layouts.standing``).  One
+    that joins the same two blocks shares a boundary more with one of them, and no relation tells its points from those
+    of the route's own.
     """
-    needs = _needs(layout, rest)
-    return all(
+    needs, own = _needs(layout, rest), Counter((rest.behind, rest.way[rest.start]))
+    boundaries = Counter(layout.tag_in[layout.partner[tag]] for tag in _tags_in(layout, rest.start))
+    return all(boundaries[block] <= own[block] for block in own) and all(
         any(needs.get(point, at) != at for point, at in lies.items())
         for target, lies in ground.opens.get(rest.start, {}).items()
         if target not in (rest.behind, rest.way[rest.start])
     )
+
+
+def _tags_in(layout: Layout, block: Block) -> Iterable[Tag]:
+    return (tag for tag, lies_in in layout.tag_in.items() if lies_in == block)
 
 
 def _only(whole: Mapping[K, V], keys: Set[K] | Mapping[K, object]) -> dict[K, V]:

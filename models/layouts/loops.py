@@ -39,8 +39,10 @@ def shortest_loop(blocks: Blocks, told: Told) -> Loop | None:
     loops = (_out_and_back(blocks, told.fouls), _over_itself(blocks, told.clear_mm))
     found = [loop for loop in loops if loop is not None]
     long_mm = min((loop.long_mm for loop in found), default=0)
-    names = {block for loop in found if loop.long_mm == long_mm for block in loop.blocks}
-    return Loop(long_mm, tuple(sorted(names))) if found else None
+    shortest = [loop for loop in found if loop.long_mm == long_mm]
+    names = {block for loop in shortest for block in loop.blocks}
+    legs = {leg for loop in shortest for leg in loop.not_told}
+    return Loop(long_mm, tuple(sorted(names)), tuple(sorted(legs))) if found else None
 
 
 def _out_and_back(blocks: Blocks, fouls: Mapping[Block, frozenset[Block]]) -> Loop | None:
@@ -107,6 +109,7 @@ def _over_itself(blocks: Blocks, clear_mm: Mapping[tuple[str, str], int]) -> Loo
     heapify(todo)
     known: dict[tuple[str, str, Heading], list[Lies]] = {}
     left, found = LOOKS + LOOKS_A_BLOCK * len(blocks.pieces), dict[Block, int]()
+    not_told: dict[tuple[Block, int], set[tuple[str, str]]] = {}
     less_mm = 2 * max([CLEARANCE_MM, *clear_mm.values()])
     while todo and not (found and todo[0][0] > min(found.values()) + less_mm):
         so_far_mm, _, junction, port, heading, lies = heappop(todo)
@@ -125,11 +128,15 @@ def _over_itself(blocks: Blocks, clear_mm: Mapping[tuple[str, str], int]) -> Loo
             block = blocks.of[heading[0]]
             if onward:
                 found[block] = min(found.get(block, so_far_mm), max(long_mm, 0))
+                untold = {(junction.name, leg) for leg in legs} - clear_mm.keys()
+                not_told.setdefault((block, max(long_mm, 0)), set()).update(untold)
             continue
         for ahead, lie in onward:
             heappush(todo, (so_far_mm + _long_mm(blocks, ahead), next(turn), junction, port, ahead, lie))
     least_mm = min(found.values(), default=0)
-    return Loop(least_mm, tuple(block for block in found if found[block] == least_mm)) if found else None
+    least = tuple(block for block in found if found[block] == least_mm)
+    legs_not_told = {leg for block in least for leg in not_told[block, least_mm]}
+    return Loop(least_mm, least, tuple(sorted(legs_not_told))) if found else None
 
 
 def _leaving(junction: Junction, port: str) -> list[Lies]:

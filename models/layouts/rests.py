@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from kernel.layout import Layout
 from kernel.names import Route
+from models.layouts.measures import CLEARANCE_MM
 from models.layouts.results import Imported, Rest, RestKind
 from models.layouts.track import HIGH, LOW
 
@@ -99,12 +100,15 @@ def _loop(imported: Imported) -> Iterator[Rest]:
     if loop is None:
         return
     longest_mm = told.longest_train_mm if told is not None else None
-    declared = longest_mm is not None and longest_mm < loop.long_mm
+    declared = longest_mm is not None and longest_mm < loop.long_mm and not loop.not_told
     way = "the shortest way of a train back to its rear, or foul of it, that no point bars"
     if not loop.blocks:
         way = "beyond which no way of a train back to its rear was looked for"
     text = f"trains shorter than {loop.long_mm / 1_000:,.3f} m, {way}{', as the file declares' if declared else ''}"
-    yield Rest("loop", declared, ((*loop.blocks, f"{loop.long_mm} mm"),), text)
+    legs = [f"'{leg}' of '{point}'" for point, leg in loop.not_told]
+    if legs:
+        text += f": of {', '.join(legs)} no clearance is told, {CLEARANCE_MM / 1_000:,.0f} m are taken"
+    yield Rest("loop", declared, ((*loop.blocks, *map(" ".join, loop.not_told), f"{loop.long_mm} mm"),), text)
 
 
 def _by_name(imported: Imported) -> Instances:

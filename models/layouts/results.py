@@ -98,11 +98,13 @@ class Loop:
     """The shortest way on which a train comes back to its rear, or foul of it, that no point bars.
 
     ``blocks``: those that the rear stands in, all if there are several of one length.  Without one it was looked for
-    up to ``long_mm``, and not found.
+    up to ``long_mm``, and not found.  ``not_told``: the points and legs between which it leads of which no clearance is
+    told, so that the usual one was taken.
     """
 
     long_mm: int
     blocks: tuple[Block, ...]
+    not_told: tuple[tuple[str, str], ...] = ()
 
 
 Span = tuple[str, int, int]

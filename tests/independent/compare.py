@@ -167,11 +167,14 @@ def differing_rests(imported: Imported, result: CheckResult, found: Enumerated) 
         for kind in sorted({*ours, *(each for each in theirs if each[0] in kinds)})
         if ours.get(kind) != theirs.get(kind)
     ]
-    loop = None if imported.loop is None else (imported.loop.long_mm, frozenset(map(str, imported.loop.blocks)))
+    loop = None
+    if imported.loop is not None:
+        legs = frozenset(map(" ".join, imported.loop.not_told))
+        loop = (imported.loop.long_mm, frozenset(map(str, imported.loop.blocks)), legs)
     again = _loops(found.network, imported.told)
     longest_mm = imported.told.longest_train_mm
-    declared = again is not None and longest_mm is not None and not isinstance(again, str) and longest_mm < again[0]
-    told = {(*sorted(again[1]), f"{again[0]} mm")} if isinstance(again, tuple) else None
+    declared = isinstance(again, tuple) and longest_mm is not None and longest_mm < again[0] and not again[2]
+    told = {(*sorted(again[1]), *sorted(again[2]), f"{again[0]} mm")} if isinstance(again, tuple) else None
     if not isinstance(again, str) and (loop != again or theirs.get(("loop", declared)) != told):
         differing.append(f"loop: {loop} is not {again}")
     return differing

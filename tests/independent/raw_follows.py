@@ -141,7 +141,7 @@ def _rests(network: Network, routes: Mapping[str, Route], route: Route, imported
             continue
         if _from_beside(network, [block, *on], needs, {pair: p for pair, p in shields.items() if pair[1] in on}, held):
             continue
-        if _another_track(network, block, {claims[at - 1], on[0]}, needs):
+        if _another_track(network, block, (claims[at - 1], on[0]), needs):
             continue
         yield {
             "name": f"{route.name} from {block}",
@@ -244,11 +244,17 @@ def _from_beside(
     return False
 
 
-def _another_track(network: Network, block: str, own: set[str], needs: Mapping[str, str]) -> bool:
-    """Whether track may lead from the block elsewhere than onward and back, since no point that it takes is held."""
+def _another_track(network: Network, block: str, own: tuple[str, str], needs: Mapping[str, str]) -> bool:
+    """Whether track may lead from the block elsewhere than onward and back, since no point that it takes is held.
+
+    Where track leads onward or back over a boundary more, that is another track too, however its points lie.
+    """
+    over = {(way.out, way.into) for way in network.ways(block)}
+    if any(sum(into == each for _, into in over) > own.count(each) for each in own):
+        return True
     return any(
         all(needs.get(point, at) == at for point, at in demands.items())
-        for into in {way.into for way in network.ways(block)} - own
+        for into in {into for _, into in over} - {*own}
         if into is not None and (demands := network.demands(block, into)) is not None
     )
 

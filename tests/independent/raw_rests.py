@@ -111,8 +111,8 @@ def _held(network: Network, route: Route, stated: Wanted) -> Set[tuple[str, str]
     return open_.keys() - shut
 
 
-Loops = tuple[int, frozenset[str]] | str | None
-"""How long the shortest are, and the blocks that they begin in; a text if it is given up."""
+Loops = tuple[int, frozenset[str], frozenset[str]] | str | None
+"""How long the shortest are, the blocks they begin in, the legs of unknown clearance; a text if it is given up."""
 
 
 def shortest_loops(
@@ -123,8 +123,9 @@ def shortest_loops(
     if "given up" in both:
         return "given up"
     found = [each for each in both if isinstance(each, tuple)]
-    least_mm = min((mm for mm, _ in found), default=0)
-    return (least_mm, frozenset().union(*(blocks for mm, blocks in found if mm == least_mm))) if found else None
+    least_mm = min((mm for mm, _, _ in found), default=0)
+    blocks = frozenset[str]().union(*(blocks for mm, blocks, _ in found if mm == least_mm))
+    return (least_mm, blocks, frozenset().union(*(legs for mm, _, legs in found if mm == least_mm))) if found else None
 
 
 def _between_blocks(network: Network, fouls: Mapping[str, Collection[str]]) -> Loops:
@@ -164,12 +165,12 @@ def _between_blocks(network: Network, fouls: Mapping[str, Collection[str]]) -> L
             if way.into is not None and way.into != here and _agree(dict(lies), passed):
                 beyond = (far_end(network, way), way.into, lies | set(passed.items()))
                 heappush(todo, (mm + network.way_mm(way), next(turn), block, out, *beyond))
-    return None if found_mm is None else (found_mm, frozenset(found))
+    return None if found_mm is None else (found_mm, frozenset(found), frozenset())
 
 
 def _over_a_junction(network: Network, told_mm: Mapping[tuple[str, str], int]) -> Loops:
     """The shortest ways from a junction back to it that meet no boundary, less what two legs are not apart on."""
-    found: dict[str, int] = {}
+    found: dict[str, dict[int, set[str]]] = {}
     steps = 0
     for name, junction in network.junctions.items():
         for leg, end in junction.legs.items() if len(junction.legs) > 2 else ():
@@ -195,10 +196,12 @@ def _over_a_junction(network: Network, told_mm: Mapping[tuple[str, str], int]) -
                 elif onward:
                     apart = by not in junction.ways_from(leg).values()
                     less_mm = sum(told_mm.get((name, each), CLEAR_MM) for each in (leg, by)) if apart else 0
+                    taken = {f"{name} {each}" for each in (leg, by) if apart and (name, each) not in told_mm}
                     block = network.block_of[network.last_piece(end)]
-                    found[block] = min(found.get(block, mm), max(mm - less_mm, 0))
-    least_mm = min(found.values(), default=None)
-    return None if least_mm is None else (least_mm, frozenset(block for block in found if found[block] == least_mm))
+                    found.setdefault(block, {}).setdefault(max(mm - less_mm, 0), set()).update(taken)
+    least_mm = min(map(min, found.values()), default=None)
+    least = {block: legs[least_mm] for block, legs in found.items() if least_mm in legs}
+    return None if least_mm is None else (least_mm, frozenset(least), frozenset().union(*least.values()))
 
 
 def moved(network: Network, way: Way) -> dict[str, str]:

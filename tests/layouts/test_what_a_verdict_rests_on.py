@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 
 from heisoku import run
-from models.layouts import BadInput, CheckResult, Imported, as_json, check, load
+from models.layouts import BadInput, CheckResult, Imported, as_json, check, load, load_text
 from models.layouts.native import import_native
 from models.layouts.railjson import import_railjson
 from models.layouts.table import import_table
+from tests.independent.layouts.dangerous_routes import HALF_TOLD
 from tests.layouts.stations import SAMPLES, SHARED, needs_shared, plain_station, railjson_of, table_rows
 
 STATION = next(path for path in SAMPLES if path.stem == "passing_station")
@@ -128,6 +129,17 @@ def test_real_layouts_in_which_trains_start_on_either_leg_say_so(name: str, poin
     imported = load(SHARED / name)
     assert {each[0] for rest in check(imported).rests if rest.kind == "start" for each in rest.instances} == points
     assert check(imported, strict=True).verdict == "does not hold"
+
+
+def test_trains_shorter_than_a_loop_between_legs_of_unknown_clearance_rest_on_a_default() -> None:
+    half = load_text("half.toml", HALF_TOLD)
+    (rest,) = (rest for rest in check(half).rests if rest.kind == "loop")
+    assert (rest.declared, rest.instances) == (False, (("B:E+W", "X a2", "X b1", "160000 mm"),))
+    assert check(half, strict=True).verdict == "does not hold"
+    legs = "a1 = 45_000, b1 = 20_000, a2 = 20_000, b2 = 45_000"
+    told = load_text("told.toml", HALF_TOLD.replace("a1 = 45_000, b2 = 45_000", legs))
+    (rest,) = (rest for rest in check(told).rests if rest.kind == "loop")
+    assert (rest.declared, rest.instances) == (True, (("B:E+W", "160000 mm"),))
 
 
 def test_the_shortest_loop_is_told_until_the_file_says_that_its_trains_are_shorter() -> None:

@@ -10,13 +10,14 @@ from typing import Any
 import pytest
 
 from kernel.refusal import Refusal
-from models.layouts import load
+from models.layouts import load, load_text
 from models.layouts.continuation import with_continuations
 from models.world.state import Site, System
 from proofs.catalogue import AXIOMS
 from proofs.catalogue import STEPS as TRANSITIONS
 from proofs.witnesses.registry import WITNESSES, Witness, refused_by, replay, shown_by
 from proofs.witnesses.scenario import STEPS, Scenario, Steps, WitnessFailed
+from tests.independent.layouts.dangerous_routes import TWO_TRACKS_BETWEEN_TWO_BLOCKS
 from tests.layouts.stations import SAMPLES, SHARED
 
 
@@ -73,6 +74,12 @@ def test_continuations_keep_the_axioms(path: Path) -> None:
     layout, ground = with_continuations(imported.layout, imported.ground)
     assert imported.layout.routes <= layout.routes
     assert [name for name, axiom in AXIOMS.items() if not axiom(layout, ground)] == []
+
+
+def test_no_train_goes_on_from_a_block_of_two_tracks_between_the_same_two_blocks() -> None:
+    imported = load_text("two tracks.toml", TWO_TRACKS_BETWEEN_TWO_BLOCKS)
+    layout, _ = with_continuations(imported.layout, imported.ground)
+    assert layout.routes == imported.layout.routes == {"north", "south"}
 
 
 TWO_TRACKS = frozenset({"crossing", "diamond"})

@@ -148,6 +148,50 @@ P = {}
 in = { from = "W", direction = "forward", to = "F" }
 round = { from = "A", direction = "forward", to = "B" }
 """
+HALF_TOLD = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+longest_train_mm = 159_000
+[tracks]
+w = { from = "west", to = "X.a1", length_mm = 900_000, boundaries = { W = 800_000 } }
+loop = { from = "X.b1", to = "X.a2", length_mm = 200_000 }
+e = { from = "X.b2", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 800_000 } }
+[points]
+X = { kind = "crossing", clear_mm = { a1 = 45_000, b2 = 45_000 } }
+[routes]
+in = { from = "W", direction = "forward", to = "F" }
+"""
+"""A line that crosses itself; of the two legs of its loop no clearance is told."""
+TWO_TRACKS_BETWEEN_TWO_BLOCKS = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+[tracks]
+w = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 800_000 } }
+n1 = { from = "P.normal", to = "U.tip", length_mm = 900_000, boundaries = { A1 = 100_000 } }
+n2 = { from = "U.normal", to = "Q.normal", length_mm = 900_000, boundaries = { B1 = 800_000 } }
+s1 = { from = "P.reverse", to = "Y.normal", length_mm = 900_000, boundaries = { A2 = 100_000 } }
+s2 = { from = "Y.tip", to = "Q.reverse", length_mm = 900_000, boundaries = { B2 = 800_000 } }
+x = { from = "U.reverse", to = "Y.reverse", length_mm = 40_000 }
+e = { from = "Q.tip", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 600_000 } }
+[points]
+P = {}
+U = {}
+Y = {}
+Q = {}
+[routes.north]
+from = "V"
+direction = "forward"
+to = "F"
+points = { P = "normal", U = "normal", Y = "normal", Q = "normal" }
+[routes.south]
+from = "V"
+direction = "forward"
+to = "F"
+points = { P = "reverse", U = "normal", Y = "normal", Q = "reverse" }
+"""
+"""A crossover joins two tracks in one block; a train that restarts there may stand on either."""
 HELD = '[["B:S+buffer", "B:E+S+V"], ["B:E+east", "B:E+S+V"]]'
 
 
@@ -253,5 +297,7 @@ ROUTES_THAT_HOLD = {
     "both legs onto the path.toml": BOTH_LEGS_ONTO_THE_PATH,
     "names made of boundaries.toml": BOTH_LEGS_ONTO_THE_PATH.replace('"rest"', HELD),
     "all numbers that a tag has.toml": line_of(NUMBERS),
+    "legs of a loop half told.toml": HALF_TOLD,
+    "two tracks between two blocks.toml": TWO_TRACKS_BETWEEN_TWO_BLOCKS,
 }
 """The same without their dangers."""

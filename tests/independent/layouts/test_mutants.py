@@ -5,13 +5,15 @@ from __future__ import annotations
 import tomllib
 from dataclasses import replace
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
 import pytest
 
 from models.layouts.railml import topology
 from tests.independent.layouts.dangerous import DANGERS
-from tests.independent.layouts.mutants import File, corpus, mutants, reads, who_notices
+from tests.independent.layouts.dangerous_routes import ROUTES_THAT_HOLD
+from tests.independent.layouts.mutants import FOLLOWS, File, corpus, mutants, reads, who_notices
 from tests.independent.test_verdicts import needs_folder
 
 LISTED = tomllib.loads((Path(__file__).parent / "mutants_left.toml").read_text(encoding="utf-8"))
@@ -35,6 +37,24 @@ def left(module: str) -> set[str]:
 def test_what_nobody_notices_is_listed(module: str) -> None:
     assert left(module) == set(LISTED[module])
     assert all(reason.strip() for reason in LISTED[module].values())
+
+
+def differing(files: list[File]) -> list[tuple[str, str, list[str]]]:
+    """What follows from a file otherwise than from the plain walk, though the importer is as it is."""
+    compared = [file for file in files if file.loads and not file.unlike]
+    found = [(file.name, module, file.follows(ask)) for file in compared for module, ask in FOLLOWS.items()]
+    assert compared
+    return [each for each in found if each[2]]
+
+
+def test_the_same_follows_from_routes_as_from_the_plain_walk() -> None:
+    assert differing([*(File(*each) for each in ROUTES_THAT_HOLD.items()), *islice(corpus(), SAMPLE_FILES)]) == []
+
+
+@needs_folder
+@pytest.mark.slow
+def test_the_same_follows_from_every_file_as_from_the_plain_walk() -> None:
+    assert differing(list(known())) == []
 
 
 def test_what_changes_nothing_is_noticed_by_nobody_whatever_was_tried_before() -> None:
