@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 
 from models.exit_codes import BAD_INPUT, UNDECIDED
 from models.processes import be_numbered
+from models.sources import are_as_loaded
 
 Work = TypeVar("Work")
 Found = TypeVar("Found")
@@ -36,7 +37,7 @@ class SchedulerError(Exception):
 
 @dataclass(frozen=True)
 class _Differs:
-    """A process has other sources or versions than whoever asks it: what it found is not told."""
+    """A process has other sources or versions than whoever asks it, or has loaded others: what it found is not told."""
 
 
 @dataclass(frozen=True)
@@ -87,8 +88,8 @@ class Scheduler:
         with reaching(self.address):
             found = future.result()
         if isinstance(found, _Differs):
-            line = f"a worker of {self.address} has other sources or versions than these; give it the same"
-            raise SchedulerError(f"{line}, and start again")
+            line = f"a worker of {self.address} has other sources or versions than these, or had when it was begun"
+            raise SchedulerError(f"{line}; give it the same, start it anew, and start again")
         return found
 
 
@@ -96,10 +97,16 @@ _ONE_AT_A_TIME = threading.Lock()
 
 
 def done_alike(do: Callable[[Work], Found], piece: Work, same: Callable[[], str], agreed: str) -> Found | _Differs:
-    """Do a piece of work in a process that serves others too, one at a time; not where it would be another's work."""
+    """Do a piece of work in a process that serves others too, one at a time; not where it would be another's work.
+
+    It loads modules while it works, so whether they are those that it speaks of is asked again at the end.
+    """
     with _ONE_AT_A_TIME:
         be_numbered(secrets.randbits(BITS_OF_A_NUMBER))
-        return do(piece) if same() == agreed else _Differs()
+        if same() != agreed or not are_as_loaded():
+            return _Differs()
+        found = do(piece)
+        return found if are_as_loaded() else _Differs()
 
 
 @contextmanager

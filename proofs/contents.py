@@ -20,17 +20,15 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from models.sources import READ, ROOT, sources
 from proofs import scripts
 from proofs.promise import Promise
 from proofs.records import solvers_hashed
 from proofs.theories import theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 
-ROOT = Path(__file__).resolve().parent.parent
 ROOMS = ("kernel", "models", "proofs")
 """The packages that a text is made of."""
-READ = (*ROOMS, "fuzz")
-"""Those that a proof reads: whether a simulation tells a machine what it could not know, too."""
 LIFTER = "proofs.lift"
 """What it names outside of ``proofs/`` is part of every text."""
 PLAIN = (ast.FunctionDef, ast.ClassDef, ast.Assign, ast.AnnAssign, ast.AugAssign, ast.Import, ast.ImportFrom)
@@ -304,15 +302,10 @@ def _of(given: Callable[..., Any]) -> str:
     return _digest(sorted(closure([(given.__module__, given.__name__)])))
 
 
-def stamps() -> dict[str, tuple[int, int]]:
-    """When each source was last written, in ns, and how long it is: to see whether one changes meanwhile."""
-    return {str(path): (path.stat().st_mtime_ns, path.stat().st_size) for path in _sources(READ)}
-
-
 @cache
 def whole() -> str:
     """The digest of all sources, with what they run on: where it is the same, so is everything that follows of them."""
-    return _digest([*_around(), *map(_as_it_stands, _sources(READ))])
+    return _digest([*_around(), *map(_as_it_stands, sources(READ))])
 
 
 @cache
@@ -320,7 +313,7 @@ def _of_everything() -> str:
     """What every text is made of beside its theory: the program, data, Python and packages."""
     lifter = [(name, "") for name in _modules(ROOT / LIFTER.replace(".", "/"))]
     named = sorted(each for each in closure(lifter) if not each.startswith("proofs."))
-    data = [each for each in _sources(ROOMS) if each.suffix == ".toml" or ROOT / "proofs" in each.parents]
+    data = [each for each in sources(ROOMS) if each.suffix == ".toml" or ROOT / "proofs" in each.parents]
     return _digest([*_around(), *named, *(_as_it_stands(each) for each in data if scripts.FOLDER not in each.parents)])
 
 
@@ -331,12 +324,6 @@ def _around() -> Iterator[str]:
 
 def _as_it_stands(path: Path) -> str:
     return f"{path.relative_to(ROOT)} {hashlib.sha256(path.read_bytes()).hexdigest()}"
-
-
-def _sources(rooms: Iterable[str]) -> Iterator[Path]:
-    """Every source of packages, and their data."""
-    for room in rooms:
-        yield from (path for suffix in ("py", "toml") for path in sorted((ROOT / room).rglob(f"*.{suffix}")))
 
 
 def _modules(folder: Path) -> Iterator[str]:

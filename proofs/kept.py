@@ -21,6 +21,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple, NotRequired, TypedDict
 
+from models import sources
 from models.layouts.results import BadInput
 from proofs import contents
 from proofs.records import CanarySeen, Obligation, Verdict, solvers_hashed
@@ -214,7 +215,7 @@ class Keeping:
 
     def __init__(self, path: Path, asked: Sequence[Asked]) -> None:
         self._asked, self._store = asked, opened(path)
-        self._sources, self._began_ns = contents.stamps(), time.time_ns()
+        self._sources, self._began_ns = sources.stamps(), time.time_ns()
         self._made_of: dict[Cell, str] = {}
         self._waiting: list[Entry] = []
         self._written: list[str] = []
@@ -282,8 +283,8 @@ class Keeping:
 
         They may be of either; and Python knows bytecode by the second in which its source was written.
         """
-        youngest_ns = max(at_ns for at_ns, _ in self._sources.values())
-        if contents.stamps() != self._sources or youngest_ns > self._began_ns - SETTLED_NS:
+        youngest_ns = max(at_ns for at_ns, *_ in self._sources.values())
+        if sources.stamps() != self._sources or youngest_ns > self._began_ns - SETTLED_NS:
             self._made_of = {}
             self._waiting = [each for each in self._waiting if each.key.startswith("answer ")]
         waiting, self._waiting = self._waiting, []

@@ -16,9 +16,12 @@ from typing import Literal, NamedTuple
 from fuzz.campaign.identity import difference, identity_of
 from fuzz.campaign.problems import CampaignError
 from fuzz.targets.target import Batch, Result, Target
+from models.sources import are_as_loaded
 
 SPARE_S = 30.0
 """Beyond a batch's time: by then whoever watches has ended the process, or is gone."""
+
+CHANGED = "sources that have changed since it was begun; start it anew"
 
 
 class Work(NamedTuple):
@@ -92,10 +95,14 @@ _ONE_AT_A_TIME = threading.Lock()
 
 
 def answered_in_time(work: Work, batch: Batch, batch_seconds: float) -> Answer:
-    """Run a batch in a process that serves others too: one at a time; too long a batch ends the process."""
+    """Run a batch in a process that serves others too: one at a time; too long a batch ends the process.
+
+    Such a process may have loaded what has changed since, so that its files say nothing of what it runs.
+    """
     with _ONE_AT_A_TIME, Path(os.devnull).open("wb") as nowhere:
         faulthandler.dump_traceback_later(batch_seconds, exit=True, file=nowhere)
         try:
-            return answered(work, batch)
+            answer = answered(work, batch)
+            return answer if are_as_loaded() else Answer("differs", words=CHANGED)
         finally:
             faulthandler.cancel_dump_traceback_later()

@@ -23,6 +23,7 @@ from tests.host.test_processes import square
 
 PATIENCE_S = 300
 ASKED = r"^(display|brake_watch)\."
+CAMPAIGN = ("--batches", "1", "--out", "out/campaign", "--scheduler")
 OF_THE_PROCESS = ("process", "seconds", "rlimit_spent")
 
 
@@ -103,6 +104,24 @@ def test_a_worker_with_other_sources_answers_nothing(tmp_path: Path) -> None:
     assert ended.returncode == BAD_INPUT
     assert ended.stderr.splitlines()[-1].startswith(f"a worker of {address} has other sources or versions than these")
     assert not (tmp_path / "there.json").exists()
+
+
+@needs_dask
+@pytest.mark.slow
+def test_a_worker_that_is_older_than_its_sources_answers_nothing(tmp_path: Path) -> None:
+    """It has loaded the kernel when a bound of it is changed; its files are then the same as those of who asks."""
+    copy, asked = copied(tmp_path / "sources"), r"^brake_watch\.run_a_cycle "
+    with scheduling.scheduled(tmp_path, workers=1, sources=copy) as (address, _):
+        words = ("prove", "--only", asked, "--scheduler", address, "--json", str(tmp_path / "there.json"))
+        first = heisoku(*words, cwd=copy)
+        assert first.returncode == HOLDS, first.stderr
+        bounds = copy / "kernel" / "onboard" / "arithmetic.py"
+        text = bounds.read_text("utf-8")
+        assert "\nSHORTEST_CYCLE_MS = 98\n" in text
+        bounds.write_text(text.replace("\nSHORTEST_CYCLE_MS = 98\n", "\nSHORTEST_CYCLE_MS = 9_800\n"), "utf-8")
+        told = [heisoku(*words, cwd=copy), heisoku("fuzz", "--target", "link", *CAMPAIGN, address, cwd=copy)]
+    assert [each.returncode for each in told] == [BAD_INPUT, BAD_INPUT], told
+    assert ["start it anew" in each.stderr.splitlines()[-1] for each in told] == [True, True], told
 
 
 @needs_dask

@@ -16,6 +16,7 @@ import pytest
 import heisoku
 from evidence.records.reading import Kept
 from evidence.records.showing import JUDGES
+from models import sources
 from models.layouts.results import BadInput
 from proofs import canaries, contents, kept, run, solvers
 from proofs.junit import junit_xml
@@ -149,9 +150,9 @@ def test_nothing_of_a_run_that_missed_a_canary_stays(tmp_path: Path, monkeypatch
 
 
 def test_texts_are_not_kept_where_a_source_changes_meanwhile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    before = contents.stamps()
+    before = sources.stamps()
     came = iter([before])
-    monkeypatch.setattr(contents, "stamps", lambda: next(came, {**before, "another": (0, 0)}))
+    monkeypatch.setattr(sources, "stamps", lambda: next(came, {**before, "another": (0, 0)}))
     proved(tmp_path / "F")
     assert {key.partition(" ")[0] for key in rows(tmp_path / "F")} == {"answer"}
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+import models.sources
 from proofs import contents, run, scripts
 from proofs.lift import sources
 from proofs.lift.sources import Code, definition_of
@@ -26,9 +27,10 @@ Cell = tuple[str, str]
 @pytest.fixture
 def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A copy of the sources, of which digests are made."""
-    for name in contents.READ:
+    for name in models.sources.READ:
         shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(contents, "ROOT", tmp_path)
+    for each in (contents, models.sources):
+        monkeypatch.setattr(each, "ROOT", tmp_path)
     monkeypatch.setattr(scripts, "FOLDER", tmp_path / "proofs" / "scripts")
     forget()
     yield tmp_path
@@ -184,7 +186,8 @@ def test_a_name_is_followed_to_what_it_means(tmp_path: Path, monkeypatch: pytest
         path = tmp_path / name
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, "utf-8")
-    monkeypatch.setattr(contents, "ROOT", tmp_path)
+    for each in (contents, models.sources):
+        monkeypatch.setattr(each, "ROOT", tmp_path)
     forget()
     try:
         found = named([("kernel.a", "f")])
