@@ -226,7 +226,9 @@ def reproduce(
 
     if output is not None and output.exists() and not output.is_dir():
         refuse(f"{output}: is not a folder; name another")
-    writable(json, output / "tables.txt" if output else None)
+    if json and output and json.suffix == ".png" and json.resolve().parent == output.resolve():
+        refuse(f"{json}: there the pictures go; name another file")
+    writable(json, output / f"{paper.value}_tables.txt" if output else None)
     described = PAPERS[paper.value]
     runs = runs or described.runs
     with progress(f"paper {paper.value}") as step:

@@ -49,11 +49,17 @@ def check(layout: Imported, *, clearance_mm: int | None = None, strict: bool = F
         clearance_mm: A boundary nearer to a point is foul, where the file does not say; as the command takes it
             if it is left out.
         strict: Nothing may rest on what the file does not say.
+
+    Raises:
+        ValueError: a clearance that is no whole number of millimetres, or less than none.
     """
     from models.layouts import check as checked
     from models.layouts.measures import CLEARANCE_MM
 
-    return checked(layout, clearance_mm=CLEARANCE_MM if clearance_mm is None else clearance_mm, strict=strict)
+    least_mm = CLEARANCE_MM if clearance_mm is None else clearance_mm
+    if type(least_mm) is not int or least_mm < 0:
+        raise ValueError(f"clearance_mm={clearance_mm!r}: whole millimetres, none or more")
+    return checked(layout, clearance_mm=least_mm, strict=strict)
 
 
 def prove(
@@ -118,13 +124,19 @@ def simulate(
 
     Raises:
         BadInput: there is no track, or no room for so many trains.
-        ValueError: a number that is none or less.
+        ValueError: a number that is none or less, or a fault of another name.
     """
     from fuzz.simulation.judging import judged
     from models.simulation.beginning import Plan, usual_trains
+    from models.simulation.bounds import LEAST_HOURS, MOST_HOURS
     from models.simulation.faults import EVERY_FAULT
 
-    if min(hours, cars - 1, 1 if trains is None else trains, 1 if trips is None else trips) <= 0:
-        raise ValueError(f"trains={trains}, cars={cars}, hours={hours}, trips={trips}: more than none, and two cars")
+    if min(cars - 1, 1 if trains is None else trains, 1 if trips is None else trips) <= 0:
+        raise ValueError(f"trains={trains}, cars={cars}, trips={trips}: more than none, and two cars")
+    if not LEAST_HOURS <= hours <= MOST_HOURS:
+        raise ValueError(f"hours={hours}: {LEAST_HOURS} to {MOST_HOURS}")
+    unknown = sorted(set(faults or ()) - set(EVERY_FAULT))
+    if unknown:
+        raise ValueError(f"faults: there is no {', '.join(map(repr, unknown))}; these are: {', '.join(EVERY_FAULT)}")
     many = usual_trains(layout, cars) if trains is None else trains
     return judged(Plan(layout, seed, many, hours, EVERY_FAULT if faults is None else faults, trips, cars=cars))

@@ -69,6 +69,10 @@ def loaded() -> str | None:
     """Load the program; what is wrong if it cannot be, in words."""
     from importlib import import_module
 
+    if sys.flags.inspect:
+        return (
+            "Python goes on when the program ends (-i, PYTHONINSPECT), and its exit code is lost; run it without"
+        )
     if sys.flags.optimize:
         return "Python leaves assertions out (-O, PYTHONOPTIMIZE), and with them what witnesses say; run it without"
     try:
@@ -123,7 +127,17 @@ def main() -> None:
         except KeyboardInterrupt:
             line = "interrupted; nothing is decided"
     print(f"heisoku: {' '.join(line.split())}", file=sys.stderr)
+    if sys.flags.inspect:
+        end_at_once()
     sys.exit(UNDECIDED)
+
+
+def end_at_once() -> None:
+    """End undecided, whatever Python would still do."""
+    import os
+
+    sys.stderr.flush()
+    os._exit(UNDECIDED)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn, TextIO
@@ -154,12 +154,27 @@ def metres(option: str, text: str) -> int:
 
 def keep_apart(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
     """Refuse what would be written in the place of a file that the command reads (``given``), or twice into one."""
-    taken = {path.resolve(): "is read by this command" for path in given if path is not None}
+    taken = {_place(path): "is read by this command" for path in given if path is not None}
     for path in paths:
-        if path is not None and path != STANDARD_OUTPUT and (not path.exists() or path.is_file()):
-            if path.resolve() in taken:
-                refuse(f"{path}: {taken[path.resolve()]}; write elsewhere")
-            taken[path.resolve()] = "is to be written twice"
+        if path is not None and path != STANDARD_OUTPUT:
+            place = _place(path)
+            if not place.exists() or place.is_file():
+                if place in taken:
+                    refuse(f"{path}: {taken[place]}; write elsewhere")
+                taken[place] = "is to be written twice"
+
+
+def _place(path: Path) -> Path:
+    """Where a path leads to; refuse one that leads nowhere, as links in a circle and names that are too long do."""
+    try:
+        place = path.resolve()
+        with suppress(FileNotFoundError, NotADirectoryError, PermissionError):
+            place.stat()
+    except RuntimeError:
+        refuse(f"{path}: links lead back to it; name another file")
+    except OSError as error:
+        refuse(f"{path}: {error.strerror}; name another file")
+    return place
 
 
 def writable(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
@@ -175,7 +190,7 @@ def writable(*paths: Path | None, given: Iterable[Path | None] = ()) -> None:
             if not os.access(path, os.W_OK):
                 refuse(f"{path}: cannot be written; name another file")
             continue
-        place = path.resolve()
+        place = _place(path)
         try:
             place.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:

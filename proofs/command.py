@@ -16,6 +16,7 @@ from models.commands import (
     bad_input_refused,
     complain,
     console,
+    keep_apart,
     pattern,
     progress,
     refuse,
@@ -86,6 +87,7 @@ def prove(
     from proofs.run import prove_all
 
     writable(json, junit, kept)
+    keep_apart(json, junit, kept, keep)
     pattern(only)
     if whole and (only or kept):
         which = "--only" if only else "--kept"

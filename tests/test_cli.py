@@ -132,6 +132,10 @@ def test_nothing_is_proved_before_it_is_known_that_the_record_can_be_written(
         ("fuzz", "{layout}", "--target", "lines", "--batches", "1", "--out", "{folder}/fuzz", "--json", "{layout}"),
         ("replay", "{layout}", "--json", "{layout}"),
         ("prove", "--only", "^display", "--json", "{folder}/a.xml", "--junit", "{folder}/a.xml"),
+        ("prove", "--only", "^display", "--json", "{folder}/a", "--keep", "{folder}/a"),
+        ("certify", "--only", "^display", "--json", "{folder}/a", "--keep", "{folder}/a"),
+        ("reproduce", "000", "--runs", "1", "-o", "{folder}/a", "--json", "{folder}/a/000_tables.txt"),
+        ("reproduce", "000", "--runs", "1", "-o", "{folder}/a", "--json", "{folder}/a/any.png"),
     ],
     ids=" ".join,
 )
@@ -148,6 +152,17 @@ def test_no_file_that_is_read_is_written_over_and_none_is_written_twice(
     assert in_one_line(said.err)
     assert layout.read_text("utf-8") == PASSING_STATION
     assert sorted(tmp_path.iterdir()) == [layout, link]
+
+
+@pytest.mark.parametrize("words", [("check", "{bad}"), ("check", "layouts/ring.toml", "--json", "{bad}")])
+@pytest.mark.parametrize("bad", ["loop", "n" * 300])
+def test_a_path_that_leads_nowhere_is_bad_input_before_the_work(
+    bad: str, words: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    assert heisoku.run([word.format(bad=tmp_path / bad) for word in words]) == 2
+    said = capsys.readouterr()
+    assert (said.out, in_one_line(said.err)) == ("", True)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import inspect
 import json
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 import heisoku
 import heisoku_public
 from heisoku import BadInput, check, load, prove, simulate
+from models.simulation.faults import Setting
 
 ROOT = Path(__file__).resolve().parent.parent
 STATION = "layouts/passing_station.toml"
@@ -98,6 +100,14 @@ def test_what_cannot_be_used_is_said_and_ends_nothing(tmp_path: Path) -> None:
     station = load(STATION)
     with pytest.raises(BadInput, match="trains can stand apart"):
         simulate(station, trains=99)
-    for wrong in ({"hours": 0}, {"trains": 0}, {"trips": 0}, {"cars": 1}):
+    for wrong in ({"trains": 0}, {"trips": 0}, {"cars": 1}):
         with pytest.raises(ValueError, match="more than none"):
             simulate(station, **wrong)  # type: ignore[arg-type]
+    for hours in (0, 1e-9, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"0\.01 to 240\.0"):
+            simulate(station, hours=hours)
+    with pytest.raises(ValueError, match="there is no 'antena'"):
+        simulate(station, faults={"antena": Setting(1.0, 1, 1)})
+    for clearance_mm in (-30_000, math.nan, 20_000.0, True):
+        with pytest.raises(ValueError, match="whole millimetres"):
+            check(station, clearance_mm=clearance_mm)  # type: ignore[arg-type]

@@ -62,6 +62,14 @@ def test_without_assertions_nothing_is_said(words: tuple[str, ...]) -> None:
     assert (ended.returncode, ended.stdout, len(ended.stderr.splitlines())) == (3, b"", 1)
 
 
+@pytest.mark.parametrize("layout", [LAYOUT, "none.toml"])
+def test_where_python_goes_on_afterwards_nothing_is_said(layout: str) -> None:
+    """The exit code of the program would be lost: 0 at a terminal, 1 elsewhere."""
+    given = {**os.environ, "PYTHONINSPECT": "1"}
+    ended = subprocess.run([*PROGRAM, "check", layout], capture_output=True, check=False, env=given, input=b"")
+    assert (ended.returncode, ended.stdout, len(ended.stderr.splitlines())) == (3, b"", 1)
+
+
 @pytest.mark.skipif(not FULL.exists(), reason="no device here that is always full")
 def test_a_full_disk_under_standard_output_decides_nothing() -> None:
     with FULL.open("wb") as full:

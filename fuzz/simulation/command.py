@@ -12,6 +12,7 @@ from rich.table import Table
 
 from models.commands import Json, Seed, bad_input_refused, console, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
+from models.simulation.bounds import LEAST_HOURS, MOST_HOURS
 from models.streams import write_whole
 from proofs.records import about, write_json
 
@@ -26,7 +27,7 @@ Trains = Annotated[
     typer.Option(metavar="N", min=1, max=999, help="Trains.", show_default="half of what has room, 8 at most"),
 ]
 Cars = Annotated[int, typer.Option(metavar="N", min=2, max=60, help="Cars of 20 m that each train has.")]
-Hours = Annotated[float, typer.Option(metavar="H", min=0.01, max=240.0, help="Simulated hours, at most.")]
+Hours = Annotated[float, typer.Option(metavar="H", min=LEAST_HOURS, max=MOST_HOURS, help="Simulated hours, at most.")]
 Trips = Annotated[
     int | None,
     typer.Option(

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from models.commands import EVERY_CORE, Jobs, Json, console, pattern, print_line, progress, refuse, writable
+from models.commands import EVERY_CORE, Jobs, Json, console, keep_apart, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from proofs.records import about, write_json
 
@@ -65,6 +65,7 @@ def certify(
 
     matches = pattern(only)
     writable(json)
+    keep_apart(json, keep)
     if keep is not None and keep.exists() and not keep.is_dir():
         refuse(f"--keep {keep}: is not a folder; name another")
     outside = checker(ethos, rules)
