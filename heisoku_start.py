@@ -70,9 +70,7 @@ def loaded() -> str | None:
     from importlib import import_module
 
     if sys.flags.inspect:
-        return (
-            "Python goes on when the program ends (-i, PYTHONINSPECT), and its exit code is lost; run it without"
-        )
+        return "Python goes on when the program ends (-i, PYTHONINSPECT), and its exit code is lost; run it without"
     if sys.flags.optimize:
         return "Python leaves assertions out (-O, PYTHONOPTIMIZE), and with them what witnesses say; run it without"
     try:
