@@ -60,6 +60,10 @@ class Topology:
                 found |= {(end[0], self._at_mm(end)): (one, other) for end in (one, other)}
         return found
 
+    def is_free_end(self, track: str, at_mm: int) -> bool:
+        """Whether a place is an end of track that is joined to no other."""
+        return at_mm in (0, self.lengths_mm[track]) and (track, at_mm) not in self.joined_at
+
     def joint(self, track: str, at_mm: int) -> tuple[str, int]:
         """A place, told alike by each of the two ends of track that meet there."""
         ends = self._meets.get((track, at_mm))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from tests.independent.layouts.danger import danger_of
 from tests.independent.layouts.dangerous_railml import (
     BACK,
@@ -56,6 +58,14 @@ FOUR = (
 )
 SPREAD = FOUR.replace("None", "Both")
 FAN = "".join(relation(f"w{end}", "w", end) for end in "ensx")
+LIMIT = '<border id="limit" type="station"{}>' + BACK.format("w", "{}", "both") + "</border>"
+NO_END = ' isOpenEnd="false"'
+WITHIN = LIMIT.format(NO_END, "0.9")
+TWO_TRACKS = WITHIN.replace("</border>", BACK.format("n", "0.9", "both") + "</border>")
+TURNED_ENDS = '<border id="edge">' + BACK.format("n", "0.1", "both") + BACK.format("w", "0.0", "both") + "</border>"
+FROM_LIMIT = '<routeEntry id="Ae"><refersTo ref="limit"/>'
+TO_THE_LIMIT = """<tvdSection id="AL"><hasDemarcatingTraindetector ref="A tags"/><hasDemarcatingBorder ref="limit"/>
+</tvdSection>"""
 
 
 def with_element(text: str, element: str) -> str:
@@ -119,6 +129,22 @@ DANGEROUS_PLACES = {
         with_e(railml(BOTH, SPOTS), DRAWN.format(POINT.format(0))),
         "of a net element's drawing one end is told, and its length nowhere",
         "has no length, and no track or coordinates",
+    ),
+    "open end within.railml": danger_of(
+        railml(BOTH, SPOTS, LIMIT.format(' isOpenEnd="true"', "0.9")),
+        "between entry and exit of a route the known network ends",
+        "no way leads from 'A' to 'B'",
+    ),
+    "open end at a joint.railml": danger_of(
+        railml(BOTH, SPOTS, LIMIT.format(' isOpenEnd="1"', "1.0")),
+        "between entry and exit of a route the known network ends, where two tracks meet",
+        "no way leads from 'A' to 'B'",
+    ),
+    "border within and at an end.railml": danger_of(
+        railml(BOTH, SPOTS, TURNED_ENDS),
+        "a border lies within one track, and at the end of another one",
+        "an element lies in one place",
+        "edge",
     ),
     "border at the end of a switch.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + BORDER.replace('"s" intrinsicCoord="0.0"', '"w" intrinsicCoord="1.0"')),
@@ -263,6 +289,14 @@ PLACES_THAT_HOLD = {
     "tracks of parts.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 250) + HALF.format("T2", 250, 500)),
     "track of nearly all.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 495)),
     "related again.railml": railml(AGAIN + BOTH + AGAIN.replace("we2", "we4"), SPOTS),
+    "station border within.railml": railml(BOTH, SPOTS, WITHIN),
+    "station border of two tracks.railml": railml(BOTH, SPOTS, TWO_TRACKS),
+    "station border at a joint.railml": railml(BOTH, SPOTS, LIMIT.format("", "1.0")),
+    "station border at a switch.railml": railml(TURNOUT, ON_LEGS, SWITCHES + LIMIT.format(' isOpenEnd="0"', "1.0")),
+    "from a station border.railml": re.sub(
+        '<routeEntry id="Ae">.*?/>', FROM_LIMIT, railml(BOTH, SPOTS, WITHIN.replace('"both"', '"normal"'))
+    ),
+    "section to a station border.railml": railml(BOTH, SPOTS, WITHIN, TO_THE_LIMIT),
     "branch without a relation.railml": railml(
         TURNOUT, ON_LEGS, SWITCHES.replace("<leftBranch", "<straightBranch/><leftBranch")
     ),
