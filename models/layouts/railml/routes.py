@@ -170,6 +170,9 @@ def _given_positions(
             point = switch if physical is None else source.referred(physical)
             name, position = source.attribute(point, "id"), source.attribute(item, "inPosition")
             junction = segments.station.junctions.get(name)
+            if point.get("belongsToParent") is not None:
+                what = f"'{name}' is a part of slip '{point.get('belongsToParent')}': how parts lie is not read"
+                raise source.bad(item, what, "name no position of it: it follows where one way leads over the slip")
             if junction is None or position not in junction.kind.positions:
                 raise source.bad(item, f"'{name}' is no point that can lie '{position[:40]}'", "correct it")
             yield name, position
