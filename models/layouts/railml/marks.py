@@ -86,8 +86,7 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
             places = [placed(source, topology, name, spot) for spot in spots]
-            ends = _is_end(topology, element, *places)
-            if kind == "border" and not ends and name not in signals and name not in of_sections:
+            if kind == "border" and name not in {*signals, *of_sections} and not _is_end(topology, element, *places):
                 continue
             for group in _parts(source, topology, element, spots):
                 place = placed(source, topology, name, group[0])
@@ -98,7 +97,7 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                 found.border |= {part: name} if part != name else {}
             if kind == "signalIS":
                 found.signals.add(name)
-            if kind == "trainDetectionElement" or (name in of_sections and not ends):
+            if kind == "trainDetectionElement" or name in of_sections:
                 found.detectors.add(found.of[name])
             sides = _sides(source, topology, found.marks[found.of[name]], name, spots)
             if len(sides) == 1:
@@ -114,8 +113,10 @@ def _is_end(topology: Topology, element: Element, *places: tuple[str, int]) -> b
 
     A border is no open end where it does not say so, as railML has it.
     """
-    kind, is_open = kind_of(element), element.get("isOpenEnd", "false") not in ("false", "0")
-    return kind == "bufferStop" or (kind == "border" and (is_open or any(topology.is_free_end(*at) for at in places)))
+    if kind_of(element) != "border":
+        return kind_of(element) == "bufferStop"
+    is_open = element.get("isOpenEnd", "false") not in ("false", "0")
+    return is_open or any(topology.is_free_end(*place) for place in places)
 
 
 def _parts(source: Document, topology: Topology, element: Element, spots: Sequence[Element]) -> list[list[Element]]:

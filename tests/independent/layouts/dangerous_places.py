@@ -144,6 +144,11 @@ DANGEROUS_PLACES = {
         "of a net element's drawing one end is told, and its length nowhere",
         "has no length, and no track or coordinates",
     ),
+    "stop within.railml": danger_of(
+        railml(BOTH, SPOTS, STOP_ON_S.replace('"s" intrinsicCoord="1.0"', '"w" intrinsicCoord="0.9"')),
+        "between entry and exit of a route stands a buffer stop",
+        "no way leads from 'A' to 'B'",
+    ),
     "open end within.railml": danger_of(
         railml(BOTH, SPOTS, LIMIT.format(' isOpenEnd="true"', "0.9")),
         "between entry and exit of a route the known network ends",
@@ -170,10 +175,15 @@ DANGEROUS_PLACES = {
         "a switch is told as a part of one that lies elsewhere: its own place would have no name",
         "is a part of 'P', which its relation 'en' is no branch of",
     ),
+    "part of the other slip.railml": danger_of(
+        railml(PARALLEL, BESIDE, MEET + MEET[len(SWITCHES) :].replace('"Q"', '"R" belongsToParent="P"')),
+        "a part names the branches of one switch, and is told as a part of another one: its clearance would be that's",
+        "is a part of 'P', which its relation 'en' is no branch of",
+    ),
     "part that is to lie left.railml": danger_of(
         railml(SLIP, SPOTS, WHOLE_SLIP + PARTS).replace('<route id="AB">', f'<route id="AB">{PART_LIES}'),
         "a route names how a part of a slip lies, which is more than one position of the slip",
-        "'X1' is a part of slip 'X': how parts lie is not read",
+        "'X1' is a part of slip 'X': how parts lie",
     ),
     "border at the end of a switch.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + BORDER.replace('"s" intrinsicCoord="0.0"', '"w" intrinsicCoord="1.0"')),

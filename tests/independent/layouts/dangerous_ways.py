@@ -62,10 +62,12 @@ def over_stations(count: int, given: str, assets: str = "", spots: str = SPOTS) 
     return of_ab(with_tracks(railml(LINE_NS + relations, spots, functional, assets), tracks), given)
 
 
-def beside_stations(relations: str, functional: str, more: str, count: int = 12, last: str = "y") -> str:
+def beside_stations(
+    relations: str, functional: str, more: str, count: int = 12, last: str = "y", spots: str = SPOTS
+) -> str:
     """From A to B, where a leg leads off on ``x`` to a line of passing stations."""
     tracks, on, of_stations = stations(count, "x", last)
-    made = railml(LINE_NS + relations + on, SPOTS, functional + of_stations)
+    made = railml(LINE_NS + relations + on, spots, functional + of_stations)
     return with_tracks(made, [*tracks, "x", *more])
 
 
@@ -81,13 +83,17 @@ TWO_WAYS = (
     *(relation("wl", "w", "l"), relation("wr", "w", "r"), relation("rx", "r", "x"), relation("rt", "r", "t")),
     *(relation("le", "l", "e"), relation("te", "t", "e")),
 )
+BALLOON = relation("zb", "z", "b") + relation("bc", "b", "c")
+BALLOON += relation("zc", "z", "c").replace('positionOnB="0"', 'positionOnB="1"')
+ROUND_BALLOON = switch("V", "zb", "zc") + DETECTOR.format("b") + DETECTOR.format("c")
 BEYOND = relation("ez", "e", "z") + relation("yz", "y", "z")
-BALLOON = relation("zb", "z", "b") + relation("zc", "z", "b").replace('positionOnB="0"', 'positionOnB="1"')
-ROUND_BALLOON = switch("T", "ez", "yz") + switch("V", "zb", "zc") + DETECTOR.format("b")
+TO_CIRCLE = relation("xc", "x", "c") + relation("cd", "c", "d") + relation("dc", "d", "c")
+ROUND_CIRCLE = switch("V", "xc", "dc") + DETECTOR.format("c") + DETECTOR.format("d")
+EXIT_BEHIND = SPOTS.replace(spot("B", "e", "0.2"), spot("B", "w", "0.2"))
+NOT_ON_RING = spot("A", "w", "0.8") + spot("B", "s", "0.4") + spot("C", "n", "0.8") + spot("D", "s", "0.2")
 BEHIND = spot("A", "w", "0.2") + spot("B", "w", "0.8") + spot("C", "n", "0.8") + spot("D", "s", "0.2")
 BEHIND += spot("E", "e", "0.2")
-OVERLAP = '<overlap id="o"{}><activeForApproachRoute ref="AB"/>{}</overlap>'
-LIMITED = OVERLAP.format("", '<isLimitedBy ref="E"/>{}')
+LIMITED = '<overlap id="o"><activeForApproachRoute ref="AB"/><isLimitedBy ref="E"/>{}</overlap>'
 THREE_POINTS = switch("P", "wl", "wr") + switch("T", "rx", "rt") + switch("Q", "te", "le")
 
 DANGEROUS_WAYS = {
@@ -107,9 +113,23 @@ DANGEROUS_WAYS = {
         "several ways lead from 'A' to 'B'",
     ),
     "round a balloon.railml": danger_of(
-        beside_stations(relation("wx", "w", "x") + BEYOND + BALLOON, ROUND_BALLOON, "ybz", count=14),
+        beside_stations(
+            relation("wx", "w", "x") + BEYOND + BALLOON, switch("T", "ez", "yz") + ROUND_BALLOON, "ybcz", count=14
+        ),
         "the exit lies on a leg that is come to from a balloon alone, and so over track twice",
         "which ways lead on from 'A tags' is not known after 20,000 pieces of track",
+    ),
+    "behind its entry.railml": danger_of(
+        beside_stations(
+            relation("wx", "w", "x") + relation("yz", "y", "z") + BALLOON, ROUND_BALLOON, "ybcz", 14, spots=EXIT_BEHIND
+        ),
+        "a route's exit lies behind its entry, and is come to from a balloon beyond fourteen stations alone",
+        "no way leads from 'A' to 'B'",
+    ),
+    "round a ring.railml": danger_of(
+        railml(LINE_NS + LEADS_OFF.replace(relation("wx", "w", "x"), relation("ew", "e", "w")), NOT_ON_RING),
+        "a route's exit lies on another line than its entry, which is on a ring",
+        "no way leads from 'A' to 'B'",
     ),
     "overlap over seven.railml": danger_of(
         over_stations(7, "", LIMITED.format(named(*EVERY[1:])), BEHIND),
@@ -131,6 +151,9 @@ WAYS_THAT_HOLD = {
     "ring to the right.railml": of_ab(
         beside_stations(LEADS_OFF, TO_THE_RIGHT, "", count=14, last="w"),
         TURNS.format("switchPositionInDepartureTrack", "left").replace('"P"', '"Q14"'),
+    ),
+    "circle to the right.railml": with_tracks(
+        railml(LINE_NS + LEADS_OFF + TO_CIRCLE, SPOTS, TO_THE_RIGHT + ROUND_CIRCLE), "xcd"
     ),
     "overlap over all of seven.railml": over_stations(7, "", LIMITED.format(named(*EVERY)), BEHIND),
     "routes over six.railml": without_routes(over_stations(6, "")),
