@@ -1,7 +1,8 @@
 """Where blocks end: at train detection elements, and at signals that a route begins or ends at, or an overlap.
 
 A train without track circuits is found at tags alone, so a signal that routes begin or end at, or that limits an
-overlap, has a pair of tags of its own, unless a detector stands in the same place.
+overlap, has a pair of tags of its own, unless a detector stands in the same place.  Track ends at buffer stops and
+at borders that are open ends; it runs on over all others, such as those of stations, tariffs and countries.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from models.layouts.railml.topology import LONGEST_M, Topology
 from models.layouts.track import HIGH, LOW, Mark
 
 DIRECTIONS = {"normal": HIGH, "reverse": LOW}
-CUTS = {"trainDetectionElement": True, "signalIS": True, "bufferStop": False, "border": False}
-"""What a mark can be, and whether track goes on behind it."""
+KINDS = ("trainDetectionElement", "signalIS", "bufferStop", "border")
+"""What a mark can be."""
 
 
 @dataclass
@@ -66,11 +67,14 @@ class Marks:
 def read_marks(source: Document, topology: Topology, signals: Mapping[str, Element], findings: Findings) -> Marks:
     """Read them; ``signals``: those that routes begin or end at, and that limit overlaps.
 
+    A border over which track runs on is a mark if it is one of these, or if a section ends there.
+
     Raises:
         BadInput: one has no id, or lies nowhere.
     """
     found = Marks()
-    for kind, cuts in CUTS.items():
+    of_sections = {source.attribute(each, "ref") for each in source.all("hasDemarcatingBorder")}
+    for kind in KINDS:
         for element in source.all(kind):
             if kind == "signalIS" and element.get("id") not in signals:
                 continue
@@ -81,15 +85,19 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
                     raise source.bad(element, "has no place on the track", "add its spotLocation")
                 findings.remark([name], f"{kind} '{name}' has no place on the track: it is left out", "unread")
                 continue
+            places = [placed(source, topology, name, spot) for spot in spots]
+            if kind == "border" and name not in {*signals, *of_sections} and not _is_end(topology, element, *places):
+                continue
             for group in _parts(source, topology, element, spots):
                 place = placed(source, topology, name, group[0])
                 part = name if group[0] is spots[0] else _part_of(name, place[0])
+                cuts = not _is_end(topology, element, place)
                 found.put(source, element, Mark(part, *place, cuts), topology.joint(*place))
                 compare_places(source, found.of[part], name, group, topology, findings)
                 found.border |= {part: name} if part != name else {}
             if kind == "signalIS":
                 found.signals.add(name)
-            if kind == "trainDetectionElement":
+            if kind == "trainDetectionElement" or name in of_sections:
                 found.detectors.add(found.of[name])
             sides = _sides(source, topology, found.marks[found.of[name]], name, spots)
             if len(sides) == 1:
@@ -100,13 +108,23 @@ def read_marks(source: Document, topology: Topology, signals: Mapping[str, Eleme
     return found
 
 
+def _is_end(topology: Topology, element: Element, *places: tuple[str, int]) -> bool:
+    """Whether track ends at an element: at a buffer stop, and at a border by its word, or if it does in any case.
+
+    A border is no open end where it does not say so, as railML has it.
+    """
+    if kind_of(element) != "border":
+        return kind_of(element) == "bufferStop"
+    is_open = element.get("isOpenEnd", "false") not in ("false", "0")
+    return is_open or any(topology.is_free_end(*place) for place in places)
+
+
 def _parts(source: Document, topology: Topology, element: Element, spots: Sequence[Element]) -> list[list[Element]]:
     """The places of an element, those of a border that several tracks end at apart, track by track."""
     name, by_track = source.attribute(element, "id"), dict[str, list[Element]]()
     for spot in spots if kind_of(element) == "border" else ():
         track, at_mm = placed(source, topology, name, spot)
-        ends = at_mm in (0, topology.lengths_mm[track]) and (track, at_mm) not in topology.joined_at
-        if not ends or (track not in by_track and _part_of(name, track) in source.by_id):
+        if not topology.is_free_end(track, at_mm) or (track not in by_track and _part_of(name, track) in source.by_id):
             return [list(spots)]
         by_track.setdefault(track, []).append(spot)
     return list(by_track.values()) or [list(spots)]
@@ -201,7 +219,7 @@ def placed(source: Document, topology: Topology, name: str, spot: Element) -> tu
 def signal_of(source: Document, element: Element) -> Element:
     """The element on the track that an interlocking's element, such as a ``signalIL``, refers to."""
     seen = set()
-    while kind_of(element) not in CUTS:
+    while kind_of(element) not in KINDS:
         refers = source.first("refersTo", element)
         name = element.get("id")
         if refers is None or name in seen:

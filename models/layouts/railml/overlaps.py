@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from models.layouts.findings import Findings
 from models.layouts.railml.document import Document, Element
 from models.layouts.railml.marks import SAME_PLACE_M, Marks, signal_of
 from models.layouts.railml.routes import POSITIONS_FIT, Followed, Way, positions_told, ways_from
 from models.layouts.railml.sections import demarcated, segments_of
-from models.layouts.track import Segments
+from models.layouts.track import Heading, Segments
 
 LONGEST_M = 100_000
 FITS = "there is as much track as an overlap is long"
@@ -107,20 +108,19 @@ def _way(
         what = f"route '{route.wanted.name}' ends at '{first}', where track ends"
         raise source.bad(overlap, what, "take the overlap away")
     limits = [each for element in limits_of(source, overlap) for each in marks.standing(element.get("id", ""))]
-    listed = [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
     if source.first("isLimitedBy", overlap) is not None:
-        ways = ways_from(segments, first, side, lambda mark, _: mark in limits)
-    elif listed:
-        ways = _over_sections(source, segments, marks, first, side, listed)
+        ways = ways_from(source, overlap, segments, (first, side), lambda mark, _: mark in limits, given)
+    elif _sections(source, overlap):
+        ways = _over_sections(source, segments, marks, (first, side), overlap, given)
     elif overlap.get("length") is not None:
-        ways = _so_long(source, segments, first, side, overlap, given)
+        ways = _so_long(source, segments, (first, side), overlap, given)
     else:
         raise source.bad(overlap, "says neither what limits it, nor its sections, nor its length", "add one of them")
-    fitting = [way for way in ways if all(way.positions.get(point, at) == at for point, at in given.items())]
-    if len(fitting) != 1:
-        what = f"{len(fitting) or 'no'} ways lead from '{first}', the exit of route '{route.wanted.name}', to its end"
-        raise source.bad(overlap, what, "correct its end, or name the position of each point")
-    return fitting[0]
+    found = list(islice(ways, 2))
+    if len(found) != 1:
+        lead = f"{'several' if found else 'no'} ways lead from '{first}', the exit of route '{route.wanted.name}',"
+        raise source.bad(overlap, f"{lead} to its end", "correct its end, or name the position of each point")
+    return found[0]
 
 
 def limits_of(source: Document, overlap: Element) -> list[Element]:
@@ -133,16 +133,30 @@ def limits_of(source: Document, overlap: Element) -> list[Element]:
 
 
 def _over_sections(
-    source: Document, segments: Segments, marks: Marks, mark: str, side: int, listed: Sequence[str]
-) -> list[Way]:
-    """The ways that leave the last of the listed sections, having run through all of them."""
+    source: Document,
+    segments: Segments,
+    marks: Marks,
+    start: tuple[str, int],
+    overlap: Element,
+    given: Mapping[str, str],
+) -> Iterator[Way]:
+    """The ways that leave the last of the sections of an overlap, having run through all of them."""
+    listed = _sections(source, overlap)
     bounds, track = demarcated(source, marks), segments_of(source, segments, marks)
     once = [each for name in listed for each in bounds.get(name, ())]
     inside = frozenset[int]().union(*(track.get(name, ()) for name in listed))
-    ways = ways_from(
-        segments, mark, side, lambda end, heading: heading[0] in inside and once.count(marks.element_of(end)) == 1
-    )
-    return [way for way in ways if all(track[name] & set(way.segments) for name in listed if track.get(name))]
+
+    def ends(mark: str, heading: Heading) -> bool:
+        return heading[0] in inside and once.count(marks.element_of(mark)) == 1
+
+    for way in ways_from(source, overlap, segments, start, ends, given):
+        if all(track[name] & set(way.segments) for name in listed if track.get(name)):
+            yield way
+
+
+def _sections(source: Document, overlap: Element) -> list[str]:
+    """The sections that an overlap lists."""
+    return [source.attribute(source.referred(each), "id") for each in source.all("hasTvdSection", overlap)]
 
 
 def _compare_length(
@@ -170,23 +184,26 @@ def _long_mm(segments: Segments, way: Way) -> int:
 
 
 def _so_long(
-    source: Document, segments: Segments, mark: str, side: int, overlap: Element, given: Mapping[str, str]
-) -> list[Way]:
-    """The way to the first mark that lies as far as an overlap is long; to the end of track if that comes first."""
+    source: Document, segments: Segments, start: tuple[str, int], overlap: Element, given: Mapping[str, str]
+) -> Iterator[Way]:
+    """The way to the first mark that lies as far as an overlap is long; to the end of track if that comes first.
+
+    Where several lead on from a mark before, the first two to the next one.
+    """
+    mark, side = start
     length_mm = round(source.number(overlap, "length", 0.001, LONGEST_M) * 1_000)
     run_mm = 0
     positions: dict[str, str] = {}
     passed: tuple[str, ...] = ()
     over: tuple[int, ...] = ()
     while True:
-        ways = ways_from(segments, mark, side, lambda *_: True)
-        ways = [way for way in ways if all(way.positions.get(point, at) == at for point, at in given.items())]
+        ways = list(islice(ways_from(source, overlap, segments, (mark, side), lambda *_: True, given), 2))
         if len(ways) != 1:
-            return ways
+            return iter(ways)
         (way,) = ways
         run_mm += _long_mm(segments, way)
         positions, over = {**positions, **way.positions}, (*over, *way.segments)
         mark, side = way.to, way.arrives[1]
         if run_mm >= length_mm or side not in segments.beside[mark] or len(set(over)) < len(over):
-            return [Way(mark, way.arrives, positions, passed, over)]
+            return iter([Way(mark, way.arrives, positions, passed, over)])
         passed = (*passed, mark)

@@ -29,10 +29,11 @@ class Clearance:
 
 
 def _switches(source: Document, topology: Topology) -> Iterator[tuple[Element, Junction]]:
-    """Each ``switchIL`` with the point that it is on the track."""
+    """Each ``switchIL`` with the point that it is on the track; that of a part of a slip with the whole."""
     for switch in source.all("switchIL"):
         refers = source.first("refersTo", switch)
         name = "" if refers is None else source.attribute(source.referred(refers), "id")
+        name = topology.parts.get(name, name)
         if name in topology.junctions:
             yield switch, topology.junctions[name]
 

@@ -2,7 +2,7 @@
 
 Ends of net elements that are related, navigable or not, meet in one place.  What can be run from which to
 which makes it a joint, a point, a crossing or a slip; a ``switchIS`` or ``crossing`` that refers to one of
-the relations gives its name.
+the relations gives its name.  Of a slip that is told with its parts (``belongsToParent``) the whole gives it.
 """
 
 from __future__ import annotations
@@ -36,10 +36,11 @@ ONE_LENGTH = "a net element has one length"
 
 @dataclass(frozen=True)
 class Topology:
-    """Lengths of the net elements in mm, and where their ends meet."""
+    """Lengths of the net elements in mm, and where their ends meet; for each part of a slip, that."""
 
     lengths_mm: Mapping[str, int]
     junctions: Mapping[str, Junction]
+    parts: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def joined_at(self) -> Mapping[tuple[str, int], str]:
@@ -59,6 +60,10 @@ class Topology:
                 one, other = sorted(junction.ports.values())
                 found |= {(end[0], self._at_mm(end)): (one, other) for end in (one, other)}
         return found
+
+    def is_free_end(self, track: str, at_mm: int) -> bool:
+        """Whether a place is an end of track that is joined to no other."""
+        return at_mm in (0, self.lengths_mm[track]) and (track, at_mm) not in self.joined_at
 
     def joint(self, track: str, at_mm: int) -> tuple[str, int]:
         """A place, told alike by each of the two ends of track that meet there."""
@@ -114,7 +119,8 @@ def read_topology(source: Document, findings: Findings) -> Topology:
     micro = _micro(source, findings)
     tracks = _tracks_over(source)
     lengths_mm = {name: _length_mm(source, name, tracks.get(name, ()), findings) for name in micro}
-    named = _named(source)
+    parts = _slip_parts(source)
+    named = _named(source, parts)
     junctions: dict[str, Junction] = {}
     for meeting in _meetings(source, lengths_mm):
         junction = _junction(source, meeting, named, findings)
@@ -125,7 +131,7 @@ def read_topology(source: Document, findings: Findings) -> Topology:
     for relation, names in named.items():
         if names.element.get("id") not in junctions:
             raise source.bad(names.element, f"its relation '{relation}' joins no ends here", "correct the topology")
-    return Topology(lengths_mm, junctions)
+    return Topology(lengths_mm, junctions, parts)
 
 
 def _micro(source: Document, findings: Findings) -> list[str]:
@@ -303,20 +309,35 @@ def _end(source: Document, relation: Element, side: str) -> End:
     return source.attribute(referring, "ref"), BY_POSITION[position]
 
 
-def _named(source: Document) -> dict[str, Named]:
-    """For each relation that is a branch of a switch or crossing, that.
+def _named(source: Document, parts: Mapping[str, str]) -> dict[str, Named]:
+    """For each relation that is a branch of a switch or crossing, that; of a slip told with its parts the whole.
 
     Raises:
-        BadInput: it is a branch of two.
+        BadInput: it is a branch of two, or of a part and not of the whole.
     """
     found: dict[str, Named] = {}
+    of_parts: list[tuple[str, Named]] = []
     for relation, named in _branching(source):
+        if named.element.get("id") in parts:
+            of_parts.append((relation, named))
+            continue
         other = found.setdefault(relation, named).element
         if other is not named.element:
             taken = f"{kind_of(other)} '{source.attribute(other, 'id')}'"
             what = f"its relation '{relation}' is a branch of {taken} as well"
             raise source.bad(named.element, what, "let one element name each place, or correct its branches")
+    for relation, named in of_parts:
+        slip = parts[source.attribute(named.element, "id")]
+        if relation not in found or found[relation].element.get("id") != slip:
+            what = f"is a part of '{slip}', which its relation '{relation}' is no branch of"
+            raise source.bad(named.element, what, "tell the slip as a whole, with all its branches, beside its parts")
     return found
+
+
+def _slip_parts(source: Document) -> dict[str, str]:
+    """For each switch that is told as a part of another one, a slip, that."""
+    switches = ((switch, switch.get("belongsToParent")) for switch in source.all("switchIS"))
+    return {source.attribute(switch, "id"): parent for switch, parent in switches if parent is not None}
 
 
 def _branching(source: Document) -> Iterator[tuple[str, Named]]:

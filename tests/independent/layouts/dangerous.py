@@ -16,6 +16,7 @@ from tests.independent.layouts.dangerous_railml import DANGEROUS_RAILML
 from tests.independent.layouts.dangerous_routes import DANGEROUS_ROUTES
 from tests.independent.layouts.dangerous_tables import DANGEROUS_TABLES
 from tests.independent.layouts.dangerous_tracks import DANGEROUS_TRACKS
+from tests.independent.layouts.dangerous_ways import DANGEROUS_WAYS
 from tests.independent.layouts.railml_2_pieces import HALF, LINE, TRACKS, changed, crossing
 
 # ---- RailJSON
@@ -354,6 +355,6 @@ OTHERS_THAT_HOLD = {
 """Files that look much like these and hold."""
 DANGERS = {
     **(DANGEROUS_TABLES | DANGEROUS_TRACKS | DANGEROUS_ROUTES),
-    **(DANGEROUS_RAILML | DANGEROUS_INTERLOCKING | DANGEROUS_PLACES | OTHERS),
+    **(DANGEROUS_RAILML | DANGEROUS_INTERLOCKING | DANGEROUS_PLACES | DANGEROUS_WAYS | OTHERS),
 }
 """Every file with what must be said of it."""

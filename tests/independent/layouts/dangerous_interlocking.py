@@ -199,6 +199,9 @@ INTERLOCKING_THAT_HOLDS = {
     "overlap over a point.railml": railml(TURNOUT, BEHIND_P, SWITCHES, overlap(P_LEFT, "250")),
     "overlap a metre short.railml": railml(BOTH, PARTS, "", overlap(LIMITED.format("F"), "201")),
     "overlap a metre short of sections.railml": railml(BOTH, PARTS, "", sections("BF") + overlap(over("BF"), "201")),
+    "signal within a section.railml": railml(
+        BOTH, re.sub('<trainDetectionElement id="B tags">.*?</trainDetectionElement>', "", PARTS), "", sections("GF")
+    ),
     "one of two ways.railml": of_ab(railml(PARALLEL, BESIDE, MEET), TURNS.format("facingSwitchInPosition", "left")),
     "departs as it lies.railml": of_cd(railml(TURNOUT, ON_LEGS, SWITCHES), DEPARTS.format("left")),
     "from a border of two tracks.railml": railml(BOTH, SPOTS, LINES_END.format("0.0")).replace(

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+
 from tests.independent.layouts.danger import danger_of
+from tests.independent.layouts.dangerous_interlocking import BESIDE, MEET, PARALLEL
 from tests.independent.layouts.dangerous_railml import (
     BACK,
     BORDER,
@@ -14,6 +17,7 @@ from tests.independent.layouts.dangerous_railml import (
     SPOTS,
     SWITCHES,
     TURNOUT,
+    TURNS,
     level,
     railml,
     relation,
@@ -56,6 +60,26 @@ FOUR = (
 )
 SPREAD = FOUR.replace("None", "Both")
 FAN = "".join(relation(f"w{end}", "w", end) for end in "ensx")
+SLIP = "".join(relation(one + other, one, other) for one in "wn" for other in "es")
+WHOLE_SLIP = """<switchIS id="X" type="doubleSwitchCrossing"><straightBranch netRelationRef="we"/>
+<straightBranch netRelationRef="ns"/><turningBranch netRelationRef="ws"/><turningBranch netRelationRef="ne"/>
+</switchIS>"""
+PARTS = "".join(
+    f'<switchIS id="X{at}" type="switchCrossingPart" belongsToParent="X"><leftBranch netRelationRef="{left}"/>'
+    f'<rightBranch netRelationRef="{right}"/></switchIS>'
+    for at, (left, right) in enumerate((("we", "ws"), ("ne", "ns"), ("we", "ne"), ("ws", "ns")), start=1)
+)
+PART_LIES = TURNS.format("facingSwitchInPosition", "left").replace('"P"', '"X1"')
+CLOSE_TO_X = SPOTS.replace('"w" intrinsicCoord="0.8"', '"w" intrinsicCoord="0.98"')
+OF_X1 = '<switchIL id="il"><refersTo ref="X1"/><hasFoulingTrainDetectors ref="A tags"/></switchIL>'
+LIMIT = '<border id="limit" type="station"{}>' + BACK.format("w", "{}", "both") + "</border>"
+NO_END = ' isOpenEnd="false"'
+WITHIN = LIMIT.format(NO_END, "0.9")
+TWO_TRACKS = WITHIN.replace("</border>", BACK.format("n", "0.9", "both") + "</border>")
+TURNED_ENDS = '<border id="edge">' + BACK.format("n", "0.1", "both") + BACK.format("w", "0.0", "both") + "</border>"
+FROM_LIMIT = '<routeEntry id="Ae"><refersTo ref="limit"/>'
+TO_THE_LIMIT = """<tvdSection id="AL"><hasDemarcatingTraindetector ref="A tags"/><hasDemarcatingBorder ref="limit"/>
+</tvdSection>"""
 
 
 def with_element(text: str, element: str) -> str:
@@ -119,6 +143,47 @@ DANGEROUS_PLACES = {
         with_e(railml(BOTH, SPOTS), DRAWN.format(POINT.format(0))),
         "of a net element's drawing one end is told, and its length nowhere",
         "has no length, and no track or coordinates",
+    ),
+    "stop within.railml": danger_of(
+        railml(BOTH, SPOTS, STOP_ON_S.replace('"s" intrinsicCoord="1.0"', '"w" intrinsicCoord="0.9"')),
+        "between entry and exit of a route stands a buffer stop",
+        "no way leads from 'A' to 'B'",
+    ),
+    "open end within.railml": danger_of(
+        railml(BOTH, SPOTS, LIMIT.format(' isOpenEnd="true"', "0.9")),
+        "between entry and exit of a route the known network ends",
+        "no way leads from 'A' to 'B'",
+    ),
+    "open end at a joint.railml": danger_of(
+        railml(BOTH, SPOTS, LIMIT.format(' isOpenEnd="1"', "1.0")),
+        "between entry and exit of a route the known network ends, where two tracks meet",
+        "no way leads from 'A' to 'B'",
+    ),
+    "border within and at an end.railml": danger_of(
+        railml(BOTH, SPOTS, TURNED_ENDS),
+        "a border lies within one track, and at the end of another one",
+        "an element lies in one place",
+        "edge",
+    ),
+    "parts of no slip.railml": danger_of(
+        railml(SLIP, SPOTS, PARTS),
+        "the parts of a slip are told, and nowhere the slip that they are held with",
+        "switchIS 'X1': is a part of 'X', which its relation 'we' is no branch of",
+    ),
+    "part of another slip.railml": danger_of(
+        railml(PARALLEL, BESIDE, MEET.replace('"Q"', '"Q" belongsToParent="P"')),
+        "a switch is told as a part of one that lies elsewhere: its own place would have no name",
+        "is a part of 'P', which its relation 'en' is no branch of",
+    ),
+    "part of the other slip.railml": danger_of(
+        railml(PARALLEL, BESIDE, MEET + MEET[len(SWITCHES) :].replace('"Q"', '"R" belongsToParent="P"')),
+        "a part names the branches of one switch, and is told as a part of another one: its clearance would be that's",
+        "is a part of 'P', which its relation 'en' is no branch of",
+    ),
+    "part that is to lie left.railml": danger_of(
+        railml(SLIP, SPOTS, WHOLE_SLIP + PARTS).replace('<route id="AB">', f'<route id="AB">{PART_LIES}'),
+        "a route names how a part of a slip lies, which is more than one position of the slip",
+        "'X1' is a part of slip 'X': how parts lie",
     ),
     "border at the end of a switch.railml": danger_of(
         railml(TURNOUT, ON_LEGS, SWITCHES + BORDER.replace('"s" intrinsicCoord="0.0"', '"w" intrinsicCoord="1.0"')),
@@ -263,6 +328,16 @@ PLACES_THAT_HOLD = {
     "tracks of parts.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 250) + HALF.format("T2", 250, 500)),
     "track of nearly all.railml": railml(BOTH, SPOTS, HALF.format("T", 0, 495)),
     "related again.railml": railml(AGAIN + BOTH + AGAIN.replace("we2", "we4"), SPOTS),
+    "slip with its parts.railml": railml(SLIP, SPOTS, WHOLE_SLIP + PARTS),
+    "part of a slip that fouls.railml": railml(SLIP, CLOSE_TO_X, WHOLE_SLIP + PARTS, OF_X1),
+    "station border within.railml": railml(BOTH, SPOTS, WITHIN),
+    "station border of two tracks.railml": railml(BOTH, SPOTS, TWO_TRACKS),
+    "station border at a joint.railml": railml(BOTH, SPOTS, LIMIT.format("", "1.0")),
+    "station border at a switch.railml": railml(TURNOUT, ON_LEGS, SWITCHES + LIMIT.format(' isOpenEnd="0"', "1.0")),
+    "from a station border.railml": re.sub(
+        '<routeEntry id="Ae">.*?/>', FROM_LIMIT, railml(BOTH, SPOTS, WITHIN.replace('"both"', '"normal"'))
+    ),
+    "section to a station border.railml": railml(BOTH, SPOTS, WITHIN, TO_THE_LIMIT),
     "branch without a relation.railml": railml(
         TURNOUT, ON_LEGS, SWITCHES.replace("<leftBranch", "<straightBranch/><leftBranch")
     ),

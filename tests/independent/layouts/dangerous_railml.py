@@ -52,7 +52,7 @@ ON_LEGS = spot("A", "w", "0.4") + spot("B", "w", "0.8") + spot("C", "e", "0.2") 
 SWITCHES = """<switchIS id="P"><leftBranch netRelationRef="we"/><rightBranch netRelationRef="ws"/></switchIS>"""
 AGAIN = """<switchIS id="R"><leftBranch netRelationRef="ws"/><rightBranch netRelationRef="we"/></switchIS>"""
 AT_END = '<spotLocation netElementRef="{}" intrinsicCoord="1.0" applicationDirection="normal"/>'
-BORDER = '<border id="edge"><spotLocation netElementRef="s" intrinsicCoord="0.0"/></border>'
+BORDER = '<border id="edge" isOpenEnd="true"><spotLocation netElementRef="s" intrinsicCoord="0.0"/></border>'
 MARKERS = "".join(
     f'<signalIS id="{name}"><spotLocation netElementRef="e" intrinsicCoord="{share}"/></signalIS>'
     for name, share in (("far", "0.16"), ("near", "0.1"))

@@ -43,6 +43,7 @@ from tests.independent.layouts.dangerous_railml import RAILML_THAT_HOLD
 from tests.independent.layouts.dangerous_routes import ROUTES_THAT_HOLD
 from tests.independent.layouts.dangerous_tables import TABLES_THAT_HOLD
 from tests.independent.layouts.dangerous_tracks import TRACKS_THAT_HOLD
+from tests.independent.layouts.dangerous_ways import WAYS_THAT_HOLD
 from tests.independent.layouts.driving import Driver
 from tests.independent.layouts.rails import Survey
 from tests.independent.layouts.stations import station
@@ -64,7 +65,7 @@ MODULES = (
 RAILML = ("gicsafe-1.railml", "gicsafe-2.railml", "gicsafe-5.railml")
 WITHOUT_DANGER = (
     *(TABLES_THAT_HOLD, TRACKS_THAT_HOLD, RAILML_THAT_HOLD, INTERLOCKING_THAT_HOLDS, PLACES_THAT_HOLD),
-    *(ROUTES_THAT_HOLD, OTHERS_THAT_HOLD),
+    *(ROUTES_THAT_HOLD, WAYS_THAT_HOLD, OTHERS_THAT_HOLD),
 )
 """Files that are like dangerous ones, and hold."""
 STATIONS, MADE_UP, EDITED = 24, 60, 24

@@ -125,10 +125,15 @@ Spots = dict[str, tuple[str, int, int]]
 
 
 def _spots(source: Document, lengths: Mapping[str, int], faults: list[str]) -> tuple[Spots, dict[End, str]]:
-    """Where blocks end: detectors, signals of routes, and what limits overlaps; and ends of track."""
+    """Where blocks end: detectors, signals of routes, what limits overlaps or ends sections; and ends of track.
+
+    Track ends at a border that is an open end, and at one that stands where it does anyway.
+    """
     ends = [each for kind in ("routeEntry", "routeExit") for each in source.all(kind)]
     wanted = {source.on_track(each) for each in ends}
     wanted |= {source.on_track(source.by_id[each.get("ref", "")]) for each in source.all("isLimitedBy")}
+    wanted |= {each.get("ref", "") for each in source.all("hasDemarcatingBorder")}
+    joined = {end for relation in source.all("netRelation") for end in _ends(source, relation)}
     found: Spots = {}
     stops: dict[End, str] = {}
     for kind in ("trainDetectionElement", "signalIS", "bufferStop", "border"):
@@ -141,7 +146,11 @@ def _spots(source: Document, lengths: Mapping[str, int], faults: list[str]) -> t
             mm += [round(float(spot.get("pos", "")) * 1000)] if spot.get("pos") else []
             if not isclose(mm[0], mm[-1], abs_tol=1_000):
                 faults.append(f"{name}: pos and intrinsicCoord are {abs(mm[0] - mm[-1])} mm apart")
-            if kind in ("bufferStop", "border"):
+            free = {(track, which) for which, at in ((0, 0), (1, lengths[track])) if mm[0] == at} - joined
+            open_end = element.get("isOpenEnd") in ("true", "1")
+            if kind == "border" and not (free or open_end or name in wanted):
+                continue
+            if kind == "bufferStop" or (kind == "border" and (free or open_end)):
                 stops[track, 0 if mm[0] == 0 else 1] = name
             else:
                 heading = {"normal": 1, "reverse": -1}.get(spot.get("applicationDirection", ""), 0)
