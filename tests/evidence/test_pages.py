@@ -11,6 +11,7 @@ import pytest
 from evidence.manifest import expected_pages
 from evidence.manifest.expected import NAMES, lacking
 from evidence.manifest.expected_campaign import BATCHES, WHOLE, fuzzed
+from evidence.manifest.expected_runs import reproduced
 from evidence.manifest.finding import Finding
 from evidence.manifest.hashes import made
 from evidence.records.reading import Kept, read
@@ -69,3 +70,10 @@ def test_a_campaign_whose_targets_carry_no_canary_is_told_and_is_no_contradictio
     assert "fuzz.json: no canary was run, since its targets carry none: what it did not find it may not see" in lacking(
         kept
     )
+
+
+def test_what_is_too_rare_to_be_compared_in_one_run_may_be_compared_in_many() -> None:
+    told = genuine.reproduced("000")
+    next(row for row in told["rows"] if row["agrees"] is None)["agrees"] = True
+    assert [each.kind for each in reproduced("000.json", told)] == ["other row"]
+    assert list(reproduced("000.json", {**told, "runs": 400})) == []
