@@ -9,6 +9,7 @@ import base64
 import hashlib
 import json
 import platform
+import shlex
 import sys
 import sysconfig
 from collections.abc import Mapping, Sequence
@@ -36,8 +37,8 @@ SOLVERS = ("z3-solver", "cvc5")
 class About(TypedDict):
     """What every record says of how it was made.
 
-    ``commit``: null outside a git checkout; ``command``: as it was given; ``solvers``: a hash of all files of each
-    solver's package; ``platform``: as packages are built for it; ``made_at``: when, in UTC.
+    ``commit``: null outside a git checkout; ``command``: as it was given, quoted for a shell; ``solvers``: a hash of
+    all files of each solver's package; ``platform``: as packages are built for it; ``made_at``: when, in UTC.
     """
 
     commit: str | None
@@ -220,7 +221,7 @@ def about() -> About:
     """What every record says of how it was made."""
     return {
         "commit": commit(),
-        "command": " ".join([Path(sys.argv[0]).name, *sys.argv[1:]]),
+        "command": shlex.join([Path(sys.argv[0]).name, *sys.argv[1:]]),
         "versions": versions(),
         "solvers": solvers_hashed(),
         "platform": sysconfig.get_platform(),

@@ -67,9 +67,9 @@ def _others(folder: Path, records: Records) -> Iterator[Figure]:
     for each in _list(records, "check.json", "layouts"):
         yield Figure("layout", str(each["file"]), partial(making.check, each))
     for paper in PAPERS:
-        for number, row in enumerate(_list(records, f"{paper}.json", "rows")):
-            made = partial(making.reproduce, paper, records[f"{paper}.json"].data, number)
-            yield Figure("paper", f"{paper}: {row['what']}", made)
+        if rows := _list(records, f"{paper}.json", "rows"):
+            made = partial(making.reproduce, paper, records[f"{paper}.json"].data)
+            yield Figure("paper", f"{paper}: all of its {len(rows)} rows", made)
     for each in _list(records, "fuzz.json", "failures"):
         yield Figure("trace", str(each["trace"]), partial(making.replay, folder, each))
 

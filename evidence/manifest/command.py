@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from models.commands import EVERY_CORE, Jobs, progress, refuse, tell
-from models.exit_codes import DOES_NOT_HOLD, HOLDS, WORDS
+from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.streams import write_whole
 
 if TYPE_CHECKING:
@@ -54,13 +54,14 @@ def verify(
     Without a solver: every obligation is laid out anew and its hash compared, every witness is played, and what each
     record must name by the sources is there, no less and no more.  Then Z3 is asked every obligation once, which
     shows each that is said to be proved and is not; and of everything else a sample is made again, drawn from the seed.
-    What is not as it should be is named (1).  --sample 0 makes nothing again.
+    What is not as it should be is named (1); without a record of proofs or layouts nothing is shown (3); what is of
+    a part, or compared with nothing, is told.  --sample 0 makes nothing again.
 
     Examples:
     * `heisoku verify out --sample 30`
     """
     from evidence.manifest.comparing import compared
-    from evidence.manifest.expected import NAMES
+    from evidence.manifest.expected import NAMES, bare
     from evidence.manifest.finding import lines
     from evidence.manifest.hashes import ManifestError, read_manifest
     from evidence.records.reading import read
@@ -71,7 +72,7 @@ def verify(
     except ManifestError as error:
         refuse(str(error))
     findings, records = list(compared(folder, known)), read(folder, NAMES)
-    findings += _against_the_sources(records, known, jobs)
+    findings += _against_the_sources(folder, records, known, jobs)
     for line in lines(findings):
         tell(line)
     tell(f"{len(known.records):,} files of commit {known.commit or 'unknown'}: {len(findings)} findings")
@@ -79,14 +80,17 @@ def verify(
     again = list(_again(folder, chosen, sample, jobs)) if sample else []
     wrong = len(findings) + sum(not same for same in again)
     tell(f"{len(again):,} figures made again with seed {chosen}, {again.count(False)} otherwise than recorded")
-    verdict = DOES_NOT_HOLD if wrong else HOLDS
+    missing = bare(records)
+    if missing:
+        tell(f"nothing is shown without {' and '.join(missing)}; make assure makes all records")
+    verdict = DOES_NOT_HOLD if wrong else UNDECIDED if missing else HOLDS
     tell(WORDS[verdict])
     raise typer.Exit(verdict)
 
 
-def _against_the_sources(records: Records, known: Manifest, jobs: int) -> list[Finding]:
+def _against_the_sources(folder: Path, records: Records, known: Manifest, jobs: int) -> list[Finding]:
     """Compare the records with all that the sources say of them; tell what is not there, and what is of a part."""
-    from evidence.manifest import expected
+    from evidence.manifest import expected, expected_pages
     from evidence.manifest.laying_out import all_laid_out
 
     with progress("laid out") as step:
@@ -96,8 +100,9 @@ def _against_the_sources(records: Records, known: Manifest, jobs: int) -> list[F
         *expected.told(records, known.commit, known.made_at),
         *expected.by_proofs(records, laid_out),
         *expected.by_runs(records),
+        *expected_pages.written(folder, records, known),
     ]
-    for line in expected.lacking(records):
+    for line in (*expected.lacking(records), *expected_pages.beside(folder, records)):
         tell(f"not shown: {line}")
     tell(f"{len(laid_out):,} obligations laid out anew, {len(expected.plays()):,} witnesses played, no solver asked")
     return [*found, *played]

@@ -6,17 +6,19 @@ import gzip
 import hashlib
 import re
 from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from lxml import etree
 
+from evidence.manifest.alike import moment
 from evidence.manifest.finding import Finding
 from evidence.manifest.forms import formed
-from evidence.manifest.hashes import Manifest, files, hash_of, others, sources
+from evidence.manifest.hashes import NAME, Manifest, files, hash_of, others, sources
 from evidence.records.strict import content_of, parsed, tree
 from proofs.junit import junit_xml
-from proofs.records import Report, commit
+from proofs.records import Report, commit, versions
 from proofs.run import kept
 
 JUNIT = "prove.xml"
@@ -51,9 +53,14 @@ def compared(folder: Path, manifest: Manifest) -> Iterator[Finding]:
 def _of_these_sources(manifest: Manifest) -> Iterator[Finding]:
     now = commit()
     if manifest.commit != now:
-        yield Finding("other commit", "manifest.json", f"is of commit {manifest.commit}, and this is {now}")
+        yield Finding("other commit", NAME, f"is of commit {manifest.commit}, and this is {now}")
     if manifest.sources != sources():
-        yield Finding("other sources", "manifest.json", "is of other sources than those that stand here")
+        yield Finding("other sources", NAME, "is of other sources than those that stand here")
+    if manifest.versions != versions():
+        yield Finding("other versions", NAME, f"was made with {manifest.versions}, and this is {versions()}")
+    when = moment(manifest.made_at)
+    if manifest.made_at and (when is None or when > datetime.now(UTC)):
+        yield Finding("other time", NAME, f"made at {manifest.made_at}, which is no time in UTC, or is to come")
 
 
 def _of_one_commit(path: Path, manifest: Manifest) -> Iterator[Finding]:

@@ -10,9 +10,11 @@ from evidence.catalogue import catalogue
 from evidence.manifest import expected_campaign, making
 from evidence.manifest import expected_proofs as proofs
 from evidence.manifest import expected_runs as runs
-from evidence.manifest.alike import alike, timed
+from evidence.manifest.alike import alike, timed, ways
+from evidence.manifest.expected_commands import commanded
 from evidence.manifest.finding import Finding
 from evidence.manifest.forms import formed, gone_through
+from evidence.manifest.hashes import ALWAYS
 from evidence.manifest.laying_out import Cell, LaidOut
 from evidence.records.reading import Kept, Records
 from models.processes import spread
@@ -84,6 +86,9 @@ def lacking(records: Records) -> list[str]:
         part = [f"--{key} {kept.data[key]}" for key in ("only", "sample") if kept.data.get(key) is not None]
         if part:
             said.append(f"{name}: a part, made with {' '.join(part)}")
+    said += runs.papers_of_a_part(records)
+    if _is_there(records, expected_campaign.NAME):
+        said += expected_campaign.of_a_part(records[expected_campaign.NAME].data)
     for name, kept in records.items():
         skipped = sum(each.came_to == "skipped" for each in kept.answers)
         if skipped:
@@ -92,6 +97,11 @@ def lacking(records: Records) -> list[str]:
     asked = {str(each.get("solver")) for each in told if isinstance(each, dict)} if isinstance(told, list) else set()
     said += [f"prove.json: {solver} was not asked" for solver in ("z3", "cvc5") if asked and solver not in asked]
     return said
+
+
+def bare(records: Records) -> list[str]:
+    """The records without which nothing is shown, and that are not there."""
+    return [name for name in ALWAYS if not _is_there(records, name)]
 
 
 def told(records: Records, commit: str | None, until: str = "") -> Iterator[Finding]:
@@ -109,7 +119,14 @@ def told(records: Records, commit: str | None, until: str = "") -> Iterator[Find
 
 
 def _told(kept: Kept, now: About, commit: str | None) -> Iterator[Finding]:
-    name, said = kept.name, kept.about
+    """Of each way in which a record says that it was made; a campaign says so of each of its starts."""
+    for said in ways(kept):
+        yield from _said(kept.name, said, now, commit)
+        if said.get("command"):
+            yield from commanded(kept.name, said["command"], kept.data)
+
+
+def _said(name: str, said: Mapping[str, Any], now: About, commit: str | None) -> Iterator[Finding]:
     for key in ABOUT:
         if not said.get(key) and (key != "commit" or commit):
             yield Finding("unsaid", name, f"does not say its {key}")

@@ -134,14 +134,19 @@ def reproduced(paper: str, seed: int, runs: int) -> Reproduction:
     return PAPERS[paper].reproduce(seed, runs, lambda *_: None)
 
 
-def reproduce(paper: str, told: Mapping[str, Any], number: int) -> Result:
-    """Reproduce a figure of a paper."""
-    recorded = told["rows"][number]
-    now = vars(reproduced(paper, told["seed"], told["runs"]).rows[number])
-    differ = [key for key, value in now.items() if value != recorded.get(key)]
+def reproduce(paper: str, told: Mapping[str, Any]) -> Result:
+    """Reproduce a paper, with all that its record says."""
+    now = json.loads(json.dumps(reproduced(paper, told["seed"], told["runs"]).record()))
+    rows = [
+        f"{key} of {row['what']}"
+        for row, recorded in zip(now["rows"], told["rows"], strict=True)
+        for key in row
+        if row[key] != recorded.get(key)
+    ]
+    differ = rows + [key for key, value in now.items() if key != "rows" and value != told.get(key)]
     if differ:
         return Result(False, f"another {', '.join(differ)} than recorded")
-    return Result(True, f"paper {recorded['paper']}, ours {recorded['ours']}")
+    return Result(True, f"{len(now['rows'])} rows: {now['verdict']}")
 
 
 def certify(told: Mapping[str, Any]) -> Result:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 
 from evidence.records.reading import HEADING
@@ -11,7 +12,7 @@ from proofs.records import about
 
 def main(*command: str) -> str:
     """Give the line; the command is the one given, not this one."""
-    return HEADING + json.dumps({**about(), "command": " ".join(command)})
+    return HEADING + json.dumps({**about(), "command": shlex.join(command)})
 
 
 if __name__ == "__main__":

@@ -52,9 +52,13 @@ class Assumed:
 
 @dataclass(frozen=True)
 class Book:
-    """What the report is made of; each part is gathered when it is first shown."""
+    """What the report is made of; each part is gathered when it is first shown.
+
+    ``called``: the folder's name, as the report says it.
+    """
 
     folder: Path
+    called: str
     case: Case
     evidence: Mapping[str, Evidence]
     records: Records
@@ -264,8 +268,8 @@ class Book:
         return versions()
 
 
-def gathered(folder: Path) -> Book:
-    """Read the case and the records of a folder."""
+def gathered(folder: Path, called: str = "") -> Book:
+    """Read the case and the records of a folder; ``called``: what to call it, if it was moved since."""
     known, now = catalogue(), commit()
     records = dict(read(folder, frozenset({CORES, JOINTS, *(each.record for each in known.values())})))
     found = shown(known, records, now)
@@ -275,4 +279,4 @@ def gathered(folder: Path) -> Book:
             records[name] = Kept(
                 name, problem="it does not have the form of such a record", sha256=records[name].sha256
             )
-    return Book(folder, read_case(), known, records, found, now)
+    return Book(folder, called or folder.name, read_case(), known, records, found, now)

@@ -60,8 +60,12 @@ def trial(name: str) -> tuple[str, dict[str, Any]]:
             became = BESIDE
         return name, {"assumption": name, **asdict(told), "became": became}
     use, found = uses()[name], guarantees.tried(uses()[name])
-    became = OPEN if found.open_with else BECAME.get(found.without, OPEN)
-    return name, {**asdict(use), **asdict(found), "became": became}
+    return name, {**asdict(use), **asdict(found), "became": became_of(found.without, found.open_with)}
+
+
+def became_of(without: str, open_with: Sequence[str]) -> str:
+    """What a guarantee is by what came of true, and of other invariants, in its place."""
+    return OPEN if open_with else BECAME.get(without, OPEN)
 
 
 def record(todo: Sequence[str], jobs: Workers, progress: Progress = lambda *_: None) -> dict[str, Any]:
@@ -74,10 +78,15 @@ def record(todo: Sequence[str], jobs: Workers, progress: Progress = lambda *_: N
         "guarantees": [found[name] for name in todo if name in uses()],
         "assumptions": [found[name] for name in todo if name not in uses()],
         "of": {"guarantees": len(uses()), "assumptions": len(assumed.names())},
-        "by_name": [link.assumption for link in assumed.whole().tied(BY_NAME)],
+        "by_name": by_name(),
         "seconds": round(time.perf_counter() - began, 1),
     }
     return {"verdict": WORDS[exit_code(whole)], **whole}
+
+
+def by_name() -> list[str]:
+    """The assumptions that are tied by name alone."""
+    return [link.assumption for link in assumed.whole().tied(BY_NAME)]
 
 
 def exit_code(found: Mapping[str, Any]) -> int:

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import gzip
+import hashlib
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
-from evidence.manifest import expected_runs, laying_out, making
+from evidence.manifest import expected_campaign, expected_runs, laying_out, making
 from evidence.manifest.hashes import NAME, made
 from evidence.manifest.laying_out import Cell, LaidOut
 from evidence.records.reading import ABOUT, HEADING
 from evidence.report.cored import RECORD as CORES
+from fuzz.campaign.session import ON_LAYOUTS
 from fuzz.planted.canaries import canaries as planted
 from models.days.systems import NAMES as SYSTEMS
 from models.days.systems import system_of
 from models.layouts import as_json, check, load
 from models.reproduce import PAPERS
+from models.reproduce.tables import Row, table_as_text
 from models.rides.tally import ASSUMPTIONS, COLUMNS, MONITORS, VIOLATIONS
 from models.sensors.faults import names as faults
 from models.shipped import shipped
@@ -29,12 +34,25 @@ from proofs.mutants import joints as between
 from proofs.mutants.classes import table
 from proofs.mutants.targets import mutants, theories_with
 from proofs.records import Report, about
+from proofs.run import NOTHING_TO_ASK
 from proofs.solvers import BUDGET, version
 from proofs.theories import is_transition, theory_of
 
 Laid = Mapping[Cell, LaidOut]
 Told = dict[str, Any]
+PROOF = b"(assume @p1 false)\n(step @p2 :rule contra)\n"
+"""What stands for cvc5's proof of each part."""
+TABLES, A_PROOF = "000/000_tables.txt", "proofs/braking.init/head_stays_inside_authority.1.cpc.gz"
 GROUPS = ("claims", "assumptions", "monitors", "faults", "prices", "counts")
+
+
+def by(command: str) -> Told:
+    """How a record was made, by a command."""
+    return {**about(), "command": command}
+
+
+def digest_of(proof: bytes) -> str:
+    return hashlib.sha256(proof).hexdigest()
 
 
 def proved(laid_out: Laid) -> Told:
@@ -54,6 +72,7 @@ def proved(laid_out: Laid) -> Told:
             "smt2_sha256": now.digest,
             "source": {"file": now.source[0], "lines": list(now.source[1:])},
             "theory": theory_of(row)[0].name,
+            **({} if now.parts else {"note": NOTHING_TO_ASK}),
         }
         for (row, column), now in laid_out.items()
         for solver in BUDGET
@@ -71,7 +90,9 @@ def proved(laid_out: Laid) -> Told:
         for each in canaries.CANARIES
         for solver in BUDGET
     ]
-    return {"verdict": "proved", "obligations": found, "canaries": seen, "offences": [], **about()}
+    took = {"lifting_seconds": 1.0, "wall_seconds": 2.5}
+    told = {"verdict": "proved", "obligations": found, "canaries": seen, "offences": [], **took}
+    return {**told, **by("heisoku prove --solver both --seeds 2 --json out/prove.json")}
 
 
 def certified(laid_out: Laid) -> Told:
@@ -81,16 +102,18 @@ def certified(laid_out: Laid) -> Told:
             "column": column,
             "parts": now.parts,
             "answer": "checked",
-            "steps": 9,
+            "steps": 9 * now.parts,
             "trusted": 0,
             "smt2_sha256": now.digest,
             "external": "",
+            "proofs": [digest_of(PROOF)] * now.parts,
+            "size": len(PROOF) * now.parts,
         }
         for (row, column), now in laid_out.items()
     ]
     controls = [{"asked": each.name, "refused": True} for each in canaries.CANARIES]
     told = {"obligations": found, "of": len(laid_out), "controls": controls, "external": None}
-    return {"verdict": "holds", **told, "only": None, "sample": None, **about()}
+    return {"verdict": "holds", **told, "only": None, "sample": None, **by("heisoku certify --keep out/proofs")}
 
 
 def mutated(sample: int | None) -> Told:
@@ -103,8 +126,8 @@ def mutated(sample: int | None) -> Told:
                 "theories": [theory.name for theory in theories_with(mutants()[name])],
                 "became": "classed" if entry else "killed",
                 "outcome": "survived" if entry else "counterexample",
-                "by": "",
-                "finding": "",
+                "by": "" if entry else "a step",
+                "finding": "" if entry else "a claim",
                 "searched": {},
                 "class": entry.kind if entry else "",
                 "why": entry.why if entry else "",
@@ -113,7 +136,8 @@ def mutated(sample: int | None) -> Told:
             }
         )
     told = {"verdict": "holds", "mutants": rows, "of": len(mutants()), "kills": mutating.kills(rows)}
-    return {**told, "only": None, "sample": sample, **about()}
+    command = "heisoku mutate" if sample is None else f"heisoku mutate --sample {sample}"
+    return {**told, "only": None, "sample": sample, **by(command)}
 
 
 def cored(laid_out: Laid) -> Told:
@@ -130,18 +154,18 @@ def cored(laid_out: Laid) -> Told:
         for (row, column), now in laid_out.items()
         if is_transition(row) and column in theory_of(row)[0].invariants
     ]
-    return {"obligations": found, "guards": {}, "updates": {}, **about()}
+    nothing: dict[str, list[str]] = {str(each["transition"]): [] for each in found}
+    return {"obligations": found, "guards": nothing, "updates": nothing, **by("cores.py --json out/cores.json")}
 
 
 def joined() -> Told:
     uses = [
-        {"row": each.row, "column": each.column, "guarantee": each.guarantee, "became": "needed"}
-        for each in between.uses().values()
+        {**asdict(each), "became": "needed", "without": "refuted", "open_with": []} for each in between.uses().values()
     ]
     assumptions = [{"assumption": name, "became": "needed"} for name in assumed.names()]
     of = {"guarantees": len(uses), "assumptions": len(assumptions)}
-    told = {"verdict": "holds", "guarantees": uses, "assumptions": assumptions, "of": of, "by_name": []}
-    return {**told, "only": None, "sample": None, **about()}
+    told = {"verdict": "holds", "guarantees": uses, "assumptions": assumptions, "of": of, "by_name": between.by_name()}
+    return {**told, "only": None, "sample": None, **by("heisoku mutate --joints")}
 
 
 def checked() -> Told:
@@ -149,46 +173,60 @@ def checked() -> Told:
     for path in sorted(shipped("layouts").glob("*.toml")):
         imported = load(path)
         entries.append({"file": f"layouts/{path.name}", **as_json(imported, check(imported))})
-    return {"verdict": "holds", "layouts": json.loads(json.dumps(entries)), **about()}
+    command = " ".join(["heisoku check", *(str(each["file"]) for each in entries)])
+    return {"verdict": "holds", "layouts": json.loads(json.dumps(entries)), **by(command)}
 
 
 def reproduced(paper: str) -> Told:
-    told = json.loads(json.dumps({**making.reproduced(paper, 1, 1).record(), "runs": 1, **about()}))
+    said = by(f"heisoku reproduce {paper} --runs 1 -o out/{paper}")
+    told = json.loads(json.dumps({**making.reproduced(paper, 1, 1).record(), "runs": 1, **said}))
     for row in told["rows"]:
         row["agrees"] = None if row["agrees"] is None else True
     return {**told, "verdict": "holds"}
 
 
+def tables(paper: str, told: Told) -> str:
+    """What stands beside the pictures of a paper."""
+    rows = tuple(Row(**row) for row in told["rows"])
+    return table_as_text(replace(making.reproduced(paper, 1, 1), rows=rows))
+
+
 def ridden(beyond: Sequence[str | None]) -> Told:
     one = {
         "rides": 100,
+        "long": 0,
         "violations": dict.fromkeys(VIOLATIONS, 0),
         "assumptions": dict.fromkeys(ASSUMPTIONS, 0),
         "monitors": dict.fromkeys(MONITORS, 0),
         "violated": 0,
         "unexplained": 0,
+        "unnoticed": 0,
+        "bound": 0.03,
         "sums": {**dict.fromkeys(COLUMNS, 0), "cycles": 100},
         "most": {**dict.fromkeys(COLUMNS, 0), "cycles": 1},
     }
     campaigns = [{"beyond": name, **one} for name in beyond]
-    return {"seed": 1, "campaigns": campaigns, **about(), "command": "heisoku ride --rides 100"}
+    command = "heisoku ride --rides 100" if None in beyond else "heisoku ride --rides 100 --beyond each"
+    return {"seed": 1, "campaigns": campaigns, **by(command)}
 
 
 def lived(name: str) -> Told:
     system = system_of(name)
     column = {"all": 0, "most in a day": 0, "on days": 0}
     columns = {group: dict.fromkeys(getattr(system, group), column) for group in GROUPS}
-    told = {"system": name, "seed": 1, "days": 5, "violated": 0, "unexplained": 0, "columns": columns}
-    return {**told, **about(), "command": f"heisoku days {name} --days=5"}
+    told = {"system": name, "seed": 1, "days": 5, "hours": 5 * system.hours, "bound": 0.6, "beyond": {}}
+    return {**told, "violated": 0, "unexplained": 0, "columns": columns, **by(f"heisoku days {name} --days=5")}
 
 
 def fuzzed() -> Told:
     sought = [
         {"kind": each.kind, "fault": each.name, "target": "walks", "batches": 1, "seconds": 1.0} for each in planted(1)
     ]
-    starts = [{"at": "2026-01-01", "seed": 1, **about()}]
+    command = " ".join(["heisoku fuzz layouts/ring.toml", *(f"--target {each}" for each in expected_campaign.WHOLE)])
+    starts = [{"at": "2026-01-01", "seed": 1, **by(command)}]
     target = {"batches": 8, "unfinished": 0, "traces": 40, "steps": 4_868, "failures": 0}
-    told = {"verdict": "holds", "seeds": [1], "starts": starts, "targets": {"link": target, "walks": target}}
+    targets = {f"{each}:ring.toml" if each in ON_LAYOUTS else each: target for each in expected_campaign.WHOLE}
+    told = {"verdict": "holds", "seeds": [1], "starts": starts, "targets": targets}
     return {**told, "left_out": [], "canaries": sought, "failures": []}
 
 
@@ -197,7 +235,8 @@ def tests(names: Sequence[str]) -> str:
     for name in names:
         place, _, test = name.partition("::")
         cases.append(f"<testcase classname={quoteattr(place)} name={quoteattr(test)}/>")
-    said = f"<properties><property name={quoteattr(ABOUT)} value={quoteattr(json.dumps(about()))}/></properties>"
+    how = quoteattr(json.dumps(by("__main__.py -q")))
+    said = f"<properties><property name={quoteattr(ABOUT)} value={how}/></properties>"
     return f'<testsuites><testsuite name="pytest">{said}{"".join(cases)}</testsuite></testsuites>'
 
 
@@ -205,7 +244,7 @@ def contracts() -> str:
     lines = [
         f"/a/{own}:{first}: info: Confirmed over all paths." for own, first, _ in expected_runs.contracts().values()
     ]
-    return "\n".join([HEADING + json.dumps(about()), *lines, ""])
+    return "\n".join([HEADING + json.dumps(by("make crosshair")), *lines, ""])
 
 
 def write(folder: Path, laid_out: Laid, *, whole: bool) -> Path:
@@ -230,6 +269,10 @@ def write(folder: Path, laid_out: Laid, *, whole: bool) -> Path:
     write_junit(folder / "prove.xml", Report(told["obligations"], 1.0, 2.5, told["canaries"], told["offences"]))
     (folder / "test.xml").write_text(tests(expected_runs.collected() or []), "utf-8")
     (folder / "crosshair.txt").write_text(contracts(), "utf-8")
+    (folder / TABLES).parent.mkdir()
+    (folder / TABLES).write_text(tables("000", records["000.json"]), "utf-8")
+    (folder / A_PROOF).parent.mkdir(parents=True)
+    (folder / A_PROOF).write_bytes(gzip.compress(PROOF, mtime=0))
     bind(folder)
     return folder
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
 import pytest
 
-from evidence.manifest import again, comparing, expected, expected_runs, making
+from evidence.manifest import again, comparing, expected, expected_pages, expected_runs, making
 from evidence.manifest.finding import Finding
 from evidence.manifest.hashes import read_manifest
 from evidence.manifest.laying_out import Cell, LaidOut, all_laid_out, laid_out
@@ -23,6 +24,8 @@ from proofs.witnesses.registry import WITNESSES
 from proofs.workbench import Workbench
 from tests.evidence import genuine
 from tests.evidence.forgeries import MORE, QUICK, Forgery
+from tests.evidence.forgeries_in_detail import AS_A_PART, DETAIL, MANIFESTS
+from tests.evidence.forgeries_in_detail import DAYS as DAYS_IN_DETAIL
 from tests.evidence.forgeries_later import DAYS, LATER
 
 Laid = Mapping[Cell, LaidOut]
@@ -64,6 +67,7 @@ def found(folder: Path, every: Laid) -> list[Finding]:
         *expected.told(records, manifest.commit, manifest.made_at),
         *expected.by_proofs(records, every),
         *expected.by_runs(records),
+        *expected_pages.written(folder, records, manifest),
     ]
 
 
@@ -71,7 +75,8 @@ def names(forgery: Forgery, folder: Path, every: Laid, to: Path) -> None:
     """The forgery is named, whoever forges having made the manifest anew."""
     shutil.copytree(folder, to)
     forgery.forge(to)
-    genuine.bind(to)
+    if forgery not in MANIFESTS:
+        genuine.bind(to)
     told = found(to, every)
     assert (forgery.kind, forgery.where) in {(each.kind, each.where) for each in told}, [each.line for each in told]
 
@@ -80,9 +85,46 @@ def test_genuine_records_have_no_findings(quick: tuple[Path, Laid]) -> None:
     assert [each.line for each in found(*quick)] == []
 
 
-@pytest.mark.parametrize("forgery", [*QUICK, *LATER], ids=lambda each: each.name)
+@pytest.mark.parametrize("forgery", [*QUICK, *LATER, *DETAIL], ids=lambda each: each.name)
 def test_a_forgery_is_named(forgery: Forgery, quick: tuple[Path, Laid], tmp_path: Path) -> None:
     names(forgery, *quick, tmp_path / "forged")
+
+
+@pytest.mark.parametrize("forgery", MANIFESTS, ids=lambda each: each.name)
+def test_a_forged_manifest_is_named(forgery: Forgery, quick: tuple[Path, Laid], tmp_path: Path) -> None:
+    names(forgery, *quick, tmp_path / "forged")
+
+
+@pytest.mark.parametrize(("name", "forge", "says"), AS_A_PART, ids=[name for name, _, _ in AS_A_PART])
+def test_what_is_of_a_part_or_compared_with_nothing_is_told(
+    name: str, forge: Callable[[Path], None], says: str, quick: tuple[Path, Laid], tmp_path: Path
+) -> None:
+    assert not any(says in line for line in untold(quick[0])), name
+    shutil.copytree(quick[0], tmp_path / "forged")
+    forge(tmp_path / "forged")
+    assert any(says in line for line in untold(tmp_path / "forged")), name
+
+
+def untold(folder: Path) -> list[str]:
+    """What verify says that the records do not show."""
+    records = read(folder, expected.NAMES)
+    return [*expected.lacking(records), *expected_pages.beside(folder, records)]
+
+
+def test_days_that_contradict_themselves_are_named(tmp_path: Path) -> None:
+    (tmp_path / "days-tram.json").write_text(json.dumps(genuine.lived("tram")), "utf-8")
+    assert of_days(tmp_path) == set()
+    for forgery in (*DAYS, *DAYS_IN_DETAIL):
+        (tmp_path / "days-tram.json").write_text(json.dumps(genuine.lived("tram")), "utf-8")
+        forgery.forge(tmp_path)
+        assert (forgery.kind, forgery.where) in of_days(tmp_path), forgery.name
+
+
+def of_days(folder: Path) -> set[tuple[str, str]]:
+    """What is found of the days of the tram alone."""
+    records = read(folder, frozenset({"days-tram.json"}))
+    told = [*expected.told(records, commit()), *expected.by_runs(records)]
+    return {(each.kind, each.where) for each in told}
 
 
 @pytest.mark.slow
@@ -91,7 +133,9 @@ def test_all_genuine_records_have_no_findings(whole: tuple[Path, Laid]) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("forgery", [*QUICK, *MORE, *LATER, *DAYS], ids=lambda each: each.name)
+@pytest.mark.parametrize(
+    "forgery", [*QUICK, *MORE, *LATER, *DETAIL, *DAYS, *DAYS_IN_DETAIL], ids=lambda each: each.name
+)
 def test_every_forgery_is_named(forgery: Forgery, whole: tuple[Path, Laid], tmp_path: Path) -> None:
     names(forgery, *whole, tmp_path / "forged")
 

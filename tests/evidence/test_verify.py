@@ -15,6 +15,7 @@ import typer
 from evidence.catalogue import catalogue
 from evidence.manifest import command
 from evidence.manifest.again import Figure, drawn, figures, made_again
+from evidence.manifest.hashes import made
 from evidence.manifest.making import Result
 from evidence.records.reading import read
 from models.days.campaign import outcome as days_outcome
@@ -71,7 +72,7 @@ def _days_that_take_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(autouse=True)
 def _nothing_laid_out_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     """These records are of a part; test_forgeries.py compares whole ones with the sources."""
-    monkeypatch.setattr(command, "_against_the_sources", lambda records, commit, jobs: [])
+    monkeypatch.setattr(command, "_against_the_sources", lambda folder, records, commit, jobs: [])
 
 
 def pool(folder: Path) -> list[Figure]:
@@ -167,6 +168,14 @@ def test_the_command_names_what_is_wrong_and_prints_its_seed(
     assert "missing: check.json" in told
     assert "foreign: foreign.json" in told
     assert code == 1
+
+
+def test_a_folder_without_a_record_shows_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "manifest.json").write_text(made(tmp_path).text(), "utf-8")
+    assert run("verify", str(tmp_path), "--sample", "0") == 3
+    told = capsys.readouterr().out.splitlines()
+    assert told[-1] == "undecided"
+    assert told[-2].startswith("nothing is shown without prove.json and check.json")
 
 
 FIGURES = (
