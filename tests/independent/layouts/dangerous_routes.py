@@ -192,6 +192,24 @@ to = "F"
 points = { P = "reverse", U = "normal", Y = "normal", Q = "reverse" }
 """
 """A crossover joins two tracks in one block; a train that restarts there may stand on either."""
+TWO_WAYS_IN = """
+format = "heisoku-layout-1"
+held_by_authority = "rest"
+joints = []
+[tracks]
+a = { from = "west a", to = "R.tip", length_mm = 900_000, boundaries = { A0 = 300_000, A = 800_000 } }
+b = { from = "west b", to = "S.reverse", length_mm = 900_000, boundaries = { B0 = 300_000, B = 800_000 } }
+m = { from = "R.normal", to = "S.normal", length_mm = 300_000 }
+d = { from = "R.reverse", to = "stop d", length_mm = 600_000, boundaries = { D = 100_000 } }
+c = { from = "S.tip", to = "east", length_mm = 900_000, boundaries = { C = 100_000, E = 600_000 } }
+[points]
+R = {}
+S = {}
+[routes]
+a = { from = "A0", direction = "forward", to = "E", points = { R = "normal", S = "normal" } }
+b = { from = "B0", direction = "forward", to = "E", points = { S = "reverse" } }
+"""
+"""Two lines come together in a block: a train that comes by one of them faces a point, by the other it does not."""
 HELD = '[["B:S+buffer", "B:E+S+V"], ["B:E+east", "B:E+S+V"]]'
 
 
@@ -299,5 +317,6 @@ ROUTES_THAT_HOLD = {
     "all numbers that a tag has.toml": line_of(NUMBERS),
     "legs of a loop half told.toml": HALF_TOLD,
     "two tracks between two blocks.toml": TWO_TRACKS_BETWEEN_TWO_BLOCKS,
+    "two ways into a block.toml": TWO_WAYS_IN,
 }
 """The same without their dangers."""
