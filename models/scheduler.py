@@ -93,7 +93,8 @@ class Scheduler:
         return found
 
 
-_ONE_AT_A_TIME = threading.Lock()
+ONE_AT_A_TIME = threading.Lock()
+"""Whatever a process that serves others is asked, it does one thing after the other."""
 
 
 def done_alike(do: Callable[[Work], Found], piece: Work, same: Callable[[], str], agreed: str) -> Found | _Differs:
@@ -101,7 +102,7 @@ def done_alike(do: Callable[[Work], Found], piece: Work, same: Callable[[], str]
 
     It loads modules while it works, so whether they are those that it speaks of is asked again at the end.
     """
-    with _ONE_AT_A_TIME:
+    with ONE_AT_A_TIME:
         be_numbered(secrets.randbits(BITS_OF_A_NUMBER))
         if same() != agreed or not are_as_loaded():
             return _Differs()

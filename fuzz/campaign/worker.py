@@ -6,7 +6,6 @@ import faulthandler
 import os
 import pickle
 import signal
-import threading
 from collections.abc import Mapping, Sequence
 from functools import cache
 from multiprocessing.connection import Connection
@@ -16,6 +15,7 @@ from typing import Literal, NamedTuple
 from fuzz.campaign.identity import difference, identity_of
 from fuzz.campaign.problems import CampaignError
 from fuzz.targets.target import Batch, Result, Target
+from models.scheduler import ONE_AT_A_TIME
 from models.sources import are_as_loaded
 
 SPARE_S = 30.0
@@ -91,15 +91,12 @@ def serve(pipe: Connection, work: Work, batch_seconds: float) -> None:
         return
 
 
-_ONE_AT_A_TIME = threading.Lock()
-
-
 def answered_in_time(work: Work, batch: Batch, batch_seconds: float) -> Answer:
     """Run a batch in a process that serves others too: one at a time; too long a batch ends the process.
 
     Such a process may have loaded what has changed since, so that its files say nothing of what it runs.
     """
-    with _ONE_AT_A_TIME, Path(os.devnull).open("wb") as nowhere:
+    with ONE_AT_A_TIME, Path(os.devnull).open("wb") as nowhere:
         faulthandler.dump_traceback_later(batch_seconds, exit=True, file=nowhere)
         try:
             answer = answered(work, batch)

@@ -110,104 +110,83 @@ T = {{}}
 [routes]
 main = {{ from = "V", direction = "forward", to = "E", points = {{ P = "normal", Q = "normal" }} }}
 """
-TWO_PRETZELS = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-joints = []
-longest_train_mm = 170_000
+PRETZEL = """
 [tracks]
 w = { from = "west", to = "X.a1", length_mm = 900_000, boundaries = { W = 800_000 } }
 loop = { from = "X.b1", to = "X.a2", length_mm = 200_000 }
 e = { from = "X.b2", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 800_000 } }
-w2 = { from = "west 2", to = "Y.a1", length_mm = 900_000, boundaries = { W2 = 800_000 } }
-loop2 = { from = "Y.b1", to = "Y.a2", length_mm = 260_000 }
-e2 = { from = "Y.b2", to = "east 2", length_mm = 900_000, boundaries = { E2 = 100_000, F2 = 800_000 } }
-[points]
-X = { kind = "crossing", clear_mm = { a1 = 10_000, b1 = 10_000, a2 = 10_000, b2 = 10_000 } }
-Y = { kind = "crossing", clear_mm = { a1 = 45_000, b1 = 45_000, a2 = 45_000, b2 = 45_000 } }
+"""
+"""The track of a line that crosses itself."""
+THROUGH = """
 [routes]
 in = { from = "W", direction = "forward", to = "F" }
-"in 2" = { from = "W2", direction = "forward", to = "F2" }
+"""
+TWO_PRETZELS = f"""{HEAD}longest_train_mm = 170_000
+{PRETZEL}
+w2 = {{ from = "west 2", to = "Y.a1", length_mm = 900_000, boundaries = {{ W2 = 800_000 }} }}
+loop2 = {{ from = "Y.b1", to = "Y.a2", length_mm = 260_000 }}
+e2 = {{ from = "Y.b2", to = "east 2", length_mm = 900_000, boundaries = {{ E2 = 100_000, F2 = 800_000 }} }}
+[points]
+X = {{ kind = "crossing", clear_mm = {{ a1 = 10_000, b1 = 10_000, a2 = 10_000, b2 = 10_000 }} }}
+Y = {{ kind = "crossing", clear_mm = {{ a1 = 45_000, b1 = 45_000, a2 = 45_000, b2 = 45_000 }} }}
+{THROUGH}
+"in 2" = {{ from = "W2", direction = "forward", to = "F2" }}
 """
 AS_LONG = TWO_PRETZELS.replace("260_000", "270_000").replace("170_000", "180_000")
-BESIDE_A_RING = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-joints = []
-longest_train_mm = 125_000
-[tracks]
-w = { from = "west", to = "X.a1", length_mm = 900_000, boundaries = { W = 800_000 } }
-loop = { from = "X.b1", to = "X.a2", length_mm = 200_000 }
-e = { from = "X.b2", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 800_000 } }
-ring = { from = "P.normal", to = "P.tip", length_mm = 900_000, boundaries = { A = 100_000, B = 800_000 } }
-side = { from = "P.reverse", to = "buffer", length_mm = 900_000, boundaries = { S = 100_000 } }
+BESIDE_A_RING = f"""{HEAD}longest_train_mm = 125_000
+{PRETZEL}
+ring = {{ from = "P.normal", to = "P.tip", length_mm = 900_000, boundaries = {{ A = 100_000, B = 800_000 }} }}
+side = {{ from = "P.reverse", to = "buffer", length_mm = 900_000, boundaries = {{ S = 100_000 }} }}
 [points]
-X = { kind = "crossing", clear_mm = { a1 = 40_000, b1 = 40_000, a2 = 35_000, b2 = 40_000 } }
-P = {}
-[routes]
-in = { from = "W", direction = "forward", to = "F" }
-round = { from = "A", direction = "forward", to = "B" }
+X = {{ kind = "crossing", clear_mm = {{ a1 = 40_000, b1 = 40_000, a2 = 35_000, b2 = 40_000 }} }}
+P = {{}}
+{THROUGH}
+round = {{ from = "A", direction = "forward", to = "B" }}
 """
-HALF_TOLD = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-joints = []
-longest_train_mm = 159_000
-[tracks]
-w = { from = "west", to = "X.a1", length_mm = 900_000, boundaries = { W = 800_000 } }
-loop = { from = "X.b1", to = "X.a2", length_mm = 200_000 }
-e = { from = "X.b2", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 800_000 } }
+HALF_TOLD = f"""{HEAD}longest_train_mm = 159_000
+{PRETZEL}
 [points]
-X = { kind = "crossing", clear_mm = { a1 = 45_000, b2 = 45_000 } }
-[routes]
-in = { from = "W", direction = "forward", to = "F" }
+X = {{ kind = "crossing", clear_mm = {{ a1 = 45_000, b2 = 45_000 }} }}
+{THROUGH}
 """
-"""A line that crosses itself; of the two legs of its loop no clearance is told."""
-TWO_TRACKS_BETWEEN_TWO_BLOCKS = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-joints = []
-[tracks]
-w = { from = "west", to = "P.tip", length_mm = 900_000, boundaries = { W = 300_000, V = 800_000 } }
-n1 = { from = "P.normal", to = "U.tip", length_mm = 900_000, boundaries = { A1 = 100_000 } }
-n2 = { from = "U.normal", to = "Q.normal", length_mm = 900_000, boundaries = { B1 = 800_000 } }
-s1 = { from = "P.reverse", to = "Y.normal", length_mm = 900_000, boundaries = { A2 = 100_000 } }
-s2 = { from = "Y.tip", to = "Q.reverse", length_mm = 900_000, boundaries = { B2 = 800_000 } }
-x = { from = "U.reverse", to = "Y.reverse", length_mm = 40_000 }
-e = { from = "Q.tip", to = "east", length_mm = 900_000, boundaries = { E = 100_000, F = 600_000 } }
+"""Of the two legs of its loop no clearance is told."""
+TWO_TRACKS_BETWEEN_TWO_BLOCKS = f"""{HEAD}[tracks]
+w = {{ from = "west", to = "P.tip", length_mm = 900_000, boundaries = {{ W = 300_000, V = 800_000 }} }}
+n1 = {{ from = "P.normal", to = "U.tip", length_mm = 900_000, boundaries = {{ A1 = 100_000 }} }}
+n2 = {{ from = "U.normal", to = "Q.normal", length_mm = 900_000, boundaries = {{ B1 = 800_000 }} }}
+s1 = {{ from = "P.reverse", to = "Y.normal", length_mm = 900_000, boundaries = {{ A2 = 100_000 }} }}
+s2 = {{ from = "Y.tip", to = "Q.reverse", length_mm = 900_000, boundaries = {{ B2 = 800_000 }} }}
+x = {{ from = "U.reverse", to = "Y.reverse", length_mm = 40_000 }}
+e = {{ from = "Q.tip", to = "east", length_mm = 900_000, boundaries = {{ E = 100_000, F = 600_000 }} }}
 [points]
-P = {}
-U = {}
-Y = {}
-Q = {}
+P = {{}}
+U = {{}}
+Y = {{}}
+Q = {{}}
 [routes.north]
 from = "V"
 direction = "forward"
 to = "F"
-points = { P = "normal", U = "normal", Y = "normal", Q = "normal" }
+points = {{ P = "normal", U = "normal", Y = "normal", Q = "normal" }}
 [routes.south]
 from = "V"
 direction = "forward"
 to = "F"
-points = { P = "reverse", U = "normal", Y = "normal", Q = "reverse" }
+points = {{ P = "reverse", U = "normal", Y = "normal", Q = "reverse" }}
 """
 """A crossover joins two tracks in one block; a train that restarts there may stand on either."""
-TWO_WAYS_IN = """
-format = "heisoku-layout-1"
-held_by_authority = "rest"
-joints = []
-[tracks]
-a = { from = "west a", to = "R.tip", length_mm = 900_000, boundaries = { A0 = 300_000, A = 800_000 } }
-b = { from = "west b", to = "S.reverse", length_mm = 900_000, boundaries = { B0 = 300_000, B = 800_000 } }
-m = { from = "R.normal", to = "S.normal", length_mm = 300_000 }
-d = { from = "R.reverse", to = "stop d", length_mm = 600_000, boundaries = { D = 100_000 } }
-c = { from = "S.tip", to = "east", length_mm = 900_000, boundaries = { C = 100_000, E = 600_000 } }
+TWO_WAYS_IN = f"""{HEAD}[tracks]
+a = {{ from = "west a", to = "R.tip", length_mm = 900_000, boundaries = {{ A0 = 300_000, A = 800_000 }} }}
+b = {{ from = "west b", to = "S.reverse", length_mm = 900_000, boundaries = {{ B0 = 300_000, B = 800_000 }} }}
+m = {{ from = "R.normal", to = "S.normal", length_mm = 300_000 }}
+d = {{ from = "R.reverse", to = "stop d", length_mm = 600_000, boundaries = {{ D = 100_000 }} }}
+c = {{ from = "S.tip", to = "east", length_mm = 900_000, boundaries = {{ C = 100_000, E = 600_000 }} }}
 [points]
-R = {}
-S = {}
+R = {{}}
+S = {{}}
 [routes]
-a = { from = "A0", direction = "forward", to = "E", points = { R = "normal", S = "normal" } }
-b = { from = "B0", direction = "forward", to = "E", points = { S = "reverse" } }
+a = {{ from = "A0", direction = "forward", to = "E", points = {{ R = "normal", S = "normal" }} }}
+b = {{ from = "B0", direction = "forward", to = "E", points = {{ S = "reverse" }} }}
 """
 """Two lines come together in a block: a train that comes by one of them faces a point, by the other it does not."""
 HELD = '[["B:S+buffer", "B:E+S+V"], ["B:E+east", "B:E+S+V"]]'
