@@ -58,71 +58,70 @@ def broken_on_days(violated: int) -> Callable[[Told], None]:
     return edit
 
 
-def with_command(record: str, command: str) -> Callable[[Path], None]:
-    return edited(record, set_to("command", value=command))
+def by_command(name: str, record: str, command: str) -> Forgery:
+    """A record that says another command than the one that made it."""
+    return Forgery(name, edited(record, set_to("command", value=command)), "other command", record)
+
+
+def by_start(name: str, kind: str, edit: Callable[[Told], object]) -> Forgery:
+    """A campaign one of whose starts is made otherwise."""
+    return Forgery(name, edited(FUZZ, edit), kind, FUZZ)
+
+
+def summed(name: str, record: str, edit: Callable[[Told], object]) -> Forgery:
+    """A record whose figures do not go together."""
+    return Forgery(name, edited(record, edit), "other sums", record)
 
 
 SUMS = (
-    Forgery("one ride with a claim broken, 80 of that claim", edited(BEYOND, broken_in_most), "other sums", BEYOND),
-    Forgery(
-        "80 rides explained, and no assumption broken", edited(BEYOND, broken_without_a_cause), "other sums", BEYOND
-    ),
-    Forgery("a bound of nothing", edited(RIDE, set_to("campaigns", 0, "bound", value=1e-30)), "other sums", RIDE),
-    Forgery("less than no long ride", edited(RIDE, set_to("campaigns", 0, "long", value=-7)), "other sums", RIDE),
-    Forgery("-3 unnoticed", edited(RIDE, set_to("campaigns", 0, "unnoticed", value=-3)), "other sums", RIDE),
+    summed("one ride with a claim broken, 80 of that claim", BEYOND, broken_in_most),
+    summed("80 rides explained, and no assumption broken", BEYOND, broken_without_a_cause),
+    summed("a bound of nothing", RIDE, set_to("campaigns", 0, "bound", value=1e-30)),
+    summed("less than no long ride", RIDE, set_to("campaigns", 0, "long", value=-7)),
+    summed("-3 unnoticed", RIDE, set_to("campaigns", 0, "unnoticed", value=-3)),
 )
 """In what is summed up."""
 
 DAYS = (
-    Forgery("one day with a claim broken, five of that claim", edited(TRAM, broken_on_days(1)), "other sums", TRAM),
-    Forgery("five days explained, and no assumption broken", edited(TRAM, broken_on_days(5)), "other sums", TRAM),
-    Forgery("a bound of nothing on days", edited(TRAM, set_to("bound", value=1e-30)), "other sums", TRAM),
-    Forgery("hours without end", edited(TRAM, set_to("hours", value=10**9)), "other sums", TRAM),
-    Forgery("days by a command of one day", with_command(TRAM, "heisoku days tram --days 1"), "other command", TRAM),
-    Forgery("days by a command of others", with_command(TRAM, "heisoku days alarm --days 5"), "other command", TRAM),
+    summed("one day with a claim broken, five of that claim", TRAM, broken_on_days(1)),
+    summed("five days explained, and no assumption broken", TRAM, broken_on_days(5)),
+    summed("a bound of nothing on days", TRAM, set_to("bound", value=1e-30)),
+    summed("hours without end", TRAM, set_to("hours", value=10**9)),
+    by_command("days by a command of one day", TRAM, "heisoku days tram --days 1"),
+    by_command("days by a command of others", TRAM, "heisoku days alarm --days 5"),
 )
 """The same of days, which only a whole folder has."""
 
 STARTS = (
-    Forgery("a start on another commit", edited(FUZZ, started(commit="f" * 40)), "other commit", FUZZ),
-    Forgery("a start with another Z3", edited(FUZZ, by_another_z3), "other versions", FUZZ),
-    Forgery(
-        "a start of another target", edited(FUZZ, started(command="heisoku fuzz --target rides")), "other command", FUZZ
-    ),
-    Forgery("a start that is none", edited(FUZZ, started(command="true")), "other command", FUZZ),
+    by_start("a start on another commit", "other commit", started(commit="f" * 40)),
+    by_start("a start with another Z3", "other versions", by_another_z3),
+    by_start("a start of another target", "other command", started(command="heisoku fuzz --target rides")),
+    by_start("a start that is none", "other command", started(command="true")),
 )
 """In what a campaign says of its starts."""
 
 COMMANDS = (
-    Forgery("a whole proof by --only", with_command(PROOF, f"{PROVE} --only ^brake_watch"), "other command", PROOF),
-    Forgery("both solvers by one", with_command(PROOF, "heisoku prove --solver=z3 --seeds 2"), "other command", PROOF),
-    Forgery("two seeds by one", with_command(PROOF, "heisoku prove --solver both"), "other command", PROOF),
+    by_command("a whole proof by --only", PROOF, f"{PROVE} --only ^brake_watch"),
+    by_command("both solvers by one", PROOF, "heisoku prove --solver=z3 --seeds 2"),
+    by_command("two seeds by one", PROOF, "heisoku prove --solver both"),
     *(
-        Forgery(f"{record} by no command of ours", with_command(record, "rm -rf /"), "other command", record)
+        by_command(f"{record} by no command of ours", record, "rm -rf /")
         for record in (PROOF, CERTIFIED, MUTATED, CHECKED, PAPER, CORED, JOINED, RIDE, BEYOND)
     ),
-    Forgery("joints by mutants", with_command(JOINED, "heisoku mutate"), "other command", JOINED),
+    by_command("joints by mutants", JOINED, "heisoku mutate"),
+    by_command("certificates by a sample", CERTIFIED, "heisoku certify --sample 5"),
+    by_command("all layouts by one", CHECKED, "heisoku check layouts/ring.toml"),
+    by_command("rides by another seed", RIDE, "heisoku ride --rides 100 --seed 2"),
+    by_command("every fault by one", BEYOND, "heisoku ride --rides=100 --beyond lag_s"),
+    by_command("a paper by another", PAPER, "heisoku reproduce 001 --runs 1"),
     Forgery(
-        "certificates by a sample",
-        with_command(CERTIFIED, "heisoku certify --sample 5"),
-        "other command",
-        CERTIFIED,
+        "a quotation without end", edited(PAPER, set_to("command", value="heisoku reproduce '000")), "unreadable", PAPER
     ),
-    Forgery("all layouts by one", with_command(CHECKED, "heisoku check layouts/ring.toml"), "other command", CHECKED),
-    Forgery("rides by another seed", with_command(RIDE, "heisoku ride --rides 100 --seed 2"), "other command", RIDE),
-    Forgery(
-        "every fault by one",
-        with_command(BEYOND, "heisoku ride --rides=100 --beyond lag_s"),
-        "other command",
-        BEYOND,
-    ),
-    Forgery("a paper by another", with_command(PAPER, "heisoku reproduce 001 --runs 1"), "other command", PAPER),
-    Forgery("a quotation without end", with_command(PAPER, "heisoku reproduce '000"), "unreadable", PAPER),
 )
 """In command lines."""
 
 PAPERS = (
-    Forgery("no run of a paper", edited(PAPER, set_to("runs", value=0)), "other sums", PAPER),
+    summed("no run of a paper", PAPER, set_to("runs", value=0)),
     Forgery("invented parameters", edited(PAPER, set_to("parameters", value={"a": "b"})), "other parameters", PAPER),
     Forgery("no sensitivity", edited(PAPER, set_to("sensitivities", value=[])), "other parameters", PAPER),
     Forgery("no picture", edited(PAPER, set_to("pictures", value=[])), "other parameters", PAPER),
@@ -158,20 +157,20 @@ def for_no_reason(told: Told) -> None:
 
 
 WORDS = (
-    Forgery("certificates without a step", edited(CERTIFIED, without_steps), "other sums", CERTIFIED),
-    Forgery("certificates of less than no step", edited(CERTIFIED, steps_taken_back), "other sums", CERTIFIED),
+    summed("certificates without a step", CERTIFIED, without_steps),
+    summed("certificates of less than no step", CERTIFIED, steps_taken_back),
     Forgery(
         "a certificate's answer that is none",
         edited(CERTIFIED, set_to("obligations", 0, "answer", value="certainly")),
         "other answer",
         CERTIFIED,
     ),
-    Forgery("-1 parts open", edited(CORED, set_to("obligations", 0, "open", value=-1)), "other sums", CORED),
-    Forgery("a guard in no list", edited(CORED, set_to("obligations", 0, "guards", value=["x"])), "other sums", CORED),
+    summed("-1 parts open", CORED, set_to("obligations", 0, "open", value=-1)),
+    summed("a guard in no list", CORED, set_to("obligations", 0, "guards", value=["x"])),
     Forgery(
         "guards of an invented step", edited(CORED, set_to("guards", value={"x": ["y"]})), "foreign transition", CORED
     ),
-    Forgery("joints of one", edited(JOINED, set_to("of", "guarantees", value=1)), "other sums", JOINED),
+    summed("joints of one", JOINED, set_to("of", "guarantees", value=1)),
     Forgery("a fine joint", edited(JOINED, set_to("guarantees", 0, "became", value="fine")), "other joint", JOINED),
     Forgery("joints tied by an invented name", edited(JOINED, set_to("by_name", value=["x"])), "other joint", JOINED),
     Forgery("a mutant in other theories", edited(MUTATED, of_another_theory), "other theory", MUTATED),

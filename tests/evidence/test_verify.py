@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 import typer
 
+import heisoku
 from evidence.catalogue import catalogue
-from evidence.manifest import command
+from evidence.manifest import command, expected_commands
 from evidence.manifest.again import Figure, drawn, figures, made_again
 from evidence.manifest.hashes import made
 from evidence.manifest.making import Result
@@ -73,6 +74,18 @@ def _days_that_take_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
 def _nothing_laid_out_anew(monkeypatch: pytest.MonkeyPatch) -> None:
     """These records are of a part; test_forgeries.py compares whole ones with the sources."""
     monkeypatch.setattr(command, "_against_the_sources", lambda folder, records, commit, jobs: [])
+
+
+def test_command_lines_are_read_as_the_program_reads_them() -> None:
+    commands: Any = typer.main.get_command(heisoku.app)
+    written = {each.command for each in expected_commands.WRITERS.values()} & {*commands.commands} | {"days"}
+    options = [each for name in written for each in commands.commands[name].params if each.opts[0].startswith("--")]
+    assert len(written) == 8
+    assert {each.opts[0] for each in options if each.is_flag} <= expected_commands.FLAGS
+    defaults = {"--rides": "RIDES", "--days": "DAYS", "--seed": "SEED", "--seeds": "SEEDS"}
+    for option, name in defaults.items():
+        said = {each.default for each in options if each.opts[0] == option} - {None}
+        assert said == {getattr(expected_commands, name)}, option
 
 
 def pool(folder: Path) -> list[Figure]:
