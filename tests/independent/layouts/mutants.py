@@ -18,6 +18,7 @@ import signal
 import sys
 import tomllib
 import types
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -78,18 +79,22 @@ SECONDS = 300
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change: the module, the function, the line as it was, and what was done to it."""
+    """One change: the module, the function, the line as it was, and what was done to it.
+
+    ``nth``: of those in one function to which the same was done, in the order of a walk over its tree.
+    """
 
     module: str
     function: str
     line: int
     what: str
     code: types.CodeType
+    nth: int = 1
 
     @property
     def name(self) -> str:
         """What it is called in a list; lines move, so they are no part of it."""
-        return f"{self.module}.{self.function}: {self.what}"
+        return f"{self.module}.{self.function}: {self.what}" + (f" ({self.nth})" if self.nth > 1 else "")
 
 
 def changes(node: ast.AST) -> Iterator[tuple[str, Callable[[], None]]]:
@@ -128,6 +133,7 @@ def mutants(module: str) -> Iterator[Mutant]:
     """Every change of one place in a module."""
     path = PACKAGE / (module.replace(".", "/") + ".py")
     tree = ast.parse(path.read_text(encoding="utf-8"))
+    seen: Counter[tuple[str, str]] = Counter()
     for at, node in enumerate(ast.walk(tree)):
         for number, (what, _) in enumerate(changes(node)):
             copied = copy.deepcopy(tree)
@@ -137,7 +143,9 @@ def mutants(module: str) -> Iterator[Mutant]:
             function = _function_around(tree, node)
             if function is not None:
                 compiled = compile(ast.fix_missing_locations(copied), str(path), "exec")
-                yield Mutant(module, function, line, " ".join(what.split()), _code_of(compiled, function))
+                said = " ".join(what.split())
+                seen[function, said] += 1
+                yield Mutant(module, function, line, said, _code_of(compiled, function), seen[function, said])
 
 
 def _function_around(tree: ast.Module, wanted: ast.AST) -> str | None:
