@@ -124,6 +124,25 @@ def test_a_worker_that_is_older_than_its_sources_answers_nothing(tmp_path: Path)
     assert ["start it anew" in each.stderr.splitlines()[-1] for each in told] == [True, True], told
 
 
+def test_a_worker_whose_sources_change_while_it_works_answers_nothing(tmp_path: Path) -> None:
+    """What it loads in the middle of a piece of work would be of one age, and what it has loaded of another."""
+    copy = copied(tmp_path / "sources")
+    script = """
+from pathlib import Path
+from models.scheduler import done_alike
+
+def work(name):
+    if name:
+        Path(name).write_text(Path(name).read_text("utf-8") + "\\n", "utf-8")
+    return "done"
+
+for name in ("", "kernel/onboard/arithmetic.py", ""):
+    print(done_alike(work, name, lambda: "the same", "the same") == "done")
+"""
+    told = subprocess.run([sys.executable, "-c", script], cwd=copy, text=True, capture_output=True, check=True)
+    assert told.stdout.split() == ["True", "False", "False"]
+
+
 @needs_dask
 @pytest.mark.slow
 def test_work_comes_back_whole_though_a_worker_is_killed(tmp_path: Path) -> None:
