@@ -9,7 +9,10 @@ CYCLE_MS = 100
 """How long one cycle of the unit lasts (paper 001, table 2: sampled every 100 ms); P1, P8."""
 SHORTEST_CYCLE_MS = 98
 LONGEST_CYCLE_MS = 102
-"""So long it lasts by the processor's clock, with the declared jitter of 2 ms; one of another length is unlawful."""
+"""So long it lasts, with the declared jitter of 2 ms; one of another length is unlawful.
+
+The clock tells whole milliseconds, so what a cycle is told to have lasted says whether it was lawful, and no more.
+"""
 
 NM_A_MM = 1_000_000
 GREATEST_SPEED_MM_S = 200_000
@@ -36,17 +39,13 @@ def limited(value: int, least: int, most: int) -> int:
     return larger(least, smaller(value, most))
 
 
-def least_in_a_cycle(elapsed_ms: int, rate: int) -> int:
+def least_in_a_cycle(rate: int) -> int:
     """Give what a rate comes to in a lawful cycle at the least, for each ms of the rate's unit (P1)."""
-    if elapsed_ms == CYCLE_MS:
-        return CYCLE_MS * rate
     return smaller(SHORTEST_CYCLE_MS * rate, LONGEST_CYCLE_MS * rate)
 
 
-def most_in_a_cycle(elapsed_ms: int, rate: int) -> int:
-    """Give what it comes to at the most: one that is not of 100 ms is taken for any lawful one (P1)."""
-    if elapsed_ms == CYCLE_MS:
-        return CYCLE_MS * rate
+def most_in_a_cycle(rate: int) -> int:
+    """Give what it comes to at the most (P1)."""
     return larger(SHORTEST_CYCLE_MS * rate, LONGEST_CYCLE_MS * rate)
 
 

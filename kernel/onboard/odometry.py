@@ -76,7 +76,8 @@ class SensorBounds:
 class Readings:
     """What the sensors say at the end of a cycle (P1).
 
-    ``elapsed_ms``: since the cycle before, by the processor's clock.
+    ``elapsed_ms``: since the cycle before, by the processor's clock, rounded away from 100 ms: a cycle of more than
+    102 ms is told as 103.
     ``tachometer_valid``, ``inertial_valid``: the sensor's own diagnosis, and that it gave a number at all.
     ``tachometer_mm_s``: speed of the wheel, below 0 if it turns back.
     ``way_mm``: its pulses as a way, counted since power-on, fewer again if it turns back.  A host whose counter is
@@ -221,12 +222,12 @@ def agrees(bounds: SensorBounds, motion: Motion, readings: Readings) -> bool:
     """
     measured_mm_s2 = readings.inertial_mm_s2 - motion.gradient_mm_s2
     gained_um_s = 1000 * (readings.tachometer_mm_s - motion.tachometer_mm_s)
-    slip_um_s = least_in_a_cycle(readings.elapsed_ms, bounds.slip_mm_s2)
+    slip_um_s = least_in_a_cycle(bounds.slip_mm_s2)
     return (
         tachometer_speaks(bounds, motion, readings)
         and inertial_speaks(bounds, readings)
-        and most_in_a_cycle(readings.elapsed_ms, measured_mm_s2) - slip_um_s < gained_um_s
-        and gained_um_s < least_in_a_cycle(readings.elapsed_ms, measured_mm_s2) + slip_um_s
+        and most_in_a_cycle(measured_mm_s2) - slip_um_s < gained_um_s
+        and gained_um_s < least_in_a_cycle(measured_mm_s2) + slip_um_s
     )
 
 
@@ -289,13 +290,12 @@ def glide(bounds: SensorBounds, motion: Motion, readings: Readings) -> Motion:
     The anchor goes along.  Once the wheel has agreed long enough, at a speed that the train may
     have, it is trusted again; not where the train may have so many speeds that this says little.
     """
-    lasted_ms = readings.elapsed_ms
-    lost_um_s = least_in_a_cycle(lasted_ms, least_mm_s2(bounds, readings))
-    gained_um_s = most_in_a_cycle(lasted_ms, most_mm_s2(bounds, motion, readings))
+    lost_um_s = least_in_a_cycle(least_mm_s2(bounds, readings))
+    gained_um_s = most_in_a_cycle(most_mm_s2(bounds, motion, readings))
     slowest_mm_s = motion.speed_least_mm_s + lost_um_s // 1000
     fastest_mm_s = larger(0, motion.speed_most_mm_s + divided_up(gained_um_s, 1000))
-    back_um = least_in_a_cycle(lasted_ms, smaller(motion.speed_least_mm_s, slowest_mm_s))
-    on_um = most_in_a_cycle(lasted_ms, larger(motion.speed_most_mm_s, fastest_mm_s))
+    back_um = least_in_a_cycle(smaller(motion.speed_least_mm_s, slowest_mm_s))
+    on_um = most_in_a_cycle(larger(motion.speed_most_mm_s, fastest_mm_s))
     least_mm = motion.front_least_mm + back_um // 1000
     most_mm = motion.front_most_mm + divided_up(on_um, 1000)
     heard = tachometer_is_heard(readings)

@@ -113,21 +113,17 @@ def the_length_used_is_no_less(site: Line) -> bool:
 
 
 def is_lawful(readings: Readings) -> bool:
-    """The cycle lasted as long as is declared of the processor's clock (P1)."""
+    """The cycle lasted as long as is declared, for all that the processor's clock tells of it in whole ms (P1)."""
     return SHORTEST_MS <= readings.elapsed_ms <= LONGEST_MS
 
 
-def least_in(readings: Readings, rate: int) -> int:
-    """What a rate comes to in the cycle at the least; in one that is not of 100 ms as in any lawful one (P1)."""
-    if readings.elapsed_ms == MS_A_CYCLE:
-        return MS_A_CYCLE * rate
+def least_in_a_lawful_cycle(rate: int) -> int:
+    """What a rate comes to in a lawful cycle at the least: how long it lasted to the µs nobody tells (P1)."""
     return smaller(SHORTEST_MS * rate, LONGEST_MS * rate)
 
 
-def most_in(readings: Readings, rate: int) -> int:
+def most_in_a_lawful_cycle(rate: int) -> int:
     """What it comes to at the most (P1)."""
-    if readings.elapsed_ms == MS_A_CYCLE:
-        return MS_A_CYCLE * rate
     return larger(SHORTEST_MS * rate, LONGEST_MS * rate)
 
 
@@ -137,8 +133,8 @@ def the_way_follows_the_speed(system: Running, readings: Readings, to_nm: int, s
     The jerk of a train is small enough that its acceleration does not change sign twice in 100 ms.
     """
     return not is_lawful(readings) or (
-        least_in(readings, smaller(system.speed_um_s, speed_um_s)) <= to_nm - system.front_nm
-        and to_nm - system.front_nm <= most_in(readings, larger(system.speed_um_s, speed_um_s))
+        least_in_a_lawful_cycle(smaller(system.speed_um_s, speed_um_s)) <= to_nm - system.front_nm
+        and to_nm - system.front_nm <= most_in_a_lawful_cycle(larger(system.speed_um_s, speed_um_s))
     )
 
 
@@ -151,7 +147,7 @@ def the_train_stays_within_its_powers(site: Line, system: Running, readings: Rea
     forward = site.bounds.accelerates_mm_s2
     most_mm_s2 = larger(forward, site.bounds.brakes_mm_s2) if system.speed_um_s < 0 else forward
     return not is_lawful(readings) or (
-        least_in(readings, -site.bounds.brakes_mm_s2) <= gained_um_s <= most_in(readings, most_mm_s2)
+        least_in_a_lawful_cycle(-site.bounds.brakes_mm_s2) <= gained_um_s <= most_in_a_lawful_cycle(most_mm_s2)
     )
 
 
@@ -171,8 +167,8 @@ def the_inertial_sensor_keeps_its_bound(
         or readings.inertial_mm_s2 > site.bounds.accelerates_mm_s2 + beside_mm_s2
         or readings.inertial_mm_s2 < -site.bounds.brakes_mm_s2 - beside_mm_s2
         or (
-            least_in(readings, felt_mm_s2 - site.bounds.inertial_mm_s2) <= gained_um_s
-            and gained_um_s <= most_in(readings, felt_mm_s2 + site.bounds.inertial_mm_s2)
+            least_in_a_lawful_cycle(felt_mm_s2 - site.bounds.inertial_mm_s2) <= gained_um_s
+            and gained_um_s <= most_in_a_lawful_cycle(felt_mm_s2 + site.bounds.inertial_mm_s2)
         )
     )
 
@@ -222,7 +218,7 @@ def leaving_the_creep_takes_a_jolt(
         not slips
         or system.slips
         or not (told and system.told)
-        or magnitude(wheel_um_s - gained_um_s) >= least_in(readings, site.jolt_mm_s2)
+        or magnitude(wheel_um_s - gained_um_s) >= least_in_a_lawful_cycle(site.jolt_mm_s2)
     )
 
 
@@ -272,7 +268,7 @@ def paced_cycles_after(site: Line, system: Running, readings: Readings, speed_um
     keeps_pace = (
         told
         and system.told
-        and magnitude(wheel_um_s - gained_um_s) < least_in(readings, site.jolt_mm_s2)
+        and magnitude(wheel_um_s - gained_um_s) < least_in_a_lawful_cycle(site.jolt_mm_s2)
         and magnitude(1000 * readings.tachometer_mm_s - speed_um_s) <= 1000 * site.bounds.pace_mm_s
         and (readings.tachometer_mm_s != 0 or magnitude(speed_um_s) <= 1000 * site.bounds.locked_mm_s)
     )

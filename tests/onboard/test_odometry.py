@@ -247,7 +247,7 @@ def test_a_tachometer_stuck_while_the_speed_changes_below_the_threshold_is_not_f
     """What this machine cannot see: the sensor's own diagnosis must, and the world refuses it."""
     motion = rolling(20_000).motion
     for cycle in range(1, 11):
-        stuck = Readings(100, True, 20_000, motion.anchor_way_mm + 2_000 * cycle, True, -399)
+        stuck = Readings(100, True, 20_000, motion.anchor_way_mm + 2_000 * cycle, True, -384)
         motion = machine.note_cycle(BOUNDS, motion, stuck)
     assert motion.trusted
 

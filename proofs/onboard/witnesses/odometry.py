@@ -27,18 +27,21 @@ def the_wheel_is_trusted_after_ten_cycles_that_agree() -> None:
 
 
 def an_acceleration_below_the_threshold_agrees() -> None:
-    """T_a itself is a slip, by either sign; one less is none, also with the estimated gradient taken out (P1)."""
+    """What may come to T_a, 400 mm/s² in the shortest cycle, is a slip: 385 in the longest, and by either sign (P1).
+
+    One less is none, also with the estimated gradient taken out.
+    """
     for sign in (1, -1):
         train = rolling(10_000)
-        train.cycle(10_000, inertial=sign * 399, gradient=sign * 350)
+        train.cycle(10_000, inertial=sign * 384, gradient=sign * 350)
         assert train.trusted()
         assert train.motion.gradient_mm_s2 == sign * 5
-        train.cycle(10_000, inertial=sign * 400, gradient=sign * 350)
+        train.cycle(10_000, inertial=sign * 389, gradient=sign * 350)
         assert train.trusted()
-        train.cycle(10_000, inertial=-sign * 390, gradient=-sign * 350)
+        train.cycle(10_000, inertial=-sign * 375, gradient=-sign * 350)
         assert not train.trusted()
         train = rolling(10_000)
-        train.cycle(10_000, inertial=sign * 400, gradient=sign * 350)
+        train.cycle(10_000, inertial=sign * 385, gradient=sign * 350)
         assert not train.trusted()
 
 
@@ -55,11 +58,11 @@ def a_constant_wheel_of_another_speed_is_not_trusted() -> None:
 
 def the_speed_must_be_one_that_the_train_may_have() -> None:
     """Within the range of speeds by inertia, and the wheel's own error, to the mm/s (P1)."""
-    for shown, plausible in ((19_483, False), (19_484, True), (20_527, True), (20_528, False)):
+    for shown, plausible in ((19_481, False), (19_482, True), (20_529, True), (20_530, False)):
         train = rolling(20_000)
         train.cycle(20_000, tachometer=shown, slips=True)
         train.cycle(20_000, tachometer=shown, slips=True)
-        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_699, 20_301)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_697, 20_303)
         assert (train.motion.agreed_cycles == 1) == plausible
 
 
@@ -126,7 +129,7 @@ def the_most_speed_is_never_less_than_nothing() -> None:
     train = rolling(1_000)
     for speed in (820, 640, 460, 280, 100, 0, 0, 0):
         train.cycle(speed, tachometer=0, slips=True)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-151, 351)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-176, 370)
     train = rolling()
     for speed in range(-45, -900, -45):
         train.cycle(speed)
@@ -146,7 +149,7 @@ def a_train_that_rolls_back_is_in_its_range() -> None:
     train = rolling()
     for speed in (-50, -100, -150):
         train.cycle(speed, tachometer_valid=False)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-670, 370)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-686, 383)
 
 
 def the_brakes_of_a_train_that_rolls_back_act_forward() -> None:
@@ -156,22 +159,22 @@ def the_brakes_of_a_train_that_rolls_back_act_forward() -> None:
         for speed in range(-100, -1_600, -100):
             train.cycle(speed)
         train.cycle(-1_320, tachometer_valid=False, inertial_valid=inertial_valid)
-        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-1_716, 180)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-1_720, 184)
     train = rolling(1_000)
     train.cycle(1_000, tachometer_valid=False, inertial_valid=False)
-    assert train.motion.speed_most_mm_s == 1_000 + 31 + 120
+    assert train.motion.speed_most_mm_s == 1_000 + 31 + 123
     train = rolling()
     train.stand(1)
     train.cycle(0, tachometer_valid=False, inertial_valid=False)
-    assert train.motion.speed_most_mm_s == 21 + 180
+    assert train.motion.speed_most_mm_s == 21 + 184
     train = Train()
     train.cycle(0, tachometer_valid=False, inertial_valid=False)
-    assert train.motion.speed_most_mm_s == 120
+    assert train.motion.speed_most_mm_s == 123
 
 
 def a_wheel_is_not_trusted_again_where_the_speed_is_hardly_known() -> None:
     """After so long a silence that nearly any speed would fit, a wheel that agrees says little (P1)."""
-    for silent_cycles, trusted in ((43, True), (44, False)):
+    for silent_cycles, trusted in ((41, True), (42, False)):
         train = rolling(20_000)
         for _ in range(silent_cycles):
             train.cycle(20_000, tachometer_valid=False)
@@ -181,7 +184,7 @@ def a_wheel_is_not_trusted_again_where_the_speed_is_hardly_known() -> None:
 
 def a_wheel_that_stands_is_not_trusted_again_where_the_train_may_run() -> None:
     """It may be locked: after so long a silence the train is located anew, though it stands (P1)."""
-    for silent_cycles, trusted in ((51, True), (52, False)):
+    for silent_cycles, trusted in ((50, True), (51, False)):
         train = rolling(100)
         train.cycle(0)
         for _ in range(silent_cycles):
@@ -237,12 +240,12 @@ def a_slip_goes_on_by_inertia_from_the_cycle_before() -> None:
     train = rolling(20_000)
     train.cycle(20_000, tachometer=25_000, slips=True)
     assert train.motion == Motion(
-        front_least_mm=301_973,
-        front_most_mm=302_027,
-        speed_least_mm_s=19_779 - 40,
-        speed_most_mm_s=20_221 + 40,
-        anchor_least_mm=301_973,
-        anchor_most_mm=302_027,
+        front_least_mm=301_934,
+        front_most_mm=302_067,
+        speed_least_mm_s=19_779 - 41,
+        speed_most_mm_s=20_221 + 41,
+        anchor_least_mm=301_934,
+        anchor_most_mm=302_067,
         anchor_way_mm=207_500,
         tachometer_mm_s=25_000,
         way_mm=207_500,
@@ -253,7 +256,7 @@ def a_slip_goes_on_by_inertia_from_the_cycle_before() -> None:
     )
     assert train.system.slips
     train.cycle(20_000, tachometer=30_000, slips=True)
-    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (303_942, 304_058)
+    assert (train.motion.front_least_mm, train.motion.front_most_mm) == (303_864, 304_138)
     assert train.system.anchor_nm == 304_000 * NM_A_MM
 
 
@@ -261,33 +264,33 @@ def motors_and_brakes_limit_what_inertia_leaves_open() -> None:
     """At full brake or power, and without an inertial sensor, the train does no more than it can (P1)."""
     train = rolling(20_000)
     train.cycle(19_820, tachometer=0, slips=True)
-    assert train.motion.speed_least_mm_s == 19_779 - 180
-    assert train.motion.speed_most_mm_s == 20_221 - 140
+    assert train.motion.speed_least_mm_s == 19_779 - 184
+    assert train.motion.speed_most_mm_s == 20_221 - 137
     train = rolling(20_000)
     train.cycle(20_120, tachometer=0, slips=True)
-    assert train.motion.speed_least_mm_s == 19_779 + 80
-    assert train.motion.speed_most_mm_s == 20_221 + 120
+    assert train.motion.speed_least_mm_s == 19_779 + 78
+    assert train.motion.speed_most_mm_s == 20_221 + 123
     for wild in (0, 100_000, -100_000, 2**62):
         train = rolling(20_000)
         train.cycle(20_000, inertial=wild, inertial_valid=False)
-        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 180, 20_221 + 120)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 184, 20_221 + 123)
         assert not train.trusted()
     for wild in (100_001, -100_001, 2**62, -(2**62)):
         train = rolling(20_000)
         train.cycle(20_000, inertial=wild)
-        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 180, 20_221 + 120)
+        assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (19_779 - 184, 20_221 + 123)
 
 
 def the_way_is_between_the_speeds_at_both_ends() -> None:
     """Gaining: no less than at the speed before, no more than at the one after; losing: the other way (P1)."""
     train = rolling(20_000)
     train.cycle(20_120, tachometer=0, slips=True)
-    assert train.motion.front_least_mm == 300_000 + 1_977
-    assert train.motion.front_most_mm == 300_000 + 2_035
+    assert train.motion.front_least_mm == 300_000 + 1_938
+    assert train.motion.front_most_mm == 300_000 + 2_076
     train = rolling(20_000)
     train.cycle(19_820, tachometer=0, slips=True)
-    assert train.motion.front_least_mm == 300_000 + 1_959
-    assert train.motion.front_most_mm == 300_000 + 2_023
+    assert train.motion.front_least_mm == 300_000 + 1_920
+    assert train.motion.front_most_mm == 300_000 + 2_063
 
 
 def a_train_that_stops_in_a_slide_stands_in_the_range() -> None:
@@ -297,7 +300,7 @@ def a_train_that_stops_in_a_slide_stands_in_the_range() -> None:
     train.cycle(0, tachometer=0, inertial=-1_600, gradient=-350)
     for _ in range(5):
         train.cycle(0, inertial=-400, gradient=-350)
-    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-484, 24)
+    assert (train.motion.speed_least_mm_s, train.motion.speed_most_mm_s) == (-502, 31)
     assert train.motion.front_least_mm < 100_021 < train.motion.front_most_mm
 
 

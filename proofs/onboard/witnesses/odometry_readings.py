@@ -28,7 +28,7 @@ def what_is_no_reading_of_the_tachometer_moves_nothing() -> None:
         assert not train.trusted()
         assert train.motion.tachometer_mm_s == 20_000
         assert train.motion.way_mm == train.motion.anchor_way_mm == 205_000
-        assert (train.motion.front_least_mm, train.motion.front_most_mm) == (301_973, 302_027)
+        assert (train.motion.front_least_mm, train.motion.front_most_mm) == (301_934, 302_067)
 
 
 def a_tachometer_that_jumps_does_not_speak() -> None:
@@ -157,7 +157,10 @@ def an_irregular_cycle_loses_the_range_for_good() -> None:
 
 
 def a_lawful_cycle_keeps_the_range_and_the_wheel() -> None:
-    """Two milliseconds of jitter either way: the wheel stays trusted, and the range is no wider for it (P1; ours)."""
+    """Two milliseconds of jitter either way: the wheel stays trusted, and the range is no wider for it (P1; ours).
+
+    What the clock tells of a lawful cycle says no more: without a wheel the range grows as in any other.
+    """
     train = rolling(20_000)
     for elapsed_ms in (98, 102, 99, 101, 100):
         train.cycle(20_000, elapsed_ms=elapsed_ms)
@@ -167,7 +170,7 @@ def a_lawful_cycle_keeps_the_range_and_the_wheel() -> None:
     for elapsed_ms in (98, 102):
         train.cycle(20_000, inertial_valid=False, elapsed_ms=elapsed_ms)
         braked.cycle(20_000, inertial_valid=False)
-        assert train.motion.speed_most_mm_s > braked.motion.speed_most_mm_s
+        assert train.motion == braked.motion
 
 
 def in_an_irregular_cycle_the_train_may_get_anywhere() -> None:
@@ -253,10 +256,10 @@ def what_nature_does_not_do_does_not_happen() -> None:
     event = {"readings": good, "to_nm": far_nm, "speed_um_s": 20_000_000, "gradient_mm_s2": 0}
     event |= {"slips": False, "sticks": False}
     refused: tuple[dict[str, object], ...] = (
-        {"to_nm": far_nm + 1},
-        {"to_nm": far_nm - 1},
-        {"speed_um_s": 20_000_000 + 120_001, "to_nm": far_nm + 100, "readings": replace(good, inertial_valid=False)},
-        {"speed_um_s": 20_000_000 - 180_001, "to_nm": far_nm - 100, "readings": replace(good, inertial_valid=False)},
+        {"to_nm": far_nm + 40 * NM_A_MM + 1},
+        {"to_nm": far_nm - 40 * NM_A_MM - 1},
+        {"speed_um_s": 20_000_000 + 122_401, "to_nm": far_nm + 100, "readings": replace(good, inertial_valid=False)},
+        {"speed_um_s": 20_000_000 - 183_601, "to_nm": far_nm - 100, "readings": replace(good, inertial_valid=False)},
         {"readings": replace(good, inertial_mm_s2=51)},
         {"readings": replace(good, inertial_mm_s2=-51)},
         {"gradient_mm_s2": 351, "readings": replace(good, inertial_mm_s2=351)},
@@ -265,14 +268,14 @@ def what_nature_does_not_do_does_not_happen() -> None:
         {"readings": replace(good, tachometer_mm_s=19_700)},
         {"readings": replace(good, way_mm=207_060)},
         {"readings": replace(good, way_mm=206_940)},
-        {"slips": True, "readings": replace(good, tachometer_mm_s=20_118)},
-        {"slips": True, "readings": replace(good, tachometer_mm_s=19_882)},
+        {"slips": True, "readings": replace(good, tachometer_mm_s=20_115)},
+        {"slips": True, "readings": replace(good, tachometer_mm_s=19_885)},
     )
     for what in refused:
         assert train.step("run_a_cycle", **{**event, **what}) == before
     for stuck in (good, replace(good, way_mm=205_000, tachometer_mm_s=19_999), replace(good, tachometer_mm_s=0)):
         assert train.step("run_a_cycle", **{**event, "sticks": True, "readings": stuck}) == before
-    after = train.step("run_a_cycle", **{**event, "slips": True, "readings": replace(good, tachometer_mm_s=20_119)})
+    after = train.step("run_a_cycle", **{**event, "slips": True, "readings": replace(good, tachometer_mm_s=20_116)})
     assert after.slips
     assert not after.motion.trusted
 

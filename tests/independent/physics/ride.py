@@ -7,6 +7,7 @@ was not is noticed.  The world knows which declared bounds were broken, and name
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left
 from collections import Counter, deque
 from dataclasses import dataclass, field
@@ -75,6 +76,11 @@ class Outcome:
     ran_mm: float = 0.0
     widths: list[tuple[float, int, float]] = field(default_factory=list)
     """Since a fix: the way in mm, the stops, and the range's width in mm, a sample each ten seconds."""
+
+
+def told_ms(lasts_ms: float) -> int:
+    """How long the processor's clock says that a cycle lasted: whole ms, rounded away from 100."""
+    return CYCLE_MS + math.ceil(lasts_ms - CYCLE_MS) if lasts_ms > CYCLE_MS else math.floor(lasts_ms)
 
 
 class Ride:
@@ -253,9 +259,9 @@ class Ride:
         host.decide(acknowledged=body.speed == 0)
         self.judge_window()
         jitter = self.fault(faults.JITTER)
-        lawful_ms = self.out.counts["cycles"] * 7 % (2 * JITTER_MS + 1) - JITTER_MS if self.jitters else 0
+        lawful_ms = self.out.counts["cycles"] * 7 % (20 * JITTER_MS + 1) / 10 - JITTER_MS if self.jitters else 0
         lasts_ms = CYCLE_MS + (self.rng.uniform(-1, 1) * jitter.size if jitter else lawful_ms)
-        elapsed_ms = round(lasts_ms)
+        elapsed_ms = told_ms(lasts_ms)
         if abs(elapsed_ms - CYCLE_MS) > JITTER_MS:
             self.breaks(faults.JITTER)
         before, placed = body.speed, body.place_mm
