@@ -144,11 +144,15 @@ def with_newest(reads: HeadReads, newest: HeadRead) -> HeadReads:
 
 
 def note_head_read(spacing: Spacing, uid: int, at: Way) -> Spacing:
-    """Remember a tag that the head has read, and where the train is; the tail must not have been there first (T13)."""
+    """Remember a tag that the head has read, and where the train is; the tail must not have been there first (T13).
+
+    A tail whose read was held against an earlier one of the head's was not: the train has come round on a loop.
+    """
+    tail_came_first = spacing.tail_read and spacing.tail_uid == uid and not spacing.checked
     return replace(
         spacing,
         reads=with_newest(spacing.reads, HeadRead(uid=uid, at=at)),
-        broken=spacing.broken or (spacing.tail_read and spacing.tail_uid == uid),
+        broken=spacing.broken or tail_came_first,
     )
 
 

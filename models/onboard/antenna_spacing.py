@@ -54,6 +54,7 @@ class Trailing:
     ``head_has_read``: the head has read the one tag; ``since``: as many others since, not counting the same
     twice running; by the odometry it was between ``least_mm`` and ``most_mm`` then, if that was known at all.
     ``tail_has_read``: the tail has read some tag; ``tail_is_on``: the last was the one tag.
+    ``tail_came_after``: and the head had read that tag before.
     ``tail_nm``: how far apart the two antennas were at the tail's newest read.
     ``caught``: a tail that was false has read the one tag, which was among the head's last eight, where the
     odometry knew the way between as well as is written; or the head has read it after the tail.
@@ -72,6 +73,7 @@ class Trailing:
     most_mm: int
     tail_has_read: bool
     tail_is_on: bool
+    tail_came_after: bool
     tail_nm: int
     caught: bool
 
@@ -81,7 +83,7 @@ class Trailing:
 
 def the_tolerance_covers_preset_and_read_window(site: Track) -> bool:
     """The written tolerance is at least the error of presetting and the antennas' read window together (T3, T16)."""
-    return site.preset_error_mm + 2 * site.read_within_mm <= site.limits.tolerance_mm
+    return site.preset_error_mm >= 0 and site.preset_error_mm + 2 * site.read_within_mm <= site.limits.tolerance_mm
 
 
 # ---- where the antennas are
@@ -182,7 +184,7 @@ def head_reads(site: Track, system: Trailing, uid: int, at: Way) -> Trailing:
         known=is_told(at) if ours else system.known,
         least_mm=at.least_mm if ours else system.least_mm,
         most_mm=at.most_mm if ours else system.most_mm,
-        caught=system.caught or (ours and system.tail_is_on),
+        caught=system.caught or (ours and system.tail_is_on and not system.tail_came_after),
     )
 
 
@@ -198,6 +200,7 @@ def tail_reads(site: Track, system: Trailing, uid: int, at: Way) -> Trailing:
         spacing=machine.note_tail_read(site.limits, system.spacing, uid, at),
         tail_has_read=True,
         tail_is_on=uid == site.tag,
+        tail_came_after=system.head_has_read,
         tail_nm=system.apart_nm,
         caught=system.caught or (can_be_compared(site, system, uid, at) and is_false(site, system)),
     )
@@ -246,5 +249,6 @@ def begun(system: Trailing) -> Trailing:
         most_mm=0,
         tail_has_read=False,
         tail_is_on=False,
+        tail_came_after=False,
         caught=False,
     )

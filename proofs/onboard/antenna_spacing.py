@@ -32,6 +32,7 @@ def the_unit_has_just_started(site: Track, system: Trailing) -> bool:
         and not system.head_has_read
         and not system.tail_has_read
         and not system.tail_is_on
+        and not system.tail_came_after
         and not system.caught
     )
 
@@ -129,11 +130,12 @@ def what_is_remembered_was_read(site: Track, system: Trailing) -> bool:
 
 
 def the_tails_newest_read_is_noted(site: Track, system: Trailing) -> bool:
-    """The machine knows whether the tail has read, and which tag last (T13)."""
+    """The machine knows whether the tail has read, and which tag last, compared only if the head had read it (T13)."""
     return (
         system.spacing.tail_read == system.tail_has_read
         and (not system.tail_has_read or system.tail_is_on == (system.spacing.tail_uid == site.tag))
         and (system.tail_has_read or not system.tail_is_on)
+        and (not system.tail_is_on or system.tail_came_after or not system.spacing.checked)
     )
 
 

@@ -44,6 +44,7 @@ JUST_STARTED = Trailing(
     most_mm=0,
     tail_has_read=False,
     tail_is_on=False,
+    tail_came_after=False,
     tail_nm=0,
     caught=False,
 )
@@ -274,13 +275,28 @@ def a_false_tail_stays_one_when_the_train_turns() -> None:
 
 
 def a_train_that_rolls_back_may_be_accused() -> None:
-    """Its head comes by a tag that its tail has read; it is on the safe side, and nothing else is given up (T13)."""
+    """Its head comes by a tag that its tail read, and could not compare; it is on the safe side, and no more (T13)."""
     train = Train()
     train.head(0)
-    assert train.tail(0)
+    assert not train.tail(0, at=UNKNOWN)
     train.head(0)
     assert not train.system.whole
     assert train.system.spacing.broken
+
+
+def on_a_loop_the_head_comes_round_to_what_its_tail_has_read() -> None:
+    """What the tail held against the head's first read of it accuses nobody at the second, lap after lap (T13)."""
+    spacing = machine.preset(420_000)
+    boundaries = (0, 6_000, 200_000, 206_000, 400_000, 406_000)
+    reads = [(600_000 * lap + at + off, off, at) for lap in range(4) for at in boundaries for off in (0, 420_000)]
+    for front_mm, off_mm, uid in sorted(reads):
+        at = Way(True, front_mm - 50, front_mm + 50)
+        if off_mm == 0:
+            spacing = machine.note_head_read(spacing, uid, at)
+        else:
+            spacing = machine.note_tail_read(SITE.limits, spacing, uid, at)
+            assert machine.is_healthy(spacing)
+        assert not spacing.broken
 
 
 def history_begins_anew_with_the_train() -> None:
@@ -329,6 +345,7 @@ WITNESSES = (
     a_train_turns,
     a_false_tail_stays_one_when_the_train_turns,
     a_train_that_rolls_back_may_be_accused,
+    on_a_loop_the_head_comes_round_to_what_its_tail_has_read,
     history_begins_anew_with_the_train,
     what_nature_does_not_do,
 )
