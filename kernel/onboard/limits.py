@@ -129,7 +129,8 @@ def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
     """
     windows_mm = 2 * surveyed.read_within_mm
     return (
-        spacing.tolerance_mm >= surveyed.preset_within_mm + windows_mm
+        surveyed.preset_within_mm >= 0
+        and spacing.tolerance_mm >= surveyed.preset_within_mm + windows_mm
         and spacing.tolerance_mm + windows_mm + spacing.width_mm < surveyed.vehicle_mm
     )
 
@@ -137,12 +138,14 @@ def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
 def is_length_lawful(limits: Limits, surveyed: Surveyed) -> bool:
     """Tell whether one length is written everywhere, no less than antennas and overhangs are, and may be measured (P4).
 
-    A train that was found whole is no longer than that, however its antennas' distance was preset.
+    A train that was found whole is no longer than that, however its antennas' distance was preset.  After a change of
+    ends the other antenna is the head's: it lies as far behind the front.
     """
     bounds = limits.length
     return (
         bounds.line_maximum_mm == limits.train.length_mm
         and bounds.front_overhang_mm == limits.tags.antenna_mm
+        and bounds.rear_overhang_mm == bounds.front_overhang_mm
         and limits.antennas_mm + surveyed.preset_within_mm + bounds.front_overhang_mm + bounds.rear_overhang_mm
         <= bounds.line_maximum_mm
         and 2 * surveyed.read_within_mm <= bounds.window_mm <= GREATEST_MEASURE_MM
@@ -165,6 +168,24 @@ def is_split_lawful(limits: SplitLimits, surveyed: Surveyed) -> bool:
     )
 
 
+def is_found_at_rest(sensors: SensorBounds, brake: BrakeBounds) -> bool:
+    """Tell whether a train that stands, its sensors sound, is found standing: else it is never let go (P1, T8).
+
+    On the steepest gradient, with the inertial sensor at its worst, the wheel still agrees; and by the time that it is
+    trusted, its speed is not known so badly that a wheel which stands might be locked.
+    """
+    felt_mm_s2 = sensors.gradient_mm_s2 + sensors.inertial_mm_s2
+    gained_mm_s = sensors.agreement_cycles * (2 * LONGEST_CYCLE_MS * felt_mm_s2 // 1000 + 2)
+    return (
+        sensors.accelerates_mm_s2 >= 0
+        and sensors.brakes_mm_s2 >= 0
+        and LONGEST_CYCLE_MS * felt_mm_s2 < SHORTEST_CYCLE_MS * sensors.slip_mm_s2
+        and gained_mm_s <= sensors.locked_mm_s
+        and gained_mm_s + sensors.tachometer_mm_s + 1 <= sensors.pace_mm_s
+        and sensors.tachometer_mm_s + 1 <= brake.standstill_mm_s
+    )
+
+
 def is_reader_lawful(reader: ReaderLimits) -> bool:
     """Tell whether a gap between tags lasts a frame time or more (T16)."""
     return reader.gap_frames >= 1
@@ -175,6 +196,7 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
     return (
         are_sensors_lawful(limits.sensors, surveyed)
         and is_brake_lawful(limits.train.brake)
+        and is_found_at_rest(limits.sensors, limits.train.brake)
         and are_tags_lawful(limits.tags, limits.window, surveyed)
         and is_window_lawful(limits.window, limits.train.speeds.line_mm_s, limits.antennas_mm, surveyed)
         and is_spacing_lawful(limits.spacing, surveyed)

@@ -61,7 +61,7 @@ class LengthBounds:
     ``line_maximum_mm``: no train of the line is longer, nor this one, if its own length is written: the operator's
     duty; it may be more.
     ``last_vehicle_mm``: L_c.
-    ``front_overhang_mm``, ``rear_overhang_mm``: from the antennas to the train's ends.
+    ``front_overhang_mm``, ``rear_overhang_mm``: from the antennas to the train's ends, the same at both.
     ``window_mm``: how far apart one tag's reads by the two antennas may be from where the tag lies.
     ``width_mm``: the widest range of the front, by odometry, in which a pass still counts.
     """

@@ -42,7 +42,9 @@ run: what a tail leaves is noted for every run that has begun. A run that holds 
 **A unit that restarts** has nothing to report any more. The centre asks, it answers once it stands and is whole, and
 is accounted for (`a_train_answers`, `a_train_that_answered_is_accounted_for`). From then on no run of an earlier life
 holds anything (the invariant `an_open_run_is_of_the_accounted_life`); what it stands in is held for a run that stands
-for it, and it learns which (`a_train_learns_under_which_run_it_stands`), so that its tail frees that too.
+for it, and it learns which (`a_train_learns_under_which_run_it_stands`), so that its tail frees that too. Where it
+restarted astride a boundary the tail has nothing to be compared with there, and only its next restart frees the block
+behind (docs/limits.md).
 
 **A centre that restarts** has lost everything. When every train is accounted for each lost block is found
 (`a_lost_block_is_found`), and each lost point that no train stands over (`a_lost_point_is_found`).

@@ -10,9 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kernel.onboard import computer
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
+from kernel.onboard.ceiling import NONE
 from kernel.onboard.limits import (
     Limits,
     Surveyed,
@@ -20,20 +22,23 @@ from kernel.onboard.limits import (
     are_sensors_lawful,
     are_tags_lawful,
     is_brake_lawful,
+    is_found_at_rest,
     is_length_lawful,
     is_reader_lawful,
     is_spacing_lawful,
     is_split_lawful,
     is_window_lawful,
 )
-from kernel.onboard.odometry import SensorBounds
+from kernel.onboard.odometry import Readings, SensorBounds
 from kernel.onboard.reverse_movement import ReverseLimits
 from kernel.onboard.speed_limit import SpeedTable
-from kernel.onboard.split import SplitLimits
+from kernel.onboard.split import Acceleration, SplitLimits
+from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import LengthBounds
+from kernel.standstill import is_held
 from models.layouts.measures import ANTENNA_MM
 from models.onboard import antenna_spacing, reverse_movement, split, tag_window
 from models.onboard.train_antennas import a_gap_between_tags_has_a_length
@@ -112,7 +117,26 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "length": the_lengths_bounds_fit(site) and one_length_is_written_and_it_covers_the_antennas(site),
         "reverse": reverse_movement.bounds_are_not_negative(wheel),
         "reader": a_gap_between_tags_has_a_length(site),
+        "rest": is_held_at_last(limits),
     }
+
+
+def is_held_at_last(limits: Limits) -> bool:
+    """Tell whether its computer finds a train at rest, on either steepest gradient with its sensor at its worst."""
+    felt_mm_s2 = limits.sensors.gradient_mm_s2 + limits.sensors.inertial_mm_s2
+    return all(is_held_by(limits, inertial_mm_s2) for inertial_mm_s2 in (-felt_mm_s2, felt_mm_s2))
+
+
+def is_held_by(limits: Limits, inertial_mm_s2: int) -> bool:
+    """Tell whether it does with such a reading in each cycle."""
+    at_once = replace(limits.train.brake, response_cycles=1, cut_cycles=0)
+    limits = replace(limits, train=replace(limits.train, brake=at_once))
+    state, at_rest = computer.put_into_service(limits, NONE, 0, 0), Acceleration(0, True)
+    tail = TailReadings(head=at_rest, arrived=True, left=at_rest, right=at_rest, age_ms=0)
+    for _ in range(min(limits.sensors.agreement_cycles, 1_000) + 2):
+        state = computer.decide(limits, state, may_proceed=False, acknowledged=False)
+        state = computer.sense(limits, state, Readings(100, True, 0, 0, True, inertial_mm_s2), tail)
+    return is_held(computer.standstill(limits, state))
 
 
 def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
@@ -127,6 +151,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "length": is_length_lawful(limits, surveyed),
         "reverse": limits.reverse.roll_back_mm >= 0,
         "reader": is_reader_lawful(limits.reader),
+        "rest": is_found_at_rest(limits.sensors, limits.train.brake),
     }
 
 
@@ -139,6 +164,7 @@ def test_limits_are_lawful_where_every_premise_holds_of_them_and_only_there(limi
     assert said["split"] == asked["split"]
     assert said["spacing"] == asked["spacing"]
     assert said["reader"] == asked["reader"]
+    assert not said["rest"] or not are_lawful(limits, surveyed) or asked["rest"]
     assert said["length"] == asked["length"] or surveyed.read_within_mm < 0
     assert are_lawful(limits, surveyed) == all(said.values())
     assert not are_lawful(limits, surveyed) or all(asked.values())
@@ -178,3 +204,23 @@ def test_the_plan_is_lawful_and_just_so() -> None:
     for worse in worst:
         survey = replace(SURVEYED, **worse)
         assert not are_lawful(LAWFUL, survey)
+
+
+def test_a_plan_by_which_no_train_is_ever_found_at_rest_is_not_lawful() -> None:
+    for just, worse in (
+        ({"agreement_cycles": 20}, {"agreement_cycles": 21}),
+        ({"locked_mm_s": 2_920}, {"locked_mm_s": 2_919}),
+        ({"pace_mm_s": 3_521}, {"pace_mm_s": 3_520}),
+        ({"slip_mm_s2": 739, "brakes_mm_s2": 0}, {"slip_mm_s2": 738}),
+    ):
+        held, never = (replace(LAWFUL, sensors=replace(LAWFUL.sensors, **each)) for each in (just, worse))
+        assert are_lawful(held, SURVEYED), just
+        assert is_held_at_last(held), just
+        assert not are_lawful(never, SURVEYED), worse
+    slow, slower = (
+        replace(LAWFUL, train=replace(LAWFUL.train, brake=replace(LAWFUL.train.brake, standstill_mm_s=each)))
+        for each in (601, 600)
+    )
+    assert are_lawful(slow, SURVEYED)
+    assert not are_lawful(slower, SURVEYED)
+    assert not is_held_at_last(slower)
