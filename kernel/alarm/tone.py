@@ -27,7 +27,8 @@ follows from what is known now, so no train's tone hides another's.
 
 A train lost without GPS also counts by the stretch that the display shows, which the paper does not do: the ends of
 the section say where it is only while it neither turns in the tunnel nor leaves it unseen, and the display says so
-whatever it does.  It may be the nearer of both, and is for a worker behind the train; that is the price.
+whatever it does.  It may be the nearer of both, and is for a worker behind the train; that is the price.  That its
+last fix is far takes nothing from it: that fix may be in the figures of a branch, or from before a break.
 """
 
 from __future__ import annotations
@@ -362,17 +363,6 @@ def nearest_by_display_um(register: Register, display: Display, worker: WorkerFi
     )
 
 
-def may_be_by_display(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
-    """Tell whether a train without GPS may be that near, by the display (A4, A6).
-
-    Its last fix counts as well as long as both agree: the train has got no farther from there than the
-    line's speed lets it.
-    """
-    return nearest_by_display_um(register, known.display, worker) <= UM_A_MM * limit_mm and not (
-        agree(register, known) and nearest_um(register.bounds, known.fix, worker) > UM_A_MM * limit_mm
-    )
-
-
 def from_way_through_um(bounds: AlarmBounds, section: NoUse, fix: TrainFix, worker: WorkerFix) -> int:
     """Give how far a train on its way through is at the least: from its last fix to the outer end of zone B (A4).
 
@@ -407,7 +397,7 @@ def may_be_near(register: Register, known: Known, worker: WorkerFix, limit_mm: i
     if has_fix(register, known):
         return nearest_um(register.bounds, known.fix, worker) <= UM_A_MM * limit_mm
     return has_display(register, known) and (
-        may_be_by_display(register, known, worker, limit_mm)
+        nearest_by_display_um(register, known.display, worker) <= UM_A_MM * limit_mm
         or may_be_on_its_way_through(register, known, worker, limit_mm)
     )
 

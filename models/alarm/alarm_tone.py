@@ -73,7 +73,10 @@ def come(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
 
 
 def come_by(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
-    """A train comes onto the line by an opening; whatever was told of it until now was of other figures (A1, A2)."""
+    """A train comes onto the line by an opening; whatever was told of it until now was of other figures (A1, A2).
+
+    One that passes a break of kilometrage comes so again, from the one figure to the other.
+    """
     if not a_train_comes_after_it_was_let_on(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
     if not trains_come_by_openings(site, body):

@@ -10,8 +10,8 @@ from models.alarm.worksite import (
     OfTrain,
     Railway,
     Worksite,
+    has_fresh_fix,
     has_just_come,
-    is_report,
     is_shown,
     is_told_alike,
     is_where_shown,
@@ -84,7 +84,7 @@ def a_worker_fix_is_within_its_error(site: Railway, fix: WorkerFix, at_um: int) 
 
 
 def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, body: Body, is_right: bool) -> bool:
-    """A wrong fix that fits agrees with no fresh display, nor puts a train that is not on it where trains shunt (A2).
+    """A wrong fix that fits agrees with no display, both fresh, nor puts a train that is not on it into a yard (A2).
 
     So GPS does not err by less than the display can tell.  That is not true of nature: under a roof or in a cutting a
     fix is off by 100 m, and the display shows a stretch of some km.  It cannot be had for less: only these two sources
@@ -92,9 +92,10 @@ def a_wrong_fix_is_contradicted(site: Railway, of: OfTrain, body: Body, is_right
     be one that is measured on the line, and stretches where it is exceeded are registered.
 
     It says nothing of a wrong fix that agrees with no display, because there is none, nor of one that jumps from the
-    one before: then no tone is mild.  Nor of a train that has just come, which may be told of in other figures.
+    one before: then no tone is mild.  Nor of a train that has just come, which may be told of in other figures.  Nor of
+    a fix that is no longer fresh: that may be of a branch, or from before a break, for as long as the unit is dead.
     """
-    if is_right or has_just_come(site, body) or not is_report(of.fix.place_mm, of.fix.age_ms):
+    if is_right or has_just_come(site, body) or not has_fresh_fix(site, of):
         return True
     if is_shown(site, of):
         return not is_where_shown(site, of)
@@ -122,7 +123,7 @@ def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um
 
 
 def sources_do_not_fail_together(site: Railway, later: Worksite) -> bool:
-    """When time has passed, no display is silent while a wrong fix puts its train where trains shunt (A2, A5)."""
+    """When time has passed, no display is silent while a wrong and fresh fix puts a train into a yard (A2, A5)."""
     return all(
         a_wrong_fix_is_contradicted(site, later.told.trains[train], body, body.fix_is_right)
         for train, body in later.bodies.items()

@@ -95,7 +95,7 @@ def hold_train(register: Any, trains: Any, train: int, known: Any, out: Any) -> 
     """Hold the assumptions on what is known of a train against where it is (A2, A3)."""
     fix = known.fix
     off_mm = abs(1_000 * trains.place_m[train] - fix.place_mm)
-    wrong = is_fix(fix.place_mm, fix.age_ms) and off_mm > ERROR_MM + SPEED_MM_S * fix.age_ms / 1_000
+    wrong = has_fix(register, known) and off_mm > ERROR_MM + SPEED_MM_S * fix.age_ms / 1_000
     if wrong:
         believed = agree(register, known) if has_display(register, known) else is_shunting(register, known)
         if believed:

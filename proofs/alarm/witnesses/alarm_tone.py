@@ -373,18 +373,23 @@ def what_nature_does_not_do_does_not_happen() -> None:
 
 
 def a_wrong_fix_puts_no_train_where_trains_shunt() -> None:
-    """Far off and in the yard it is contradicted by the display, which stays there as long as the fix (A2, A5)."""
+    """Far off and in the yard it is contradicted by the display, which stays there while the fix is fresh (A2, A5)."""
     day = Day(worker_mm=50 * KM)
     day.hear()
     day.come(FIRST, 34 * KM)
     day.tell(FIRST, off_mm=6 * KM)
     assert day.tone() == FAULT
-    before = day.system
-    assert day.step("pass_time", elapsed_ms=12_001, worker_to_um=before.worker_um) == before
-    assert day.step("pass_time", elapsed_ms=12_000, worker_to_um=before.worker_um) != before
+    day.run(5_000)
     fix = day.system.handset.trains[FIRST].fix
+    day.step("take_fix", train=FIRST, fix=replace(fix, age_ms=0), at_um=0, is_right=False)
+    before = day.system
+    assert day.step("pass_time", elapsed_ms=7_001, worker_to_um=before.worker_um) == before
+    day.run(7_000)
     before = day.system
     assert day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0) == before
+    day.run(3_001)
+    day.step("take_display", train=FIRST, display=NO_DISPLAY, at_um=0)
+    assert day.system.told.trains[FIRST].display == NO_DISPLAY
     day = Day(worker_mm=50 * KM)
     day.hear()
     day.come(FIRST, 34 * KM)

@@ -183,14 +183,14 @@ def a_stabled_train_counts_by_the_display() -> None:
 
 
 def a_lost_train_counts_from_its_last_fix_to_the_outer_end() -> None:
-    """At the end nearest the worker, at once; then by the display (004, 4.1; A4)."""
+    """At the end nearest the worker, at once, and by the display, however far its last fix is (004, 4.1; A4)."""
     stretch, ends_mm = Display(19 * KM, 24 * KM, 0), 60_000 + 15_000
     for way, at_mm, outer_mm, side in ((DOWN, 21 * KM, 23 * KM, 1), (UP, 22 * KM, 20 * KM, -1)):
         lost = TrainFix(at_mm, 10_001, way, True)
         for limit_mm, inside, outside in ((1_500_000, ALARM, CAUTION), (3_000_000, CAUTION, NORMAL)):
-            beyond_mm = outer_mm + side * (limit_mm + ends_mm)
-            assert stabled(stretch, lost, worker_mm=beyond_mm) == inside
-            assert stabled(stretch, lost, worker_mm=beyond_mm + side) == outside
+            beyond_mm, here = outer_mm + side * (limit_mm + ends_mm), Display(at_mm, at_mm, 0)
+            assert stabled(here, lost, worker_mm=beyond_mm) == inside
+            assert stabled(here, lost, worker_mm=beyond_mm + side) == outside
             behind_mm = at_mm - side * (limit_mm + ends_mm + 20_000)
             agreed = Display(at_mm, at_mm, 10_000)
             assert stabled(agreed, lost, worker_mm=behind_mm) == (inside if limit_mm > 1_500_000 else ALARM)
@@ -205,8 +205,8 @@ def a_lost_train_counts_from_its_last_fix_to_the_outer_end() -> None:
         assert stabled(far, lost, worker_mm=near_mm) == CAUTION
         assert stabled(far, lost, worker_mm=near_mm - side) == NORMAL
     lost = TrainFix(20 * KM, 10_001, DOWN, True)
-    assert stabled(stretch, lost, worker_mm=20 * KM - 3_000_000 - OFF_MM - 27 * 10_001) == CAUTION
-    assert stabled(stretch, lost, worker_mm=20 * KM - 3_000_000 - OFF_MM - 27 * 10_001 - 1) == NORMAL
+    assert stabled(stretch, lost, worker_mm=19 * KM - 3_000_000 - ends_mm - 10_000) == CAUTION
+    assert stabled(stretch, lost, worker_mm=19 * KM - 3_000_000 - ends_mm - 10_001) == NORMAL
     old = replace(lost, age_ms=GREATEST_AGE_MS)
     assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + ends_mm + 10_000) == CAUTION
     assert stabled(stretch, old, worker_mm=24 * KM + 3_000_000 + ends_mm + 10_001) == NORMAL

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, TrainFix
-from kernel.alarm.tone import Display
+from kernel.alarm.tone import Display, NoUse, Reason
 from models.alarm.line import BOUNDS, FRESH
 from models.alarm.worksite import Body
 from proofs.alarm.witnesses.worksite import (
+    ALARM,
     BRANCH,
     DOWN,
     FAULT,
@@ -19,6 +20,7 @@ from proofs.alarm.witnesses.worksite import (
     NOWHERE,
     OTHER,
     REGISTER,
+    TUNNEL,
     UP,
     Day,
     handset,
@@ -149,10 +151,52 @@ def no_train_comes_but_by_an_opening() -> None:
     assert set(day.system.bodies) == {FIRST, OTHER}
 
 
+def an_old_fix_of_a_branch_hides_no_train() -> None:
+    """Its unit dies there, at figures that a tunnel of this line has too; the display alone counts (A1, A4)."""
+    tunnel = NoUse(Reason.WITHOUT_GPS, 9_600_000, 11 * KM, zone_mm=400_000)
+    day = Day(16_200_000, replace(REGISTER, sections={TUNNEL: tunnel}, openings={BRANCH: 12 * KM}))
+    day.hear()
+    day.let_on(FIRST)
+    day.step("take_fix", train=FIRST, fix=replace(ELSEWHERE, place_mm=10 * KM), at_um=0, is_right=True)
+    day.run(14_000)
+    at_um = UM_A_MM * 12 * KM
+    day.step("come_by", train=FIRST, body=replace(AT_THE_JOINT, antenna_um=at_um, next_um=at_um, heading=DOWN))
+    runs_on_unseen(day, Display(9_800_000, 20 * KM, 0))
+
+
+def an_old_fix_from_before_a_break_hides_no_train() -> None:
+    """Its unit dies in a tunnel, in which 12 km are followed by 14 km; the display alone counts (A1, A4)."""
+    tunnel = NoUse(Reason.WITHOUT_GPS, 10_800_000, 14_600_000, zone_mm=400_000)
+    day = Day(18 * KM, replace(REGISTER, sections={TUNNEL: tunnel}, openings={NOWHERE: 12 * KM, BRANCH: 14 * KM}))
+    day.hear()
+    day.come(FIRST, 11_200_000)
+    day.step(
+        "take_fix", train=FIRST, fix=replace(ELSEWHERE, place_mm=11_200_000), at_um=UM_A_MM * 11_200_000, is_right=True
+    )
+    day.run(29_630, (FIRST, DOWN))
+    at_um = UM_A_MM * 14 * KM
+    day.step("come_by", train=FIRST, body=replace(AT_THE_JOINT, antenna_um=at_um, next_um=at_um, heading=DOWN))
+    runs_on_unseen(day, Display(9_800_000, 20 * KM, 0))
+
+
+def runs_on_unseen(day: Day, shown: Display) -> None:
+    """The display shows a train in each of 60 s, truly: the alarm, since it may be at the worker."""
+    for second in range(60):
+        day.run(1_000, (FIRST, DOWN))
+        day.hear()
+        day.step("take_display", train=FIRST, display=shown, at_um=day.system.bodies[FIRST].antenna_um)
+        assert day.system.told.trains[FIRST].display == shown
+        assert day.system.told.trains[FIRST].fix.age_ms > FRESH.fix_ms
+        assert not day.system.bodies[FIRST].fix_is_right
+        assert (second, day.tone()) == (second, ALARM)
+
+
 WITNESSES = (
     near_an_opening_no_tone_is_mild,
     a_train_on_a_branch_is_no_normal_tone,
     a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew,
     what_was_told_of_the_branch_may_say_anything,
     no_train_comes_but_by_an_opening,
+    an_old_fix_of_a_branch_hides_no_train,
+    an_old_fix_from_before_a_break_hides_no_train,
 )

@@ -96,11 +96,12 @@ def stabled(display: Display, fix: TrainFix = NO_TRAIN_FIX, name: Train = STABLE
 class Day(Play[Railway, Worksite]):
     """A worker who stands at 10 km, and hears the tone after each step."""
 
-    def __init__(self, worker_mm: int = WORKER_MM) -> None:
+    def __init__(self, worker_mm: int = WORKER_MM, register: Register = REGISTER) -> None:
         """Begin: the server and the handset have started, nothing was told, and no train is there."""
         server, lists = train_list.started(0), Lists({}, {}, {}, {}, {}, frozenset())
         told, nothing = nothing_told_to_the_handset(), machine.switched_on()
-        super().__init__(THEORY, SITE, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, SILENT))
+        site = Railway(register)
+        super().__init__(THEORY, site, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, SILENT))
         self.step("look_at_the_battery", battery_well=True)
 
     def tone(self) -> Tone:
