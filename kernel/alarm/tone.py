@@ -144,7 +144,7 @@ class Display:
 class Known:
     """What both sources say of a train (A2).
 
-    ``fix``: the last that fitted the one before it.  ``newest``: the last of all; ``jumped``: it did not fit (ours).
+    ``fix``: the last that fitted the one before it.  ``newest``: the last one; ``jumped``: it did not fit (ours).
     """
 
     fix: TrainFix
@@ -227,7 +227,7 @@ def older_known(known: Known, elapsed_ms: int) -> Known:
 
 def jumps(bounds: AlarmBounds, before: TrainFix, fix: TrainFix) -> bool:
     """Tell whether a train cannot have been where both fixes say, when they say it (A1, ours)."""
-    if not is_fix(before.place_mm, before.age_ms) or not is_fix(fix.place_mm, fix.age_ms):
+    if not is_fix(before.place_mm, before.age_ms):
         return False
     way_um = UM_A_MM * (magnitude(fix.place_mm - before.place_mm) - 2 * bounds.train_error_mm)
     return way_um > bounds.train_mm_s * magnitude(fix.age_ms - before.age_ms)
@@ -236,9 +236,10 @@ def jumps(bounds: AlarmBounds, before: TrainFix, fix: TrainFix) -> bool:
 def note_fix(bounds: AlarmBounds, handset: Handset, train: Train, fix: TrainFix) -> Handset:
     """Note where GPS says that a train is; one that is not on the list stays unknown (A2).
 
-    A fix that jumps is not taken, and it is kept that it did.
+    A fix that jumps is not taken, and it is kept that it did.  What is no fix, as a unit tells after its start, changes
+    nothing: the last fix grows too old by itself, and the next one is held against it.
     """
-    if train not in handset.trains:
+    if train not in handset.trains or not is_fix(fix.place_mm, fix.age_ms):
         return handset
     known = handset.trains[train]
     if jumps(bounds, known.fix, fix):

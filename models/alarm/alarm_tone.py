@@ -161,7 +161,7 @@ def pass_time(site: Railway, system: Worksite, elapsed_ms: int, worker_to_um: in
 def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um: int, is_right: bool) -> Worksite:
     """GPS tells of a train; ``at_um``: where its antenna really was; ``is_right``: within the error (A1, A2).
 
-    A fix that jumps from the one before may say anything.
+    A fix that jumps from the one before may say anything; so may what is no report.
     """
     handset = machine.note_fix(site.register.bounds, system.handset, train, fix)
     if not is_listed(system.told, train):
@@ -172,12 +172,13 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
         return replace(system, told=told, handset=handset)
     body = system.bodies[train]
     is_of_now = is_right and is_of_the_line(body, fix.age_ms)
-    is_taken_right = body.fix_is_right if of.jumped else is_of_now
+    is_taken = is_report(fix.place_mm, fix.age_ms) and not of.jumped
+    is_taken_right = is_of_now if is_taken else body.fix_is_right
     if not no_train_turns_sooner(site, of, body):
         return system
     if not a_wrong_fix_is_contradicted(site, of, body, is_taken_right):
         return system
-    counts = is_of_now and not of.jumped and is_report(fix.place_mm, fix.age_ms)
+    counts = is_taken and is_of_now
     if counts and not (
         a_train_fix_is_within_its_error(site, fix, at_um)
         and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)

@@ -256,7 +256,7 @@ def told_after(told: Told, elapsed_ms: int) -> Told:
 
 def fits(site: Railway, before: TrainFix, fix: TrainFix) -> bool:
     """Tell whether a train can have been near both places, as far as fixes err, within the line's speed (A1)."""
-    if not is_report(before.place_mm, before.age_ms) or not is_report(fix.place_mm, fix.age_ms):
+    if not is_report(before.place_mm, before.age_ms):
         return True
     bounds = site.register.bounds
     run_um = bounds.train_mm_s * apart(fix.age_ms, before.age_ms)
@@ -279,7 +279,9 @@ def with_battery(told: Told, battery_well: bool) -> Told:
 
 
 def with_fix(site: Railway, of: OfTrain, fix: TrainFix) -> OfTrain:
-    """Give what was told of a train after one more fix (A1, A2)."""
+    """Give what was told of a train after one more report of GPS; what is none says nothing (A1, A2)."""
+    if not is_report(fix.place_mm, fix.age_ms):
+        return of
     told = replace(of, newest=fix)
     return replace(told, fix=fix, jumped=False) if fits(site, of.fix, fix) else replace(told, jumped=True)
 

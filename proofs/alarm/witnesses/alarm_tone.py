@@ -7,10 +7,12 @@ from dataclasses import replace
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
+    NO_TRAIN_FIX,
     NO_WORKER_FIX,
     UM_A_MM,
     TrainFix,
     WorkerFix,
+    fix_of_the_unit,
     nearest_um,
 )
 from kernel.alarm.tone import (
@@ -28,6 +30,7 @@ from proofs.alarm.witnesses.worksite import (
     DOWN,
     FAULT,
     FIRST,
+    HUGE,
     KM,
     NORMAL,
     NOWHERE,
@@ -234,7 +237,24 @@ def a_fix_too_old_is_a_fault() -> None:
         assert day.tone() == tone
         assert day.system.heard.astray == (tone == FAULT)
     assert not machine.jumps(BOUNDS, known(0, age_ms=GREATEST_AGE_MS + 1).fix, known(5 * KM).fix)
-    assert not machine.jumps(BOUNDS, known(0).fix, known(5 * KM, age_ms=-1).fix)
+
+
+def what_is_no_fix_hides_no_jump() -> None:
+    """A unit that starts tells none, and then a place 2 km off: that is held against the last fix before (A1, A2)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 6 * KM)
+    day.tell(FIRST, DOWN)
+    day.run(1_000, (FIRST, DOWN))
+    place_mm = day.system.bodies[FIRST].antenna_um // UM_A_MM - 2 * KM
+    started = fix_of_the_unit(NO_TRAIN_FIX, TrainFix(place_mm, 0, DOWN, True))
+    before = day.system
+    assert day.step("take_fix", train=FIRST, fix=started, at_um=0, is_right=False) == before
+    day.step("take_fix", train=FIRST, fix=replace(started, place_mm=place_mm + 1, age_ms=0), at_um=0, is_right=False)
+    assert day.system.handset.trains[FIRST].jumped
+    assert day.tone() == FAULT
+    day.tell(FIRST, DOWN)
+    assert day.tone() == NORMAL
 
 
 def a_list_that_is_not_heard_is_the_fault_tone() -> None:
@@ -286,7 +306,7 @@ def what_is_not_on_the_list_stays_unknown() -> None:
 
 
 def what_is_no_report_may_say_anything() -> None:
-    """Garbage from either source arrives, and is the fault tone; directions count only of trains that run (A1, A2)."""
+    """Garbage of GPS changes nothing, of the display it shows none; directions count of trains that run (A1, A2)."""
     day = Day()
     day.hear()
     day.come(FIRST, WORKER_MM - 5 * KM)
@@ -294,16 +314,13 @@ def what_is_no_report_may_say_anything() -> None:
     day.tell(FIRST, DOWN)
     for age_ms in (-1, GREATEST_AGE_MS + 1):
         fix = TrainFix(7, age_ms, UP, True)
-        for right in (True, False):
-            day.step("take_fix", train=FIRST, fix=fix, at_um=0, is_right=right)
-            assert day.system.handset.trains[FIRST].fix == fix
-            assert day.system.bodies[FIRST].fix_is_right == right
-        assert day.tone() == FAULT
         agrees = replace(fix, place_mm=day.system.bodies[FIRST].antenna_um // UM_A_MM)
-        day.step("take_fix", train=FIRST, fix=agrees, at_um=0, is_right=False)
-        assert day.system.handset.trains[FIRST].fix == agrees
-        day.tell(FIRST, DOWN)
-        assert nearest_um(BOUNDS, day.system.handset.trains[FIRST].fix, WorkerFix(7, age_ms)) == 0
+        before = day.system
+        for told in (fix, agrees, replace(fix, place_mm=HUGE), replace(agrees, place_mm=10**9 + 1, age_ms=0)):
+            for right in (True, False):
+                assert day.step("take_fix", train=FIRST, fix=told, at_um=0, is_right=right) == before
+        assert day.tone() == NORMAL
+        assert nearest_um(BOUNDS, fix, WorkerFix(7, 0)) == 0
         shown = Display(7, 7, age_ms)
         day.step("take_display", train=FIRST, display=shown, at_um=0)
         assert day.system.handset.trains[FIRST].display == shown
@@ -459,6 +476,7 @@ WITNESSES = (
     a_report_leaves_open_how_near_a_train_is,
     a_right_fix_after_a_wrong_one_still_alarms,
     a_fix_too_old_is_a_fault,
+    what_is_no_fix_hides_no_jump,
     a_list_that_is_not_heard_is_the_fault_tone,
     what_is_not_on_the_list_stays_unknown,
     what_is_no_report_may_say_anything,
