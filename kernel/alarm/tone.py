@@ -86,7 +86,7 @@ class Reason(Enum):
 
 @dataclass(frozen=True)
 class NoUse:
-    """A section that is not to be used, from one kilometrage to another (A4, A5, A6).
+    """A section that is not to be used, from one kilometrage to a higher one (A4, A5, A6).
 
     ``zone_mm``: without GPS, so long is the stretch at either end where there is GPS yet: zones A and B (004, 4.1).
     """
@@ -133,7 +133,7 @@ class Register:
 
 @dataclass(frozen=True)
 class Display:
-    """A train on the traffic display: the stretch that it occupied, and how long ago (A1, A2)."""
+    """A train on the traffic display: the stretch that it occupied, lower end first, and how long ago (A1, A2)."""
 
     from_mm: int
     to_mm: int
@@ -273,8 +273,15 @@ def has_fix(register: Register, known: Known) -> bool:
 
 
 def is_display(display: Display) -> bool:
-    """Tell whether a record of the display is within the ranges of reports (A1)."""
-    return is_fix(display.from_mm, display.age_ms) and is_fix(display.to_mm, display.age_ms)
+    """Tell whether a record of the display is a stretch, lower end first, within the ranges of reports (A1).
+
+    Told in running order, as of an up train, it would be measured to its far ends.
+    """
+    return (
+        is_fix(display.from_mm, display.age_ms)
+        and is_fix(display.to_mm, display.age_ms)
+        and display.from_mm <= display.to_mm
+    )
 
 
 def has_display(register: Register, known: Known) -> bool:
@@ -435,6 +442,11 @@ def is_not_to_be_used(register: Register, worker: WorkerFix) -> bool:
     )
 
 
+def has_a_section_backwards(register: Register) -> bool:
+    """Tell whether a section is written upper end first: no place is in it, so nobody would hear of it (A4, A5, A6)."""
+    return any(section.from_mm > section.to_mm for _name, section in register.sections.items())
+
+
 def is_near_an_opening(register: Register, worker: WorkerFix) -> bool:
     """Tell whether a train may be within 3000 m of the worker by an opening, unknown or in other figures (A1, A3).
 
@@ -458,6 +470,7 @@ def is_faulty(register: Register, handset: Handset) -> bool:
         not handset.battery_well
         or not has_worker(register, handset)
         or not is_linked(register, handset)
+        or has_a_section_backwards(register)
         or is_not_to_be_used(register, handset.worker)
         or is_near_an_opening(register, handset.worker)
         or any(

@@ -43,6 +43,7 @@ from models.alarm.worksite import (
     has_fresh_fix,
     has_just_come,
     has_place,
+    is_between_the_ends,
     is_beyond_within,
     is_in_a_stretch,
     is_known,
@@ -58,7 +59,6 @@ from models.alarm.worksite import (
     with_battery,
     with_fix,
 )
-from models.measures import UM_A_MM
 
 # ---- trains and the worker
 
@@ -268,10 +268,7 @@ def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) ->
                 train in told.trains and may_come_out_at(site, told.trains[train], worker_um) for train in system.bodies
             ),
             not_to_be_used=has_fix
-            and any(
-                UM_A_MM * section.from_mm <= worker_um <= UM_A_MM * section.to_mm
-                for _name, section in site.register.sections.items()
-            ),
+            and any(is_between_the_ends(section, worker_um) for _name, section in site.register.sections.items()),
             jumped_within_1500=has_fix
             and any(
                 of.jumped and may_be_within(site, of.newest, told.worker, 1_500_000)

@@ -292,8 +292,9 @@ def has_fresh_fix(site: Railway, of: OfTrain) -> bool:
 
 
 def is_in_a_stretch(display: Display) -> bool:
-    """Tell whether the display shows a stretch of a line (A1)."""
-    return is_report(display.from_mm, display.age_ms) and is_report(display.to_mm, display.age_ms)
+    """Tell whether the display shows a stretch of a line, lower end first (A1)."""
+    is_of_a_line = is_report(display.from_mm, display.age_ms) and is_report(display.to_mm, display.age_ms)
+    return is_of_a_line and display.from_mm <= display.to_mm
 
 
 def is_shown(site: Railway, of: OfTrain) -> bool:
@@ -340,6 +341,12 @@ def is_on_its_way_through(section: NoUse, fix: TrainFix) -> bool:
         and not is_leaving_down
         and not is_leaving_up
     )
+
+
+def is_between_the_ends(section: NoUse, worker_um: int) -> bool:
+    """Tell whether the worker is in a section, whichever end of it is written first (A4, A5, A6)."""
+    one_um, other_um = UM_A_MM * section.from_mm, UM_A_MM * section.to_mm
+    return one_um <= worker_um <= other_um or other_um <= worker_um <= one_um
 
 
 def is_known_by_one(site: Railway, train: Train, of: OfTrain) -> bool:

@@ -273,6 +273,24 @@ def no_use_means_no_normal_tone() -> None:
     assert machine.tone(REGISTER, edge) == NORMAL
 
 
+def what_is_written_or_shown_backwards_is_a_fault() -> None:
+    """A section, wherever the worker is; a stretch in running order shows no train (A2, A4 to A6)."""
+    for name in (TUNNEL, YARD):
+        section = REGISTER.sections[name]
+        backwards = replace(section, from_mm=section.to_mm, to_mm=section.from_mm)
+        for worker_mm in (WORKER_MM, (section.from_mm + section.to_mm) // 2):
+            assert machine.tone(replace(REGISTER, sections={YARD: backwards}), handset(worker_mm=worker_mm)) == FAULT
+    point = NoUse(Reason.STABLING, 60 * KM, 60 * KM, zone_mm=0)
+    assert machine.tone(replace(REGISTER, sections={YARD: point}), handset()) == NORMAL
+    up = known(30 * KM, UP)
+    assert tone(up) == NORMAL
+    assert tone(replace(up, display=Display(32 * KM, 28 * KM, 0))) == FAULT
+    assert tone(replace(up, display=Display(30 * KM, 30 * KM, 0))) == NORMAL
+    lost = TrainFix(22 * KM, 10_001, UP, True)
+    assert stabled(Display(24 * KM, 19 * KM, 0), lost, worker_mm=28 * KM) == FAULT
+    assert stabled(Display(19 * KM, 24 * KM, 0), lost, worker_mm=28 * KM) == NORMAL
+
+
 def every_number_fits_into_64_bits() -> None:
     """Whatever is told; what is written is within 1000 km, 200 m/s and an hour (A1)."""
     bounds = AlarmBounds(200_000, 200_000, 10**9, 10**9, 10**9, GREATEST_AGE_MS)
@@ -313,5 +331,6 @@ WITNESSES = (
     a_lost_train_is_registered_until_it_is_seen_in_zone_b,
     from_zone_a_on_a_train_counts_at_the_outer_end,
     no_use_means_no_normal_tone,
+    what_is_written_or_shown_backwards_is_a_fault,
     every_number_fits_into_64_bits,
 )
