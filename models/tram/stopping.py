@@ -50,6 +50,11 @@ def the_place_is_held_for_twice_the_error(site: Street) -> bool:
     return limits.near_mm >= 0 and site.error_mm >= 0 and limits.held_mm >= limits.near_mm + 2 * site.error_mm
 
 
+def near_a_stop_is_no_less_than_the_error(site: Street) -> bool:
+    """Near a stop is at least as far as GPS errs: else a tram could be told beyond one that it has not come to (G2)."""
+    return site.limits.near_mm >= site.error_mm
+
+
 def trams_do_not_run_backwards(way_mm: int) -> bool:
     """No tram runs against its way (G2)."""
     return way_mm >= 0
