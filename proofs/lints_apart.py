@@ -67,6 +67,7 @@ READINGS: Mapping[str, str] = {
     "dispatching.arrive.stands": "what the tram's own machine found, as `stopping` proves it",
     "display.take_place.is_located": "whether the receiver gives a place",
     "display.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
+    "dispatching.hear_elsewhere.is_away": "whether the tram tells its depot, or a stop of another way that it has left",
     "dispatching.take_place.is_located": "whether the receiver gives a place",
     "dispatching.take_place.stands": "what the tram's own machine found, as `stopping` proves it",
     "crossing.decide.dues": "what the crossing's own reckoning says of each train, as `due` proves it",

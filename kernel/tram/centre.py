@@ -103,9 +103,13 @@ def without(centre: Centre, tram: Tram, made_ms: int) -> Centre:
     )
 
 
-def note_elsewhere(centre: Centre, tram: Tram, made_ms: int) -> Centre:
-    """Take what a tram tells from elsewhere: its run has ended, if it was heard on it before (G5, ours)."""
-    if not centre.opens_ms < made_ms <= centre.now_ms:
+def note_elsewhere(centre: Centre, tram: Tram, is_away: bool, made_ms: int) -> Centre:
+    """Take what a tram tells from elsewhere: its run has ended, if it was heard on it before (G5, ours).
+
+    ``is_away``: it has left a stop of the other way, or is in its depot.  Who has not may stand at a platform of this
+    way, where its driver has chosen the way back, or a wrong one.
+    """
+    if not is_away or not centre.opens_ms < made_ms <= centre.now_ms:
         return centre
     if tram in centre.trams and not machine.is_off(centre.trams[tram], made_ms):
         return centre

@@ -116,7 +116,7 @@ def tell_from_elsewhere(day: Given, traffic: Traffic, there: Traffic, now_s: int
         deaf = tram == where.deaf_tram and where.deaf_s <= now_s < where.deaf_s + day.tram_deaf_s
         tells = there.trams[tram, ON] == 0 and not deaf and now_s - body[OFF_S] >= ELSEWHERE_S
         if tells and rng.random() >= where.frames_lost:
-            hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
+            hear_elsewhere(traffic, tram, True, 1_000 * now_s, 1_000 * now_s)
         if body[K_IS] == 1 and now_s - body[OFF_S] >= ASKED_AFTER_S:
             take_off_by_hand(traffic, tram, 1_000 * now_s)
             traffic.row[tally.TAKEN_OFF] += 1

@@ -112,10 +112,10 @@ def forget(traffic: Traffic, tram: int, made_ms: int) -> None:
 
 
 @compiled
-def hear_elsewhere(traffic: Traffic, tram: int, made_ms: int, now_ms: int) -> None:
+def hear_elsewhere(traffic: Traffic, tram: int, is_away: bool, made_ms: int, now_ms: int) -> None:
     """As :func:`kernel.tram.centre.note_elsewhere`."""
     body = traffic.trams[tram]
-    if traffic.known[0] < made_ms <= now_ms and (body[K_IS] == 0 or is_off(known_of(body), made_ms)):
+    if is_away and traffic.known[0] < made_ms <= now_ms and (body[K_IS] == 0 or is_off(known_of(body), made_ms)):
         forget(traffic, tram, made_ms)
 
 
@@ -225,9 +225,9 @@ def first_due_ms(box: Any) -> int:
 
 
 @compiled
-def hear_of_the_other_way(day: Given, there: Traffic, tram: int, made_ms: int, now_ms: int) -> None:
+def hear_of_the_other_way(day: Given, there: Traffic, tram: int, left: bool, made_ms: int, now_ms: int) -> None:
     """Let what a tram told of one way end its run on the other one, if that was before (G5)."""
-    hear_elsewhere(there, tram, made_ms, now_ms)
+    hear_elsewhere(there, tram, left, made_ms, now_ms)
     if day.plant == ANY_WORD_ENDS and there.trams[tram, K_IS] == 1:
         forget(there, tram, made_ms)
 
@@ -250,7 +250,7 @@ def deliver_reports(
         )
         message[R_DUE] = FREE
         hear_report(traffic, tram, report, now_ms)
-        hear_of_the_other_way(day, there, tram, report.made_ms, now_ms)
+        hear_of_the_other_way(day, there, tram, report.left, report.made_ms, now_ms)
         if body[K_IS] == 1 and report.made_ms > body[K_SINCE]:
             body[G_MARK] = max(body[G_MARK], mark(report.stop, report.left))
             if report.stands:

@@ -67,7 +67,7 @@ class Traffic:
     """One moment: GPS time, every tram on the way, what the centre knows, every message ever sent, and the last order.
 
     ``runs``: for each tram a run that was confirmed, until it comes.
-    ``told``, ``told_elsewhere``: what trams have told of the way, and when from elsewhere.
+    ``told``, ``told_elsewhere``: what trams have told of the way, and when from elsewhere, that they were away.
     """
 
     now_ms: int
@@ -187,7 +187,7 @@ def a_report_tells_where_it_is(system: Traffic, tram: Tram, report: Report) -> b
 
 
 def only_who_is_elsewhere_tells_so(system: Traffic, tram: Tram) -> bool:
-    """A tram that is on the way tells nothing of another way or of its depot (G3)."""
+    """A tram that is on the way tells nothing of its depot, and of another way no stop that it has left (G3)."""
     return tram not in system.bodies
 
 
@@ -196,9 +196,9 @@ def only_what_was_told_is_heard(system: Traffic, tram: Tram, told: Report) -> bo
     return (tram, told) in system.told
 
 
-def only_what_was_told_elsewhere_is_heard(system: Traffic, tram: Tram, made_ms: int) -> bool:
-    """And so was what comes from elsewhere (G3)."""
-    return (tram, made_ms) in system.told_elsewhere
+def only_what_was_told_elsewhere_is_heard(system: Traffic, tram: Tram, is_away: bool, made_ms: int) -> bool:
+    """And so was what comes from elsewhere of one that is away (G3)."""
+    return not is_away or (tram, made_ms) in system.told_elsewhere
 
 
 def the_frame_carries_the_order(tram: Tram, order: Order, command: Command) -> bool:
@@ -317,7 +317,7 @@ def tell(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
 
 
 def tell_elsewhere(site: Way, system: Traffic, tram: Tram) -> Traffic:
-    """A tram tells of another way, or from its depot; that too may come at any time (G3)."""
+    """A tram tells that it has left a stop of another way, or is in its depot; that too may come at any time (G3)."""
     if not only_who_is_elsewhere_tells_so(system, tram):
         return system
     return replace(system, told_elsewhere=system.told_elsewhere | {(tram, system.now_ms)})
@@ -340,11 +340,14 @@ def hear_report(site: Way, system: Traffic, tram: Tram, told: Report) -> Traffic
     return replace(system, centre=machine.note_report(system.centre, tram, told))
 
 
-def hear_elsewhere(site: Way, system: Traffic, tram: Tram, made_ms: int) -> Traffic:
-    """What a tram told from elsewhere comes to the centre (G3)."""
-    if not only_what_was_told_elsewhere_is_heard(system, tram, made_ms):
+def hear_elsewhere(site: Way, system: Traffic, tram: Tram, is_away: bool, made_ms: int) -> Traffic:
+    """What a tram told from elsewhere comes to the centre; that it stands at a stop there any tram may tell (G3).
+
+    As one does that stands at a platform of this way, where its driver has chosen another.
+    """
+    if not only_what_was_told_elsewhere_is_heard(system, tram, is_away, made_ms):
         return system
-    return replace(system, centre=machine.note_elsewhere(system.centre, tram, made_ms))
+    return replace(system, centre=machine.note_elsewhere(system.centre, tram, is_away, made_ms))
 
 
 def take_off(site: Way, system: Traffic, tram: Tram) -> Traffic:

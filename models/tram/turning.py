@@ -91,7 +91,7 @@ def begin_runs(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generato
             continue
         if 1_000 * (now_s - body[CONFIRMED_S]) > day.limits.coming_ms:
             take_off_by_hand(traffic, tram, 1_000 * now_s)
-            hear_elsewhere(traffic, tram, 1_000 * now_s, 1_000 * now_s)
+            hear_elsewhere(traffic, tram, True, 1_000 * now_s, 1_000 * now_s)
             if not confirm(traffic, tram, stop, destination(day, traffic, tram), 1_000 * now_s):
                 continue
             body[CONFIRMED_S] = now_s

@@ -270,8 +270,8 @@ def change(chance: Random, centre: Centre, traffic: Traffic, number: int) -> Non
         hear_report(traffic, number, packed(report), centre.now_ms)
         after = dispatcher.note_report(centre, tram, report)
     elif kind == 2:
-        hear_elsewhere(traffic, number, made_ms, centre.now_ms)
-        after = dispatcher.note_elsewhere(centre, tram, made_ms)
+        hear_elsewhere(traffic, number, report.left, made_ms, centre.now_ms)
+        after = dispatcher.note_elsewhere(centre, tram, report.left, made_ms)
     elif kind == 3:
         take_off_by_hand(traffic, number, centre.now_ms)
         after = dispatcher.note_taken_off(centre, tram)

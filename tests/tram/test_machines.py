@@ -228,7 +228,7 @@ class Drawn:
             day.wait(1)
         day.step("tell_elsewhere", tram=tram)
         for made_ms in sorted(made_ms for other, made_ms in day.system.told_elsewhere if other == tram)[-2:]:
-            day.step("hear_elsewhere", tram=tram, made_ms=made_ms)
+            day.step("hear_elsewhere", tram=tram, is_away=True, made_ms=made_ms)
         if chance.random() < 0.5:
             day.step("take_off", tram=tram)
         day.step("take_up", tram=tram, stop=chance.choice((0, 0, 1, 2, 3)), leaves_at=chance.randrange(4, 12))

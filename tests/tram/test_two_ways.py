@@ -25,7 +25,7 @@ LAST, JUNCTION = 9, 6
 LIMITS = DispatchLimits(60_000, 400_000, 90_000, 100_000, 11_000, 18_000, 120_000)
 JOINS = LAST - JUNCTION
 EACH_S = 7
-NoteElsewhere = Callable[[Centre, Tram, int], Centre]
+NoteElsewhere = Callable[[Centre, Tram, bool, int], Centre]
 MayCome = Callable[[Centre, Tram, int], bool]
 
 
@@ -66,7 +66,7 @@ class World:
     lines: list[list[Car]] = field(default_factory=lambda: [[], []])
     cars: list[Car] = field(default_factory=list)
     reports: list[tuple[int, int, Tram, Report]] = field(default_factory=list)
-    words: list[tuple[int, int, Tram, int]] = field(default_factory=list)
+    words: list[tuple[int, int, Tram, bool, int]] = field(default_factory=list)
     orders: list[tuple[int, int, Command]] = field(default_factory=list)
     recovered: int = 0
     joined: int = 0
@@ -94,17 +94,19 @@ class World:
         made_ms = 1_000 * self.now_s
         if car.way < 0:
             for way in range(2):
-                self.words += [(due_s, way, car.name, made_ms) for due_s in self.times_s()]
+                self.words += [(due_s, way, car.name, True, made_ms) for due_s in self.times_s()]
             return
         leaves_at = self.chance.choice((car.leaves_at, car.leaves_at, self.chance.randrange(LAST + 1)))
         report = Report(car.at // 2, car.at % 2 == 1, car.stands, leaves_at, made_ms)
         for due_s in self.times_s():
             self.reports.append((due_s, car.way, car.name, report))
-            self.words.append((due_s, 1 - car.way, car.name, made_ms))
+            self.words.append((due_s, 1 - car.way, car.name, report.left, made_ms))
+            if car.stands and self.chance.random() < 0.1:
+                self.words.append((due_s, car.way, car.name, False, made_ms))
 
     def hear(self) -> None:
-        for _, way, name, made_ms in self.due(self.words):
-            self.centres[way] = self.note_elsewhere(self.centres[way], name, made_ms)
+        for _, way, name, is_away, made_ms in self.due(self.words):
+            self.centres[way] = self.note_elsewhere(self.centres[way], name, is_away, made_ms)
         for _, way, name, report in self.due(self.reports):
             self.centres[way] = dispatcher.note_report(self.centres[way], name, report)
             self.order(way, name)
@@ -235,9 +237,14 @@ def test_trams_recover_and_join() -> None:
     assert sum(world.joined for world in worlds) > 20
 
 
-def any_word(centre: Centre, tram: Tram, made_ms: int) -> Centre:
+def any_word(centre: Centre, tram: Tram, _is_away: bool, made_ms: int) -> Centre:
     """Whatever is told from elsewhere ends a run, however old it is."""
     return dispatcher.without(centre, tram, made_ms)
+
+
+def who_stands(centre: Centre, tram: Tram, _is_away: bool, made_ms: int) -> Centre:
+    """A tram that stands at a stop of the other way is away, as it tells."""
+    return dispatcher.note_elsewhere(centre, tram, is_away=True, made_ms=made_ms)
 
 
 def whenever_it_is_off(centre: Centre, tram: Tram, _stop: int) -> bool:
@@ -247,4 +254,5 @@ def whenever_it_is_off(centre: Centre, tram: Tram, _stop: int) -> bool:
 
 def test_a_centre_without_a_guard_is_seen() -> None:
     assert any(random_world(number, note_elsewhere=any_word).wrong for number in range(10))
+    assert any(random_world(number, note_elsewhere=who_stands).wrong for number in range(20))
     assert any(random_world(number, may_come=whenever_it_is_off).wrong for number in range(20))

@@ -282,8 +282,8 @@ def who_is_on_the_way_is_not_taken_up_anew() -> None:
     day.leave(FIRST)
     day.step("tell_elsewhere", tram=FIRST)
     before = day.system
-    assert day.step("hear_elsewhere", tram=FIRST, made_ms=now_ms) == before
-    assert day.step("hear_elsewhere", tram=FIRST, made_ms=now_ms + 1) == before
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=now_ms) == before
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=now_ms + 1) == before
     assert not day.confirm(FIRST, 0)
     day.wait(1)
     day.off(FIRST)
@@ -294,11 +294,11 @@ def who_is_on_the_way_is_not_taken_up_anew() -> None:
     day.wait(1)
     day.step("tell_elsewhere", tram=FIRST)
     before = day.system
-    assert day.step("hear_elsewhere", tram=FIRST, made_ms=late + 1) == before
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=late + 1) == before
     day.begin(FIRST, 3)
     before = day.system
     assert day.step("tell_elsewhere", tram=FIRST) == before
-    assert day.step("hear_elsewhere", tram=FIRST, made_ms=late + 1) == before
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=late + 1) == before
 
 
 def after_a_start_nobody_recovers_until_the_way_is_known() -> None:

@@ -72,7 +72,7 @@ class Day(Play[Way, Traffic]):
         now_ms = self.system.centre.now_ms
         self.step("tell_elsewhere", tram=tram)
         assert (tram, now_ms) in self.system.told_elsewhere
-        self.step("hear_elsewhere", tram=tram, made_ms=now_ms)
+        self.step("hear_elsewhere", tram=tram, is_away=True, made_ms=now_ms)
         assert tram not in self.system.centre.trams
         assert self.system.centre.elsewhere_ms[tram] == now_ms
 
@@ -80,7 +80,7 @@ class Day(Play[Way, Traffic]):
         """A tram tells from elsewhere before anything counts: the centre has started anew too lately."""
         self.step("tell_elsewhere", tram=tram)
         before = self.system
-        assert self.step("hear_elsewhere", tram=tram, made_ms=before.now_ms) == before
+        assert self.step("hear_elsewhere", tram=tram, is_away=True, made_ms=before.now_ms) == before
 
     def confirm(self, tram: Tram, stop: int, leaves_at: int = TERMINUS) -> bool:
         """The centre is asked for a tram that has told from elsewhere; whether it confirms it."""

@@ -15,7 +15,7 @@ def what_was_told_of_the_other_way_ends_no_run_on_this_one() -> None:
     day.depart(FIRST)
     for _ in range(2):
         before = day.system
-        assert day.step("hear_elsewhere", tram=FIRST, made_ms=told_ms) == before
+        assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=told_ms) == before
     day.come(SECOND, 2, 1, tells=False)
     day.wait(240_000)
     day.tell(SECOND)
@@ -50,7 +50,24 @@ def a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to() -> None:
     assert day.says(SECOND) == RECOVERS
 
 
+def a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known() -> None:
+    """It turns there, or its driver has chosen a wrong way; until it has left nobody recovers to that stop (G5)."""
+    day = two_stops_apart()
+    assert day.says(SECOND) == RECOVERS
+    day.wait(1)
+    before = day.system
+    for tram in (FIRST, SECOND):
+        assert day.step("hear_elsewhere", tram=tram, is_away=False, made_ms=before.now_ms) == before
+        assert tram in day.system.bodies
+        assert day.step("hear_elsewhere", tram=tram, is_away=True, made_ms=before.now_ms) == before
+    day.leave(FIRST)
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=False, made_ms=before.now_ms) == day.system
+    day.wait(1)
+    day.off(FIRST)
+
+
 WITNESSES = (
     what_was_told_of_the_other_way_ends_no_run_on_this_one,
     a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to,
+    a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known,
 )
