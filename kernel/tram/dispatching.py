@@ -46,7 +46,7 @@ class Known:
     ``leaves_at``: the last stop of this way that it comes to, by the farthest destination that was told.
     ``since_ms``: since when the centre has known of this run; what was told before is of another one.
     ``stop``, ``left``: it has reached that stop, and left it.  ``stands``: it stood there.
-    ``arrived_ms``: when that was told first.  ``told_ms``: when it was told last.
+    ``arrived_ms``: when it first told of that stop.  ``told_ms``: when it has told last.
     ``recovery_to``: the stop to which it was last ordered to recover; one that it has reached if to none.
     ``clears``: it comes at the first stop, so all trams that the centre does not know run ahead of it.
     """
@@ -156,9 +156,10 @@ def counts(now_ms: int, known: Known, report: Report) -> bool:
 def reported(known: Known, report: Report) -> Known:
     """Give what is known after a report that counts (G2, G5).
 
-    Of two destinations the farther one counts: the tram may still be on the way then.
+    Of two destinations the farther one counts: the tram may still be on the way then.  It has been at a stop since it
+    first told of it, whether it is seen to stand in each report or not: under a roof it is not, and held no longer.
     """
-    stays = known.stands and known.stop == report.stop
+    stays = is_heard(known) and known.stop == report.stop
     return replace(
         known,
         leaves_at=larger(known.leaves_at, report.leaves_at),

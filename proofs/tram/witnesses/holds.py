@@ -36,6 +36,30 @@ def a_tram_is_held_close_behind() -> None:
     assert day.says(SECOND, Hand.HOLD) == HELD
 
 
+def a_hold_ends_though_the_place_is_lost_now_and_then() -> None:
+    """Under a roof every third report is without GPS; the minute counts from the first report at the stop (G4)."""
+    day = two_stops_apart(since_ms=30_000)
+    arrived_ms = day.known(SECOND).arrived_ms
+    for second in range(7, 57, 7):
+        day.wait(arrived_ms + 1_000 * second - day.system.centre.now_ms)
+        is_seen = second % 3 > 0
+        day.see(SECOND, is_located=is_seen)
+        day.tell(SECOND)
+        assert day.known(SECOND).arrived_ms == arrived_ms
+        assert day.says(SECOND) == (HELD if is_seen else NEITHER)
+    day.wait(arrived_ms + 59_999 - day.system.centre.now_ms)
+    day.see(SECOND)
+    day.tell(SECOND)
+    assert day.says(SECOND) == HELD
+    day.wait(1)
+    assert day.says(SECOND) == NEITHER
+    day.depart(SECOND)
+    assert day.known(SECOND).arrived_ms == arrived_ms
+    day.wait(30_000)
+    day.arrive(SECOND)
+    assert day.known(SECOND).arrived_ms == day.system.centre.now_ms
+
+
 def a_hold_beats_a_recovery() -> None:
     """What comes later counts: a recovery, then a hold by hand, then the recovery once more from the air (G4)."""
     day = two_stops_apart()
@@ -180,6 +204,7 @@ def a_lost_departure_is_made_up_for() -> None:
 
 WITNESSES = (
     a_tram_is_held_close_behind,
+    a_hold_ends_though_the_place_is_lost_now_and_then,
     a_hold_beats_a_recovery,
     a_tram_before_the_next_stop_holds,
     one_behind_is_not_seen_ahead,
