@@ -78,7 +78,7 @@ def restart_ranging_schedule(settings: ChannelSettings, number: int) -> Schedule
 
 
 def restart_start_point(nobody: Train) -> StartPoint:
-    """Begin, or begin anew: no read waits, and a strike may have been missed (X3, T14)."""
+    """Begin, or begin anew: no read waits, and strikes may have been missed (X3, T14)."""
     return StartPoint(
         reader=nobody,
         left_cycles=0,

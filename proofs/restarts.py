@@ -98,7 +98,7 @@ def source() -> str:
             "point",
             StartPoint,
             "nobody: Train",
-            "Begin, or begin anew: no read waits, and a strike may have been missed (X3, T14).",
+            "Begin, or begin anew: no read waits, and strikes may have been missed (X3, T14).",
             persistence.START_POINT,
         ),
     ]

@@ -77,7 +77,8 @@ class Crossing:
     ``starts``: those that have asked to start at a signal inside the start points, and within how many cycles
     none arrives from there.
     ``silent_cycles``: for how long each start point's terminal has told nothing.
-    ``unaccounted``: each track, and whether nobody has seen it empty since the last restart; such a track warns.
+    ``unaccounted``: each track, and whether nobody has seen it empty since the last restart, of the crossing or of a
+    terminal on it; such a track warns.
     ``warns``: lamps and bells.  ``warned_cycles``: how long this warning has lasted.
     """
 
@@ -175,6 +176,14 @@ def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
     return replace(heard, unaccounted=crossing.unaccounted | {track: True})
 
 
+def note_missed(crossing: Crossing, track: CrossingTrack) -> Crossing:
+    """A terminal has started: it may have missed strikes, nobody knows how many (X3, T14, ours).
+
+    So a person has to see its track empty, as after a restart; whoever sees one train leave has not seen the others.
+    """
+    return replace(crossing, unaccounted=crossing.unaccounted | {track: True})
+
+
 def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
     """A train's rear is proved out of the approach, and the train is whole (X4, T14).
 
@@ -227,7 +236,7 @@ def may_start(settings: Settings, crossing: Crossing, train: Train) -> bool:
 
 
 def note_empty(crossing: Crossing, track: CrossingTrack) -> Crossing:
-    """A person on site has seen, since the restart, that a track is empty from its start points to the road (X3, ours).
+    """A person on site has seen a track empty from its start points to the road, since the last restart (X3, ours).
 
     Nothing else accounts for it: who stands in the approach strikes no start point, and is not heard.
     """
@@ -240,7 +249,7 @@ def note_empty(crossing: Crossing, track: CrossingTrack) -> Crossing:
 def must_warn(settings: Settings, crossing: Crossing) -> bool:
     """Tell whether a train asks for the warning, or a terminal is silent: silence means warn (X2, X3, T14).
 
-    So does a track that nobody has accounted for: whom a restart has forgotten may still be there (ours).
+    So does a track that nobody has accounted for: whom a restart has forgotten or missed may still be there (ours).
     """
     return (
         any(asks for _train, asks in crossing.asks.items())

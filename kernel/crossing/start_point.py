@@ -11,8 +11,8 @@ before each detector, nearer than the shortest train is long.  The train whose h
 | a read waits | a strike | | it is of the train that read, and nothing waits |
 | none waits | a strike | | it has a name that nobody has had |
 | a read waits | a cycle | it has waited for ``waits_cycles`` | it waits no more |
-| any | the terminal starts | | nothing waits, a strike may just have been, and one may have been missed |
-| one may have been missed | the terminal is heard | | it tells of a strike by a name that nobody has had |
+| any | the terminal starts | | nothing waits, a strike may just have been, and any number may have been missed |
+| some may have been missed | the terminal is heard | | it tells so first: nobody has accounted for its track |
 
 What a train tells may come late, up to ``told_cycles``, and again.  A strike since then may have been that train's own,
 and the read would wait for the next train's: so it does not count.  A train may turn back between tag and detector; it
@@ -52,7 +52,7 @@ class StartPoint:
     ``reader``: the train whose read waits for its strike.
     ``left_cycles``: for so many more; with 0 none waits.
     ``struck_cycles``: how long ago the last strike was, or the start.
-    ``owes``: since its start it has not told of the strike that it may have missed.
+    ``owes``: since its start it has not told that strikes may have been missed.
     """
 
     reader: Train
@@ -88,7 +88,7 @@ def note_strike(point: StartPoint) -> StartPoint:
 
 
 def note_owed(point: StartPoint) -> StartPoint:
-    """The strike that may have been missed has been told, by a name that nobody has had (X3, ours)."""
+    """The crossing has been told that strikes may have been missed; a person is to see the track empty (X3, ours)."""
     return replace(point, owes=False)
 
 

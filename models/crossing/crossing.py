@@ -32,9 +32,11 @@ class Body:
     ``track``: which it is on.  ``inside``: it has passed the start point, or was let go at a signal inside it.
     ``left_cycles``: within so many cycles it cannot arrive.
     ``was_struck``: history: a terminal told of it, which was not in contact.
-    ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it.
+    ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it, or it
+    was forgotten.
     ``was_known``: history: the crossing knew of it when it last let the arms up.
-    ``forgotten``: history: it was inside when the crossing restarted, and no terminal tells of it again.
+    ``forgotten``: history: it was inside when the crossing restarted, or when a terminal told that it may have missed
+    strikes, and its own had not been told: no terminal tells of it any more.
     """
 
     track: CrossingTrack
@@ -70,9 +72,9 @@ class Level:
     ``told``: history: whom it was told of, by contact or strike, and not yet that they are gone.
     ``starting``: history: those of them that have asked to start at a signal inside the start points, and within
     how many cycles none arrives from there.
-    ``accounted``: history: tracks that a person has seen to be empty since the last restart.
+    ``accounted``: history: tracks that a person has seen to be empty since the last restart, also of their terminals.
     ``restarted``: history: it has restarted, and its warning has not ended since.
-    ``stranger``: history: at its last decision it had heard a terminal of a track that nobody accounted for.
+    ``unseen``: history: at its last decision, or its start, there was a track that nobody had accounted for.
     ``decided``: it has decided for the cycle that begins.
     ``warned_cycles``: history: for how long lamps and bells have gone, through restarts.
     ``lowered_cycles``: for how long its arms have been lowered or held down.
@@ -89,7 +91,7 @@ class Level:
     crossing: Crossing
     accounted: frozenset[CrossingTrack]
     restarted: bool
-    stranger: bool
+    unseen: bool
     decided: bool
     warned_cycles: int
     lowered_cycles: int
@@ -137,7 +139,7 @@ def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -
     """Who has passed a start point without contact is told of when its terminal is next heard, at the latest (X3).
 
     A strike is put down to a train in contact only if that has made it.  Strikes from before a restart are not told
-    again.
+    again, nor are those that a terminal without power has missed: it tells first that there may be some.
     """
     return all(
         train in system.told or body.forgotten
@@ -177,7 +179,7 @@ def a_person_releases_what_is_gone(system: Level, gone: Train) -> bool:
 
 
 def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack) -> bool:
-    """Who accounts for a track has seen it empty since the restart: nobody is left who was on it then (X3)."""
+    """Who accounts for a track has seen it empty since the restart: nobody is left who was forgotten on it (X3)."""
     return all(not body.forgotten for _train, body in system.bodies.items() if body.track == track)
 
 
@@ -215,7 +217,7 @@ def restarted(site: Road, system: Level) -> Level:
         crossing=restart_crossing(site.settings, site.tracks),
         accounted=frozenset(),
         restarted=True,
-        stranger=False,
+        unseen=True,
         decided=False,
         unheard_cycles={track: cycles for track, cycles in system.unheard_cycles.items() if track in site.tracks},
     )
@@ -355,6 +357,21 @@ def hear_terminal(site: Road, system: Level, track: CrossingTrack) -> Level:
     )
 
 
+def hear_what_may_be_missed(site: Road, system: Level, track: CrossingTrack) -> Level:
+    """A terminal has started, and tells that it may have missed strikes: nobody knows whose, or how many (X3, T14)."""
+    return replace(
+        system,
+        bodies={
+            train: replace(body, forgotten=True)
+            if body.track == track and body.inside and train not in system.told
+            else body
+            for train, body in system.bodies.items()
+        },
+        accounted=system.accounted - {track},
+        crossing=machine.note_missed(system.crossing, track),
+    )
+
+
 def tell_gone(site: Road, system: Level, gone: Train, is_whole: bool) -> Level:
     """A train's rear is proved out of the approach, at either end of it (X4, T14)."""
     if not a_whole_train_told_gone_is_gone(system, gone, is_whole):
@@ -412,6 +429,7 @@ def decide(site: Road, system: Level, dues: Map[Train, Due]) -> Level:
                 if train in dues and dues[train] != Due.NOW
                 else body.left_cycles,
                 has_asked=body.has_asked
+                or body.forgotten
                 or (train in system.told and (body.was_struck or train not in dues or dues[train] == Due.NOW)),
                 was_known=train in system.told if opens else body.was_known,
             )
@@ -419,7 +437,7 @@ def decide(site: Road, system: Level, dues: Map[Train, Due]) -> Level:
         },
         crossing=crossing,
         restarted=system.restarted and crossing.warns,
-        stranger=any(track not in system.accounted for track, _cycles in system.unheard_cycles.items()),
+        unseen=any(track not in system.accounted for track, _cycles in system.unheard_cycles.items()),
         decided=True,
         warned_cycles=system.warned_cycles if crossing.warns else 0,
         opened_cycles=0 if opens else system.opened_cycles,

@@ -44,7 +44,7 @@ class AtStartPoint:
     ``in_service``: its settings have been checked.  ``has_power``: the terminal has.
     ``last``: the train whose head passed the tag last, ``passed_cycles`` ago.  ``is_before``: it has not struck since.
     ``struck_cycles``: how long ago the last strike was, whether the terminal noted it or not.
-    ``missed``: history: a train struck without power, and nothing has been told of that.
+    ``missed``: history: how many trains struck without power since the crossing was last told that some may have.
     ``told``: history: the strike that was told last.
     ``point``: the terminal.
     """
@@ -55,7 +55,7 @@ class AtStartPoint:
     passed_cycles: int
     is_before: bool
     struck_cycles: int
-    missed: bool
+    missed: int
     told: Told
     point: StartPoint
 
@@ -141,14 +141,14 @@ def strike_without_power(site: Place, system: AtStartPoint, train: Train) -> AtS
     """A train strikes the detector, and the terminal has no power (X3)."""
     if not who_strikes_has_passed_the_tag(system, train) or system.has_power:
         return system
-    return replace(system, is_before=False, struck_cycles=0, missed=True)
+    return replace(system, is_before=False, struck_cycles=0, missed=system.missed + 1)
 
 
 def tell_what_may_be_missed(site: Place, system: AtStartPoint) -> AtStartPoint:
-    """The terminal is heard, and tells of the strike that it may have missed, if it owes that (X3)."""
+    """The terminal is heard, and tells first that it may have missed strikes, however many, if it owes that (X3)."""
     if not a_terminal_acts_only_with_power(system) or not system.point.owes:
         return system
-    return replace(system, missed=False, point=machine.note_owed(system.point))
+    return replace(system, missed=0, point=machine.note_owed(system.point))
 
 
 def run_a_cycle(site: Place, system: AtStartPoint) -> AtStartPoint:

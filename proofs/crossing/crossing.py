@@ -26,7 +26,6 @@ def nothing_has_happened(site: Road, system: Level) -> bool:
         and system.crossing.warned_cycles == 0
         and system.warned_cycles == 0
         and not system.restarted
-        and not system.stranger
         and not system.decided
         and system.lowered_cycles == 0
         and system.down_cycles == 0
@@ -96,8 +95,8 @@ def silence_warns(site: Road, system: Level) -> bool:
 def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
     """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4).
 
-    Through restarts, too, if it had passed its start point by then.  One that stands at a starting signal inside,
-    and promises to stand until it is let go, is not in the approach.
+    Through restarts, too, if it had passed its start point by then, and where a terminal without power has missed it.
+    One that stands at a starting signal inside, and promises to stand until it is let go, is not in the approach.
     """
     return system.crossing.warns or all(not body.has_asked for _train, body in system.bodies.items())
 
@@ -125,12 +124,11 @@ def after_a_restart_arms_are_held_down(site: Road, system: Level) -> bool:
 
 
 def a_track_that_nobody_accounted_for_warns(site: Road, system: Level) -> bool:
-    """From a restart on, until a person has seen each track empty; and one that settings leave out, once heard (X3)."""
-    return (
-        not system.in_service
-        or system.crossing.warns
-        or (not system.stranger and all(track in system.accounted for track in site.tracks))
-    )
+    """From a restart on until a person has seen each track empty, and from the decision after one of a terminal (X3).
+
+    And a track that settings leave out, from the decision after its terminal was heard.
+    """
+    return not system.in_service or system.crossing.warns or not system.unseen
 
 
 # ---- what it rests on
@@ -201,7 +199,7 @@ def only_a_person_accounts_for_a_track(site: Road, system: Level) -> bool:
 
 
 def who_was_forgotten_keeps_its_track_unaccounted(site: Road, system: Level) -> bool:
-    """Nobody has seen a track empty on which there is somebody from before the restart (X3)."""
+    """Nobody has seen a track empty on which there is somebody whom a restart has forgotten or missed (X3)."""
     return all(body.track not in system.accounted for _train, body in system.bodies.items() if body.forgotten)
 
 
@@ -325,6 +323,7 @@ STEPS = (
     world.make_contact,
     world.hear_strike,
     world.hear_terminal,
+    world.hear_what_may_be_missed,
     world.tell_gone,
     world.release,
     world.account,

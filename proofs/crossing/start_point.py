@@ -18,7 +18,7 @@ def it_is_not_in_service(site: Place, system: AtStartPoint) -> bool:
         and system.passed_cycles == 0
         and system.struck_cycles == 0
         and not system.is_before
-        and not system.missed
+        and system.missed == 0
         and not system.told.is_any
     )
 
@@ -32,8 +32,8 @@ def a_strike_is_put_down_to_who_made_it(site: Place, system: AtStartPoint) -> bo
 
 
 def a_strike_that_was_missed_is_told_of(site: Place, system: AtStartPoint) -> bool:
-    """Who struck while the terminal had no power is owed to the crossing once it has power again (X3, T14)."""
-    return not system.missed or not system.has_power or system.point.owes
+    """While any strike without power is untold the terminal owes it to the crossing, once it has power (X3, T14)."""
+    return system.missed == 0 or not system.has_power or system.point.owes
 
 
 # ---- what it rests on

@@ -13,11 +13,13 @@ from random import Random
 
 import pytest
 
-from kernel.crossing import start_point
+from kernel.crossing import crossing, start_point
 from kernel.crossing.crossing import Train
 from kernel.crossing.start_point import StartPoint, StartPointSettings
 from kernel.names import Tag
 from kernel.restarts import restart_start_point
+from models.crossing.sites import SETTINGS
+from tests.crossing.road import DOWN, UP, Road
 
 TAG_MM = 30_000
 TOLD_S, WAITS_S, CHANGES_S = 2, 20, 60
@@ -52,6 +54,8 @@ class Track:
     free_s: int = 0
     missed: int = 0
     owed: int = 0
+    unknown: int = 0
+    """Strikes that nobody noted, and that the crossing has not been told of."""
     told: list[tuple[Train, Train]] = field(default_factory=list)
 
     @property
@@ -81,6 +85,7 @@ class World:
             self.run(track, now_s)
             if track.point.owes and not self.is_off(track, now_s):
                 track.owed += 1
+                track.unknown = 0
                 track.point = start_point.note_owed(track.point)
 
     def is_off(self, track: Track, now_s: int) -> bool:
@@ -119,6 +124,7 @@ class World:
     def strike(self, track: Track, train: Coming, now_s: int) -> None:
         if self.is_off(track, now_s):
             track.missed += 1
+            track.unknown += 1
             return
         new = Train(f"strike of {train.name}")
         track.told.append((train.name, start_point.striker(track.point, new)))
@@ -156,6 +162,7 @@ def judge(world: World) -> None:
     assert wrong(played(world)) == []
     for track in world.tracks:
         assert track.owed == (1 if track.fails_s < 0 else 2)
+        assert track.unknown == 0
 
 
 @pytest.mark.parametrize("number", range(20))
@@ -230,3 +237,30 @@ def test_who_creeps_for_longer_than_a_read_waits_is_warned_of() -> None:
 def test_settings_under_which_a_read_waits_for_another_train_are_refused() -> None:
     assert start_point.are_lawful(StartPointSettings(Tag("up"), 2, 58, 60))
     assert not start_point.are_lawful(StartPointSettings(Tag("up"), 2, 59, 60))
+
+
+def test_two_trains_that_a_terminal_has_missed_are_both_seen_before_the_road_opens() -> None:
+    """They strike two minutes apart while it has no power, and queue; a person sees the first one leave (X3)."""
+    road = Road()
+    for track in (UP, DOWN):
+        road.crossing = crossing.note_empty(road.crossing, track)
+    road.hear_the_terminals()
+    road.decide({})
+    assert not road.crossing.warns
+    for _ in range(300):
+        road.crossing = crossing.note_heard(road.crossing, DOWN)
+        road.decide({})
+    assert road.warned_s == 300 - SETTINGS.silence_cycles
+    point = restart_start_point(NOBODY)
+    assert point.owes
+    road.crossing = crossing.note_missed(road.crossing, UP)
+    point = start_point.note_owed(point)
+    assert not point.owes
+    road.crossing = crossing.note_released(road.crossing, Train("the first of them"))
+    for _ in range(60):
+        road.hear_the_terminals()
+        road.decide({})
+    assert road.crossing.warns
+    road.crossing = crossing.note_empty(road.crossing, UP)
+    road.decide({})
+    assert not road.crossing.warns

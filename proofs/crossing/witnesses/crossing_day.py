@@ -38,7 +38,7 @@ def new() -> Level:
         crossing=Crossing(asks={}, starts={}, silent_cycles=unheard, unaccounted={}, warns=False, warned_cycles=0),
         accounted=frozenset(),
         restarted=False,
-        stranger=False,
+        unseen=False,
         decided=False,
         warned_cycles=0,
         lowered_cycles=0,

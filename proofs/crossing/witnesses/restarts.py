@@ -22,7 +22,7 @@ def a_start_keeps_the_road_closed() -> None:
     day.account(DOWN)
     assert day.warns()
     day.cycle()
-    assert (day.warns(), day.system.restarted, day.system.stranger) == (False, False, False)
+    assert (day.warns(), day.system.restarted, day.system.unseen) == (False, False, False)
     assert day.system.warned_cycles == 0
 
 
@@ -146,16 +146,16 @@ def a_track_that_settings_leave_out_warns() -> None:
     assert day.system.crossing.unaccounted == {UP: False, DOWN: False, SIDING: True}
     day.step("hear_terminal", track=UP)
     day.cycle()
-    assert (day.warns(), day.system.stranger) == (True, True)
+    assert (day.warns(), day.system.unseen) == (True, True)
     day.step("restart")
-    assert (set(day.system.unheard_cycles), day.system.stranger) == (set(SITE.tracks), False)
+    assert (set(day.system.unheard_cycles), day.system.unseen) == (set(SITE.tracks), True)
     day.account(UP, DOWN)
     day.step("hear_terminal", track=SIDING)
     day.cycle()
-    assert (day.warns(), day.system.stranger) == (True, True)
+    assert (day.warns(), day.system.unseen) == (True, True)
     day.account(SIDING)
     day.cycle()
-    assert (day.warns(), day.system.stranger) == (False, False)
+    assert (day.warns(), day.system.unseen) == (False, False)
 
 
 def a_restart_in_a_warning_is_over_with_it() -> None:
@@ -174,6 +174,54 @@ def a_restart_in_a_warning_is_over_with_it() -> None:
     assert (day.system.lowered_cycles, day.system.warned_cycles) == (3, 8)
 
 
+def several_strikes_that_a_terminal_has_missed_are_seen_out_together() -> None:
+    """Two trains strike while it has no power; who sees one of them leave opens nothing (X3, T14)."""
+    day = Day()
+    for train in (ONE, TWO):
+        day.come(train, contact=False)
+        day.strike(train)
+    day.come(THREE, DOWN, contact=False)
+    day.strike(THREE)
+    day.step("hear_strike", train=THREE)
+    for _ in range(4):
+        day.cycle(heard=(DOWN,))
+    before = day.system
+    assert day.step("hear_terminal", track=UP) == before
+    day.step("hear_what_may_be_missed", track=UP)
+    assert day.system.crossing.unaccounted == {UP: True, DOWN: False}
+    assert day.system.accounted == frozenset({DOWN})
+    assert [day.system.bodies[train].forgotten for train in (ONE, TWO, THREE)] == [True, True, False]
+    day.cycle()
+    assert [day.system.bodies[train].has_asked for train in (ONE, TWO)] == [True, True]
+    day.pass_by(THREE)
+    day.pass_by(ONE)
+    day.step("release", gone=ONE)
+    before = day.system
+    assert day.step("account", track=UP) == before
+    day.cycle()
+    assert (day.warns(), day.system.unseen) == (True, True)
+    assert day.until_it_can_arrive(TWO) == 38
+    assert day.arrive(TWO).warned_cycles == 44
+    day.pass_by(TWO)
+    day.account(UP)
+    day.cycle()
+    assert (day.warns(), day.system.unseen) == (False, False)
+
+
+def who_is_known_is_not_missed() -> None:
+    """A terminal that starts takes nothing from trains that were told of, or have not struck yet (X3)."""
+    day = Day()
+    day.come(ONE)
+    day.strike(ONE)
+    day.come(TWO, contact=False)
+    day.step("hear_what_may_be_missed", track=UP)
+    assert [day.system.bodies[train].forgotten for train in (ONE, TWO)] == [False, False]
+    day.step("hear_what_may_be_missed", track=DOWN)
+    assert day.system.accounted == frozenset()
+    day.cycle((ONE, FAR))
+    assert (day.warns(), day.system.bodies[ONE].has_asked) == (True, False)
+
+
 WITNESSES = (
     a_start_keeps_the_road_closed,
     a_start_is_closed_until_terminals_are_heard,
@@ -184,4 +232,6 @@ WITNESSES = (
     a_strike_is_told_after_the_restart_too,
     a_track_that_settings_leave_out_warns,
     a_restart_in_a_warning_is_over_with_it,
+    several_strikes_that_a_terminal_has_missed_are_seen_out_together,
+    who_is_known_is_not_missed,
 )

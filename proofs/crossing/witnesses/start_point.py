@@ -27,7 +27,7 @@ class Point(Play[Place, AtStartPoint]):
         """Begin."""
         nothing = Told(False, NOBODY, NOBODY, NOBODY)
         point = StartPoint(NOBODY, 0, 0, False)
-        start = AtStartPoint(False, False, NOBODY, 0, False, 0, False, nothing, point)
+        start = AtStartPoint(False, False, NOBODY, 0, False, 0, 0, nothing, point)
         super().__init__(THEORY, Place(settings), start)
         self.step("put_into_service", nobody=NOBODY)
         assert self.system.in_service == self.system.has_power == machine.are_lawful(settings)
@@ -155,7 +155,7 @@ def who_comes_to_the_tag_anew_tells_anew() -> None:
 
 
 def a_strike_without_power_is_told_of_when_power_is_back() -> None:
-    """The terminal does not know of it, and tells of one all the same; what is told to it late does not count (X3)."""
+    """The terminal does not know of it, and tells so all the same; what is told to it late does not count (X3)."""
     point = Point()
     point.come(HEARD)
     point.step("lose_power")
@@ -163,26 +163,40 @@ def a_strike_without_power_is_told_of_when_power_is_back() -> None:
     assert point.step("hear_read", train=HEARD, tag=HERE) == before
     assert point.step("strike", train=HEARD, new=NEW) == before
     point.step("strike_without_power", train=HEARD)
-    assert (point.system.missed, point.system.is_before, point.system.told.is_any) == (True, False, False)
+    assert (point.system.missed, point.system.is_before, point.system.told.is_any) == (1, False, False)
     assert point.system.struck_cycles == 0
     unheard = point.system
     assert point.step("tell_what_may_be_missed") == unheard
     point.cycles(1)
     point.step("restart", nobody=NOBODY)
-    assert (point.system.missed, point.system.point) == (True, StartPoint(NOBODY, 0, 0, True))
+    assert (point.system.missed, point.system.point) == (1, StartPoint(NOBODY, 0, 0, True))
     assert not point.tell(HEARD)
     point.come(UNHEARD, tells=False)
     assert point.strike(UNHEARD) == NEW
     assert point.system.point.owes
     told = point.step("tell_what_may_be_missed")
-    assert (told.missed, told.point.owes) == (False, False)
+    assert (told.missed, told.point.owes) == (0, False)
     assert point.step("tell_what_may_be_missed") == told
 
 
-def a_start_owes_a_strike() -> None:
+def several_strikes_are_missed_without_power() -> None:
+    """One word for all of them: nobody can say how many there were (X3)."""
+    point = Point()
+    point.step("lose_power")
+    for number, train in enumerate((UNHEARD, THIRD), start=1):
+        point.come(train, tells=False)
+        point.step("strike_without_power", train=train)
+        assert point.system.missed == number
+        point.cycles(30)
+    point.step("restart", nobody=NOBODY)
+    assert (point.system.missed, point.system.point.owes) == (2, True)
+    assert point.step("tell_what_may_be_missed").missed == 0
+
+
+def a_start_owes_word_of_strikes() -> None:
     """Even one that missed none (X3)."""
     point = Point(quiet=False)
-    assert (point.system.point.owes, point.system.missed) == (True, False)
+    assert (point.system.point.owes, point.system.missed) == (True, 0)
     point.step("tell_what_may_be_missed")
     assert not point.system.point.owes
 
@@ -265,7 +279,7 @@ def without_power_a_terminal_hears_and_tells_nothing() -> None:
 def what_is_not_owed_is_not_told() -> None:
     """A terminal that owes nothing has missed nothing; of one that has, history would not be rid of it so (X3)."""
     point = Point()
-    lost = replace(point.system, missed=True)
+    lost = replace(point.system, missed=1)
     assert not lost.point.owes
     assert world.tell_what_may_be_missed(point.site, lost) is lost
 
@@ -279,7 +293,8 @@ WITNESSES = (
     who_turns_back_before_the_detector_takes_no_strike_upon_itself,
     who_comes_to_the_tag_anew_tells_anew,
     a_strike_without_power_is_told_of_when_power_is_back,
-    a_start_owes_a_strike,
+    several_strikes_are_missed_without_power,
+    a_start_owes_word_of_strikes,
     settings_are_checked,
     what_nature_does_not_do_does_not_happen,
     every_number_fits_into_64_bits,
