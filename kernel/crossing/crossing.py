@@ -29,6 +29,8 @@ from kernel.maps import Map
 LEAST_DOWN_MS = 15_000
 """From barriers down to the arrival, never less (003, 2.1, note 2; X5)."""
 
+Signal = NewType("Signal", str)
+"""A starting signal, at which trains stand until they are let go (X4)."""
 Train = NewType("Train", str)
 """A train in contact, or one that a terminal has told of: it gives each a name that nobody has had (X1, X3)."""
 CrossingTrack = NewType("CrossingTrack", str)
@@ -67,6 +69,24 @@ class Settings:
     reopening_cycles: int
     silence_cycles: int
     start_cycles: int
+
+
+@dataclass(frozen=True)
+class Signals:
+    """What is written of starting signals for a road.
+
+    ``before``: those whose train faces the road, and that lie between the two.
+    """
+
+    before: frozenset[Signal]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What a train tells that promises to stand: at which signal, and whether it is whole (T3, X4)."""
+
+    signal: Signal
+    is_whole: bool
 
 
 @dataclass(frozen=True)
@@ -205,12 +225,17 @@ def note_released(crossing: Crossing, gone: Train) -> Crossing:
 # ---- trains that begin their runs inside the start points
 
 
-def note_standing(crossing: Crossing, train: Train) -> Crossing:
+def note_standing(signals: Signals, crossing: Crossing, train: Train, standing: Standing) -> Crossing:
     """A train promises to stand at its starting signal until it is let go: so it is not on its way (X4, ours).
+
+    Who stands at a signal that does not lie before this road may stand across the road, or before both; and of a train
+    that is not whole a part may be on its way.
 
     Once it has asked to start, its promise may be an old one and counts no more; a person withdraws what it asked.
     """
-    return crossing if train in crossing.starts else note_released(crossing, train)
+    if standing.signal not in signals.before or not standing.is_whole or train in crossing.starts:
+        return crossing
+    return note_released(crossing, train)
 
 
 def note_start(crossing: Crossing, train: Train, run_cycles: int) -> Crossing:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Signal, Signals, Standing, Train
 from kernel.maps import Map
 from kernel.restarts import restart_crossing
 from models.measures import greater
@@ -19,10 +19,14 @@ from models.measures import greater
 
 @dataclass(frozen=True)
 class Road:
-    """What does not change: the settings of the crossing, and its tracks (X5)."""
+    """What does not change: the settings of the crossing, its tracks, and the starting signals before it (X5).
+
+    ``signals``: a train that stands at one of them faces the road, and the road lies beyond the signal.
+    """
 
     settings: Settings
     tracks: frozenset[CrossingTrack]
+    signals: Signals
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,8 @@ class Body:
 
     ``track``: which it is on.  ``inside``: it has passed the start point, or was let go at a signal inside it.
     ``left_cycles``: within so many cycles it cannot arrive.
+    ``is_on_road``: it has come to the road, and its rear is not past it yet.
+    ``is_whole``: nothing has parted from it.
     ``was_struck``: history: a terminal told of it, which was not in contact.
     ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it, or it
     was forgotten.
@@ -42,6 +48,8 @@ class Body:
     track: CrossingTrack
     inside: bool
     left_cycles: int
+    is_on_road: bool
+    is_whole: bool
     was_struck: bool
     has_asked: bool
     was_known: bool
@@ -153,9 +161,23 @@ def who_stands_at_a_starting_signal_was_not_let_go(system: Level, train: Train) 
     return train in system.bodies and train not in system.starting
 
 
-def only_who_stands_promises_to_stand(system: Level, train: Train) -> bool:
-    """A promise is of a train that stands at a starting signal, or that has asked to start there since (X3)."""
-    return train not in system.bodies or not system.bodies[train].inside or train in system.starting
+def who_stands_before_the_road_is_not_on_it(system: Level, train: Train) -> bool:
+    """Of a train that stands at a signal before the road, facing it, no part is on the road (X3)."""
+    return not system.bodies[train].is_on_road
+
+
+def only_who_stands_promises_to_stand(site: Road, system: Level, train: Train, standing: Standing) -> bool:
+    """Who tells that it stands, whole, at a signal before this road does so, or has asked to start there since (X3).
+
+    Who is not whole, or stands at any other signal, may tell so wherever it is.
+    """
+    return (
+        standing.signal not in site.signals.before
+        or not standing.is_whole
+        or train not in system.bodies
+        or not system.bodies[train].inside
+        or train in system.starting
+    )
 
 
 def a_decision_begins_each_cycle(system: Level) -> bool:
@@ -236,6 +258,8 @@ def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cyc
         track,
         inside=False,
         left_cycles=left_cycles,
+        is_on_road=False,
+        is_whole=True,
         was_struck=False,
         has_asked=False,
         was_known=False,
@@ -259,7 +283,15 @@ def arrive(site: Road, system: Level, train: Train) -> Level:
         return system
     body = system.bodies[train]
     last = Arrived(True, system.warned_cycles, system.down_cycles, body.was_known, system.opened_cycles)
-    return replace(system, last=last)
+    bodies = system.bodies | {train: replace(body, is_on_road=True)}
+    return replace(system, bodies=bodies, last=last)
+
+
+def part(site: Road, system: Level, train: Train) -> Level:
+    """A coupling breaks; what is left behind may be anywhere, and run (X4)."""
+    if train not in system.bodies:
+        return system
+    return replace(system, bodies=system.bodies | {train: replace(system.bodies[train], is_whole=False)})
 
 
 def leave(site: Road, system: Level, gone: Train) -> Level:
@@ -275,20 +307,27 @@ def without(starting: Map[Train, int], gone: Train) -> Map[Train, int]:
     return {train: cycles for train, cycles in starting.items() if train != gone}
 
 
-def come_to_stand(site: Road, system: Level, train: Train) -> Level:
-    """A train stands at a starting signal, inside its start point: from there it is not on its way (X3)."""
+def come_to_stand(site: Road, system: Level, train: Train, signal: Signal) -> Level:
+    """A train stands at a starting signal, inside its start point: from there it is not on its way (X3).
+
+    At another road's signal it is as much on its way as anywhere, and so is one that has parted.
+    """
     if not who_stands_at_a_starting_signal_was_not_let_go(system, train):
         return system
     body = system.bodies[train]
+    if signal not in site.signals.before or not body.is_whole:
+        return system
+    if not who_stands_before_the_road_is_not_on_it(system, train):
+        return system
     stands = replace(body, inside=False, has_asked=body.has_asked and not body.forgotten, forgotten=False)
     return replace(system, bodies=system.bodies | {train: stands})
 
 
-def promise_to_stand(site: Road, system: Level, train: Train) -> Level:
+def promise_to_stand(site: Road, system: Level, train: Train, standing: Standing) -> Level:
     """It promises to stand there until it is let go, again and again; or an old promise of it comes (X4)."""
-    if not only_who_stands_promises_to_stand(system, train):
+    if not only_who_stands_promises_to_stand(site, system, train, standing):
         return system
-    counts = train not in system.starting
+    counts = standing.signal in site.signals.before and standing.is_whole and train not in system.starting
     return replace(
         system,
         bodies={
@@ -296,7 +335,7 @@ def promise_to_stand(site: Road, system: Level, train: Train) -> Level:
             for other, body in system.bodies.items()
         },
         told=system.told - {train} if counts else system.told,
-        crossing=machine.note_standing(system.crossing, train),
+        crossing=machine.note_standing(site.signals, system.crossing, train, standing),
     )
 
 

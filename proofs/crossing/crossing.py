@@ -96,7 +96,8 @@ def warning_ends_only_with_the_rear_past(site: Road, system: Level) -> bool:
     """While a train that was warned of is in the approach, or a part of it, the warning lasts (X4).
 
     Through restarts, too, if it had passed its start point by then, and where a terminal without power has missed it.
-    One that stands at a starting signal inside, and promises to stand until it is let go, is not in the approach.
+    One that stands at a starting signal before the road, whole, and promises to stand until it is let go, is not in the
+    approach.
     """
     return system.crossing.warns or all(not body.has_asked for _train, body in system.bodies.items())
 
@@ -316,6 +317,7 @@ STEPS = (
     world.come,
     world.pass_start_point,
     world.leave,
+    world.part,
     world.come_to_stand,
     world.promise_to_stand,
     world.ask_to_start,

@@ -16,7 +16,7 @@ import pytest
 from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from kernel.crossing.crossing import Due, Train
+from kernel.crossing.crossing import Due, Signal, Signals, Standing, Train
 from models.crossing.sites import SETTINGS
 from tests.crossing.road import DOWN, UP, Road
 
@@ -26,6 +26,8 @@ START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
 BOUNDS = ArrivalBounds(LINE_MM_S * 1_000, GAIN_MM_S2 * 1_000, 1_000, SETTINGS.warning_cycles, 3, 1, 3_000)
 NEVER_MM = 10**9
 """A train that is to stand there runs on."""
+BETWEEN = {1: Signal("between, before the second road"), -1: Signal("between, before the first road")}
+"""The starting signals between both roads, by the direction of who stands at them."""
 STANDS, PASSES = Train("stands between"), Train("passes")
 
 
@@ -34,6 +36,7 @@ class RoadAt(Road):
     """A crossing at ``at_mm`` of the line."""
 
     at_mm: int
+    signals: Signals
     followed: Followed | None = None
     heads: list[tuple[Train, int, int]] = field(default_factory=list)
     gone: set[Train] = field(default_factory=set)
@@ -66,7 +69,8 @@ class Two:
 
     ``stands_mm``: so far beyond the first road the train stands, for ``stands_s``; ``turns``: then it turns back.
     ``radio``: it is in contact.  ``passes_s``: when the other one comes, from beyond the second road; never, if -1.
-    ``forgets``: whoever is past one road is told gone to both.
+    ``forgets``: whoever is past one road is told gone to both.  ``is_whole``: the train that stands knows that it is.
+    ``open_under``: seconds in which a road was open with the train across it.
     """
 
     apart_mm: int
@@ -76,6 +80,8 @@ class Two:
     radio: bool = True
     passes_s: int = -1
     forgets: bool = False
+    is_whole: bool = True
+    open_under: int = 0
     now_s: int = 0
     head_mm: int = -2_500_000
     speed_mm_s: int = 20_000
@@ -87,7 +93,8 @@ class Two:
     roads: tuple[RoadAt, RoadAt] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.roads = (RoadAt(0), RoadAt(self.apart_mm))
+        first, second = Signals(frozenset({BETWEEN[-1]})), Signals(frozenset({BETWEEN[1]}))
+        self.roads = (RoadAt(0, first), RoadAt(self.apart_mm, second))
 
     @property
     def ahead(self) -> RoadAt:
@@ -99,10 +106,14 @@ class Two:
             dues = self.follow(road)
             self.strike(road)
             road.decide(dues)
+            self.open_under += self.is_across(road) and not road.crossing.warns
         self.stand()
         self.run()
         self.pass_by()
         self.now_s += 1
+
+    def is_across(self, road: RoadAt) -> bool:
+        return -LENGTH_MM < self.way_mm(road) < 0
 
     def way_mm(self, road: RoadAt) -> int:
         return (road.at_mm - self.head_mm) * self.direction
@@ -138,7 +149,8 @@ class Two:
         self.stood_s += 1
         for road in self.roads:
             road.followed = None
-            road.crossing = machine.note_standing(road.crossing, STANDS)
+            standing = Standing(BETWEEN[self.direction], self.is_whole)
+            road.crossing = machine.note_standing(road.signals, road.crossing, STANDS, standing)
         if self.stood_s < self.stands_s:
             return
         if self.turns and not self.asked:
@@ -202,6 +214,7 @@ def judge(world: Two) -> None:
     """Every head found warning and arms as written; who ran over a road was met there, and nothing latches."""
     world.seconds(1_200)
     assert late(world) == []
+    assert world.open_under == 0
     over = [sum(train == STANDS for train, _, _ in road.heads) for road in world.roads]
     assert over == ([2, 0] if world.turns else [1, 1])
     assert [not road.crossing.warns for road in world.roads] == [True, True]
@@ -231,6 +244,24 @@ def test_another_train_passes_over_both_roads_meanwhile(turns: bool) -> None:
         judge(Two(400_000, 340_000, 100, turns, passes_s=passes_s))
 
 
+@pytest.mark.parametrize("radio", [True, False])
+@pytest.mark.parametrize("stands_mm", [20_000, 60_000, LENGTH_MM - 1])
+def test_a_train_that_stands_across_the_first_road_keeps_it_closed(radio: bool, stands_mm: int) -> None:
+    """It promises to stand at the signal before the second one, and that one alone opens."""
+    world = Two(400_000, stands_mm, stands_s=200, turns=False, radio=radio).seconds(250)
+    assert world.stands()
+    assert [road.crossing.warns for road in world.roads] == [True, False]
+    judge(world)
+
+
+def test_a_train_that_is_not_whole_keeps_the_road_closed_that_it_stands_before() -> None:
+    """What has parted from it may be on its way (X4)."""
+    for is_whole in (True, False):
+        world = Two(400_000, 340_000, stands_s=300, turns=False, radio=False, is_whole=is_whole).seconds(300)
+        assert world.stands()
+        assert world.roads[1].crossing.warns is not is_whole
+
+
 def test_who_is_past_one_road_is_not_past_the_other() -> None:
     """A rear that is told gone to both roads leaves the second one open under a train that runs on."""
     for radio in (True, False):
@@ -244,11 +275,12 @@ def test_who_is_past_one_road_is_not_past_the_other() -> None:
 def random_world(number: int) -> Two:
     chance = Random(number)
     apart_mm = chance.randrange(250_000, 900_000)
+    stands_mm = chance.randrange(20_000, apart_mm - 20_000)
     return Two(
         apart_mm=apart_mm,
-        stands_mm=chance.randrange(LENGTH_MM + 20_000, apart_mm - 20_000),
+        stands_mm=stands_mm,
         stands_s=chance.randrange(1, 200),
-        turns=chance.random() < 0.5,
+        turns=chance.random() < 0.5 and stands_mm >= LENGTH_MM + 20_000,
         radio=chance.random() < 0.7,
         passes_s=chance.choice((-1, chance.randrange(1, 500))),
     )

@@ -16,7 +16,7 @@ import pytest
 from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
-from kernel.crossing.crossing import Crossing, Due, Settings, Train
+from kernel.crossing.crossing import Crossing, Due, Settings, Signal, Signals, Standing, Train
 from models.crossing.sites import SETTINGS
 from tests.crossing.road import DOWN, UP, Road, restarted
 
@@ -25,6 +25,8 @@ LENGTH_MM = 120_000
 START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
 LATEST_S = 3
 BOUNDS = ArrivalBounds(LINE_MM_S * 1_000, GAIN_MM_S2 * 1_000, 1_000, SETTINGS.warning_cycles, 3, 1, 3_000)
+BESIDE = Signal("beside the road, before it")
+SIGNALS = Signals(frozenset({BESIDE}))
 TURNS, PASSES = Train("turns"), Train("passes")
 MayStart = Callable[[Settings, Crossing, Train], bool]
 
@@ -108,7 +110,7 @@ class World(Road):
         self.air = [(due_s, what) for due_s, what in self.air if due_s > self.now_s]
         for what in arrived:
             if what == "promise":
-                self.crossing = machine.note_standing(self.crossing, TURNS)
+                self.crossing = machine.note_standing(SIGNALS, self.crossing, TURNS, Standing(BESIDE, True))
             elif what == "ask" and not self.let_go:
                 self.crossing = machine.note_start(self.crossing, TURNS, self.run_cycles)
             elif what == "go" and self.started_s < 0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Signal, Signals, Train
 from models.crossing.crossing import Arrived, Body, Level, Road
 from proofs.crossing.crossing import THEORY
 from proofs.onboard.witnesses.play import Play
@@ -24,7 +24,8 @@ SETTINGS = Settings(
     start_cycles=44,
 )
 """A cycle of a second; 15 s to barriers down and then 25 s: the standard, and 5 s more."""
-SITE = Road(SETTINGS, frozenset({UP, DOWN}))
+STATION, BEYOND = Signal("the station's, before the road"), Signal("before the next road")
+SITE = Road(SETTINGS, frozenset({UP, DOWN}), Signals(frozenset({STATION})))
 
 
 def new() -> Level:
@@ -55,7 +56,7 @@ class Day(Play[Road, Level]):
 
     def __init__(self, settings: Settings = SETTINGS, *, opened: bool = True) -> None:
         """Begin."""
-        super().__init__(THEORY, Road(settings, SITE.tracks), new())
+        super().__init__(THEORY, Road(settings, SITE.tracks, SITE.signals), new())
         self.step("put_into_service")
         assert self.system.in_service == machine.are_lawful(settings)
         if opened and self.system.in_service:
@@ -75,7 +76,7 @@ class Day(Play[Road, Level]):
     def come(self, train: Train, track: CrossingTrack = UP, *, contact: bool = True) -> None:
         """A train comes, in contact if not told otherwise."""
         self.step("come", train=train, track=track, left_cycles=0)
-        assert self.system.bodies[train] == Body(track, False, 0, False, False, False, False)
+        assert self.system.bodies[train] == Body(track, False, 0, False, True, False, False, False, False)
         if contact:
             self.step("make_contact", train=train)
             assert self.system.crossing.asks[train] is False
@@ -112,6 +113,7 @@ class Day(Play[Road, Level]):
         assert self.system.last == Arrived(
             True, before.warned_cycles, self.system.down_cycles, body.was_known, self.system.opened_cycles
         )
+        assert self.system.bodies[train] == replace(body, is_on_road=True)
         return self.system.last
 
     def pass_by(self, train: Train) -> None:

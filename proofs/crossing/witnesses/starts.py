@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Due, Train
-from proofs.crossing.witnesses.crossing_day import DOWN, ONE, TWO, UP, Day
+from kernel.crossing.crossing import Due, Standing, Train
+from models.crossing import crossing as world
+from proofs.crossing.witnesses.crossing_day import BEYOND, DOWN, ONE, STATION, TWO, UP, Day
 
 NOW = Due.NOW
 RUN_CYCLES = 9
@@ -65,24 +68,24 @@ def who_stands_and_promises_keeps_no_road_closed() -> None:
     day.come(ONE)
     day.strike(ONE)
     day.cycle((ONE, NOW))
-    day.step("come_to_stand", train=ONE)
+    day.step("come_to_stand", train=ONE, signal=STATION)
     assert (day.system.bodies[ONE].inside, day.system.bodies[ONE].has_asked) == (False, True)
     for _ in range(100):
         day.cycle((ONE, NOW))
         assert day.warns()
-    day.step("promise_to_stand", train=ONE)
+    day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
     assert (day.system.told, dict(day.system.crossing.asks.items())) == (frozenset(), {})
     day.cycle()
     assert not day.warns()
     day.step("make_contact", train=ONE)
     day.cycle((ONE, NOW))
     assert day.warns()
-    day.step("promise_to_stand", train=ONE)
+    day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
     day.cycle()
     assert not day.warns()
     day.come(TWO)
     day.cycle((TWO, NOW))
-    day.step("promise_to_stand", train=ONE)
+    day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
     day.cycle((TWO, NOW))
     assert day.warns()
 
@@ -92,14 +95,14 @@ def a_promise_counts_no_more_once_the_train_has_asked() -> None:
     day = Day()
     day.come(ONE, contact=False)
     asked(day, ONE)
-    day.step("promise_to_stand", train=ONE)
+    day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
     assert day.system.crossing.asks[ONE] is True
     while not is_let_go(day, ONE):
         day.cycle()
-    day.step("promise_to_stand", train=ONE)
+    day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
     assert (day.system.told, day.system.starting) == (frozenset({ONE}), {ONE: RUN_CYCLES})
     before = day.system
-    assert day.step("come_to_stand", train=ONE) == before
+    assert day.step("come_to_stand", train=ONE, signal=STATION) == before
     for _ in range(RUN_CYCLES + 50):
         day.cycle()
         assert day.warns()
@@ -175,8 +178,123 @@ def a_train_that_comes_and_goes_asks_for_itself_alone() -> None:
     day.come(ONE)
     day.strike(ONE)
     inside = day.system
-    assert day.step("promise_to_stand", train=ONE) == inside
-    assert day.step("come_to_stand", train=TWO) == inside
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True)) == inside
+    assert day.step("come_to_stand", train=TWO, signal=STATION) == inside
+
+
+def who_stands_across_the_road_keeps_it_closed() -> None:
+    """Its head stands at the next road's signal, and its promise is of that one alone (X4)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    day.until_it_can_arrive(ONE)
+    day.arrive(ONE)
+    there = day.system
+    for signal in (BEYOND, STATION):
+        assert day.step("come_to_stand", train=ONE, signal=signal) == there
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True)) == there
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(BEYOND, True)) == there
+    for _ in range(100):
+        day.cycle()
+        assert day.warns()
+    day.pass_by(ONE)
+    day.cycle()
+    assert not day.warns()
+
+
+def who_has_the_road_before_its_signal_keeps_it_closed() -> None:
+    """It stops short of the road, and may draw up to the signal beyond it (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.strike(ONE)
+    day.cycle((ONE, NOW))
+    stands = day.step("come_to_stand", train=ONE, signal=BEYOND)
+    assert stands.bodies[ONE].inside
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(BEYOND, True)) == stands
+    day.cycle((ONE, NOW))
+    assert day.warns()
+    day.step("come_to_stand", train=ONE, signal=STATION)
+    stands = day.system
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(BEYOND, True)) == stands
+    day.cycle((ONE, NOW))
+    assert day.warns()
+
+
+def who_has_parted_keeps_the_road_closed() -> None:
+    """Its front stands at the signal before the road, and knows that it is not whole (X4)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    day.cycle()
+    before = day.system
+    assert day.step("part", train=TWO) == before
+    parted = day.step("part", train=ONE)
+    assert not parted.bodies[ONE].is_whole
+    assert day.step("come_to_stand", train=ONE, signal=STATION) == parted
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(STATION, False)) == parted
+    assert day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True)) == parted
+    day.cycle()
+    assert day.warns()
+    day.come(TWO, DOWN)
+    day.step("promise_to_stand", train=TWO, standing=Standing(STATION, False))
+    assert TWO in day.system.crossing.asks
+    day.step("promise_to_stand", train=TWO, standing=Standing(STATION, True))
+    assert TWO not in day.system.crossing.asks
+
+
+def what_one_train_does_changes_no_other() -> None:
+    """It arrives, parts, stands and promises for itself alone (X3, X4)."""
+    day = Day()
+    for train, track in ((ONE, UP), (TWO, DOWN)):
+        day.come(train, track, contact=False)
+        day.strike(train)
+        day.step("hear_strike", train=train)
+    day.cycle()
+    day.step("come_to_stand", train=TWO, signal=STATION)
+    assert set(day.system.bodies) == {ONE, TWO}
+    day.step("promise_to_stand", train=TWO, standing=Standing(STATION, True))
+    assert [(day.system.bodies[each].was_struck, day.system.bodies[each].has_asked) for each in (ONE, TWO)] == [
+        (True, True),
+        (False, False),
+    ]
+    day.until_it_can_arrive(ONE)
+    day.arrive(ONE)
+    day.step("part", train=ONE)
+    assert [(body.is_on_road, body.is_whole) for _train, body in day.system.bodies.items()] == [
+        (True, False),
+        (False, True),
+    ]
+
+
+def who_was_forgotten_and_stands_is_looked_at_no_more() -> None:
+    """A person who finds it standing at the signal accounts for its track (X3)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("restart")
+    before = day.system
+    assert day.step("account", track=UP) == before
+    stands = day.step("come_to_stand", train=ONE, signal=STATION)
+    assert (stands.bodies[ONE].forgotten, stands.bodies[ONE].inside) == (False, False)
+    day.account(UP, DOWN)
+    day.cycle()
+    assert not day.warns()
+
+
+def what_may_be_told_of_standing() -> None:
+    """At another road's signal, or not whole, anything; after an ask, an old promise (X4)."""
+    day = Day()
+    day.come(ONE)
+    day.strike(ONE)
+    site, system = day.site, day.system
+    there = Standing(STATION, True)
+    assert not world.only_who_stands_promises_to_stand(site, system, ONE, there)
+    assert world.only_who_stands_promises_to_stand(site, system, TWO, there)
+    assert world.only_who_stands_promises_to_stand(site, system, ONE, Standing(BEYOND, True))
+    assert world.only_who_stands_promises_to_stand(site, system, ONE, Standing(STATION, False))
+    assert world.only_who_stands_promises_to_stand(site, replace(system, starting={ONE: RUN_CYCLES}), ONE, there)
 
 
 WITNESSES = (
@@ -186,4 +304,10 @@ WITNESSES = (
     a_restart_forgets_who_asked_to_start,
     a_signal_far_enough_lets_go_at_once,
     a_train_that_comes_and_goes_asks_for_itself_alone,
+    who_stands_across_the_road_keeps_it_closed,
+    who_has_the_road_before_its_signal_keeps_it_closed,
+    who_has_parted_keeps_the_road_closed,
+    what_one_train_does_changes_no_other,
+    who_was_forgotten_and_stands_is_looked_at_no_more,
+    what_may_be_told_of_standing,
 )
