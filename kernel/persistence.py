@@ -59,6 +59,9 @@ CROSSING: Mapping[str, tuple[Memory, str]] = {
     "starts": (Memory.LOST, "{}"),
     "silent_cycles": (Memory.LOST, "{track: settings.silence_cycles + 1 for track in tracks}"),
     "unaccounted": (Memory.LOST, "{track: True for track in tracks}"),
+    "numbers": (Memory.LOST, "{}"),
+    "looks": (Memory.LOST, "{track: number for track in tracks}"),
+    "number": (Memory.COUNTED, "number"),
     "warns": (Memory.LOST, "True"),
     "warned_cycles": (Memory.LOST, "settings.bell_cycles"),
 }

@@ -55,13 +55,16 @@ def restart_terminal(terminal: Terminal, life: TerminalLife) -> Terminal:
     )
 
 
-def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack]) -> Crossing:
+def restart_crossing(settings: Settings, tracks: frozenset[CrossingTrack], number: int) -> Crossing:
     """Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5)."""
     return Crossing(
         asks={},
         starts={},
         silent_cycles={track: settings.silence_cycles + 1 for track in tracks},
         unaccounted={track: True for track in tracks},
+        numbers={},
+        looks={track: number for track in tracks},
+        number=number,
         warns=True,
         warned_cycles=settings.bell_cycles,
     )

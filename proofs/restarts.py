@@ -81,7 +81,7 @@ def source() -> str:
             "restart_crossing",
             "crossing",
             Crossing,
-            "settings: Settings, tracks: frozenset[CrossingTrack]",
+            "settings: Settings, tracks: frozenset[CrossingTrack], number: int",
             "Begin, or begin anew: warn, arms down, until each track is accounted for (X3, X5).",
             persistence.CROSSING,
         ),

@@ -28,6 +28,8 @@ from kernel.maps import Map
 
 LEAST_DOWN_MS = 15_000
 """From barriers down to the arrival, never less (003, 2.1, note 2; X5)."""
+NONE = 0
+"""The number of nothing that the crossing has noted."""
 
 Signal = NewType("Signal", str)
 """A starting signal, at which trains stand until they are let go (X4)."""
@@ -99,6 +101,8 @@ class Crossing:
     ``silent_cycles``: for how long each start point's terminal has told nothing.
     ``unaccounted``: each track, and whether nobody has seen it empty since the last restart, of the crossing or of a
     terminal on it; such a track warns.
+    ``numbers``: by which number it has noted each train; ``looks``: by which it asks a person to look at each track.
+    ``number``: the newest of them, through all starts.
     ``warns``: lamps and bells.  ``warned_cycles``: how long this warning has lasted.
     """
 
@@ -106,6 +110,9 @@ class Crossing:
     starts: Map[Train, int]
     silent_cycles: Map[CrossingTrack, int]
     unaccounted: Map[CrossingTrack, bool]
+    numbers: Map[Train, int]
+    looks: Map[CrossingTrack, int]
+    number: int
     warns: bool
     warned_cycles: int
 
@@ -162,6 +169,40 @@ def may_go_faster(bounds: ArrivalBounds, followed: Followed, asked_um: int, reop
     return due(bounds, arrival.held_to(bounds, followed, asked_um), reopening_cycles) == Due.FAR
 
 
+# ---- numbers: whoever says later that something is over says of what
+
+
+def numbered(crossing: Crossing, train: Train) -> Crossing:
+    """Give a train that was not known a number that nothing has had (X4, ours)."""
+    number = crossing.number + 1
+    return replace(crossing, numbers=crossing.numbers | {train: number}, number=number)
+
+
+def asking(crossing: Crossing, track: CrossingTrack) -> Crossing:
+    """Ask a person to look at a track, by a number that nothing has had: what was seen before does not count (X3)."""
+    number = crossing.number + 1
+    return replace(
+        crossing,
+        unaccounted=crossing.unaccounted | {track: True},
+        looks=crossing.looks | {track: number},
+        number=number,
+    )
+
+
+def number_of(crossing: Crossing, train: Train) -> int:
+    """Give the number by which a train is noted, as terminals are told and people on site are shown (X4, ours)."""
+    if train not in crossing.numbers:
+        return NONE
+    return crossing.numbers[train]
+
+
+def look_of(crossing: Crossing, track: CrossingTrack) -> int:
+    """Give the number by which a person is asked to look at a track, as is shown on site (X3, ours)."""
+    if track not in crossing.looks:
+        return NONE
+    return crossing.looks[track]
+
+
 # ---- what the crossing is told
 
 
@@ -172,7 +213,7 @@ def note_contact(crossing: Crossing, train: Train) -> Crossing:
     """
     if train in crossing.asks:
         return crossing
-    return replace(crossing, asks=crossing.asks | {train: False})
+    return replace(numbered(crossing, train), asks=crossing.asks | {train: False})
 
 
 def note_struck(crossing: Crossing, train: Train) -> Crossing:
@@ -182,7 +223,7 @@ def note_struck(crossing: Crossing, train: Train) -> Crossing:
     """
     if train in crossing.asks:
         return crossing
-    return replace(crossing, asks=crossing.asks | {train: True})
+    return replace(numbered(crossing, train), asks=crossing.asks | {train: True})
 
 
 def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
@@ -193,7 +234,7 @@ def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
     heard = replace(crossing, silent_cycles=crossing.silent_cycles | {track: 0})
     if track in crossing.unaccounted:
         return heard
-    return replace(heard, unaccounted=crossing.unaccounted | {track: True})
+    return asking(heard, track)
 
 
 def note_missed(crossing: Crossing, track: CrossingTrack) -> Crossing:
@@ -201,24 +242,33 @@ def note_missed(crossing: Crossing, track: CrossingTrack) -> Crossing:
 
     So a person has to see its track empty, as after a restart; whoever sees one train leave has not seen the others.
     """
-    return replace(crossing, unaccounted=crossing.unaccounted | {track: True})
+    return asking(crossing, track)
 
 
-def note_gone(crossing: Crossing, gone: Train, is_whole: bool) -> Crossing:
+def note_gone(crossing: Crossing, gone: Train, number: int, is_whole: bool) -> Crossing:
     """A train's rear is proved out of the approach, and the train is whole (X4, T14).
 
     By its tail's reads at an end point, beyond the road or beyond its start point (``end_point``), or by all its axles
     at the end detector.
     """
-    return note_released(crossing, gone) if is_whole else crossing
+    return note_released(crossing, gone, number) if is_whole else crossing
 
 
-def note_released(crossing: Crossing, gone: Train) -> Crossing:
-    """A person on site has seen that a train is not in the approach, nor a part of it (X4, ours)."""
+def note_released(crossing: Crossing, gone: Train, number: int) -> Crossing:
+    """A person on site has seen that a train is not in the approach, nor a part of it (X4, ours).
+
+    ``number``: by which it was noted.  A word of an earlier run, late or again, has another one.
+    """
+    return forgotten(crossing, gone) if number_of(crossing, gone) == number else crossing
+
+
+def forgotten(crossing: Crossing, gone: Train) -> Crossing:
+    """Forget a train (X4)."""
     return replace(
         crossing,
         asks={train: asks for train, asks in crossing.asks.items() if train != gone},
         starts={train: cycles for train, cycles in crossing.starts.items() if train != gone},
+        numbers={train: number for train, number in crossing.numbers.items() if train != gone},
     )
 
 
@@ -235,7 +285,7 @@ def note_standing(signals: Signals, crossing: Crossing, train: Train, standing: 
     """
     if standing.signal not in signals.before or not standing.is_whole or train in crossing.starts:
         return crossing
-    return note_released(crossing, train)
+    return forgotten(crossing, train)
 
 
 def note_start(crossing: Crossing, train: Train, run_cycles: int) -> Crossing:
@@ -243,7 +293,8 @@ def note_start(crossing: Crossing, train: Train, run_cycles: int) -> Crossing:
 
     ``run_cycles``: as is written for its signal, no train arrives from there within so many.
     """
-    return replace(crossing, asks=crossing.asks | {train: True}, starts=crossing.starts | {train: run_cycles})
+    known = crossing if train in crossing.asks else numbered(crossing, train)
+    return replace(known, asks=crossing.asks | {train: True}, starts=crossing.starts | {train: run_cycles})
 
 
 def may_start(settings: Settings, crossing: Crossing, train: Train) -> bool:
@@ -260,11 +311,15 @@ def may_start(settings: Settings, crossing: Crossing, train: Train) -> bool:
 # ---- tracks after a restart
 
 
-def note_empty(crossing: Crossing, track: CrossingTrack) -> Crossing:
+def note_empty(crossing: Crossing, track: CrossingTrack, number: int) -> Crossing:
     """A person on site has seen a track empty from its start points to the road, since the last restart (X3, ours).
+
+    ``number``: by which he was asked to look.  A word from before the restart, late or again, has another one.
 
     Nothing else accounts for it: who stands in the approach strikes no start point, and is not heard.
     """
+    if number == NONE or look_of(crossing, track) != number:
+        return crossing
     return replace(crossing, unaccounted=crossing.unaccounted | {track: False})
 
 

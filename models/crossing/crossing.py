@@ -8,107 +8,14 @@ All else a train may do as it likes: stop short, turn back, part, follow another
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Signal, Signals, Standing, Train
+from kernel.crossing.crossing import CrossingTrack, Due, Signal, Standing, Train
 from kernel.maps import Map
 from kernel.restarts import restart_crossing
+from models.crossing.level import Arrived, Body, Level, Road
 from models.measures import greater
-
-
-@dataclass(frozen=True)
-class Road:
-    """What does not change: the settings of the crossing, its tracks, and the starting signals before it (X5).
-
-    ``signals``: a train that stands at one of them faces the road, and the road lies beyond the signal.
-    """
-
-    settings: Settings
-    tracks: frozenset[CrossingTrack]
-    signals: Signals
-
-
-@dataclass(frozen=True)
-class Body:
-    """A train on its way to the crossing, or a part of one, until its rear is past or it has turned back.
-
-    ``track``: which it is on.  ``inside``: it has passed the start point, or was let go at a signal inside it.
-    ``left_cycles``: within so many cycles it cannot arrive.
-    ``is_on_road``: it has come to the road, and its rear is not past it yet.
-    ``is_whole``: nothing has parted from it.
-    ``was_struck``: history: a terminal told of it, which was not in contact.
-    ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it, or it
-    was forgotten.
-    ``was_known``: history: the crossing knew of it when it last let the arms up.
-    ``forgotten``: history: it was inside when the crossing restarted, or when a terminal told that it may have missed
-    strikes, and its own had not been told: no terminal tells of it any more.
-    """
-
-    track: CrossingTrack
-    inside: bool
-    left_cycles: int
-    is_on_road: bool
-    is_whole: bool
-    was_struck: bool
-    has_asked: bool
-    was_known: bool
-    forgotten: bool
-
-
-@dataclass(frozen=True)
-class Arrived:
-    """A history: the arrival that was last, and what was so then.
-
-    ``is_any``: there was one.  ``warned_cycles``, ``down_cycles``: for how long the warning had lasted, and the
-    arms been down.  ``was_known``: as of the body.  ``opened_cycles``: since the arms were last let up.
-    """
-
-    is_any: bool
-    warned_cycles: int
-    down_cycles: int
-    was_known: bool
-    opened_cycles: int
-
-
-@dataclass(frozen=True)
-class Level:
-    """One moment.
-
-    ``in_service``: its settings have been checked.
-    ``bodies``: all trains that are on their way.  ``crossing``: the machine.
-    ``told``: history: whom it was told of, by contact or strike, and not yet that they are gone.
-    ``starting``: history: those of them that have asked to start at a signal inside the start points, and within
-    how many cycles none arrives from there.
-    ``accounted``: history: tracks that a person has seen to be empty since the last restart, also of their terminals.
-    ``restarted``: history: it has restarted, and its warning has not ended since.
-    ``unseen``: history: at its last decision, or its start, there was a track that nobody had accounted for.
-    ``decided``: it has decided for the cycle that begins.
-    ``warned_cycles``: history: for how long lamps and bells have gone, through restarts.
-    ``lowered_cycles``: for how long its arms have been lowered or held down.
-    ``are_down``, ``down_cycles``: they are down, and for how many whole cycles.
-    ``opened_cycles``: since a warning last ended.
-    ``unheard_cycles``: history: for how long each start point's terminal has not been heard.
-    ``last``: the last arrival.
-    """
-
-    in_service: bool
-    bodies: Map[Train, Body]
-    told: frozenset[Train]
-    starting: Map[Train, int]
-    crossing: Crossing
-    accounted: frozenset[CrossingTrack]
-    restarted: bool
-    unseen: bool
-    decided: bool
-    warned_cycles: int
-    lowered_cycles: int
-    are_down: bool
-    down_cycles: int
-    opened_cycles: int
-    unheard_cycles: Map[CrossingTrack, int]
-    last: Arrived
-
 
 # ---- assumptions
 
@@ -190,19 +97,32 @@ def the_arms_come_down_in_time(site: Road, lowered_cycles: int, are_down: bool) 
     return are_down or lowered_cycles < site.settings.lowering_cycles
 
 
-def a_whole_train_told_gone_is_gone(system: Level, gone: Train, is_whole: bool) -> bool:
-    """Evidence of a rear is of that train's rear, and of a train that is whole no part is left behind (X4)."""
-    return not is_whole or gone not in system.bodies
+def a_whole_train_told_gone_is_gone(system: Level, gone: Train, number: int, is_whole: bool) -> bool:
+    """Evidence of a rear is of the run that was noted by that number, and of a whole train no part is left behind (X4).
+
+    It may come late, and again, when the train is on its way once more.
+    """
+    return not is_whole or gone not in system.bodies or number < system.bodies[gone].came_at
 
 
-def a_person_releases_what_is_gone(system: Level, gone: Train) -> bool:
-    """Who releases has looked, and no part of the train is in the approach (X4)."""
-    return gone not in system.bodies
+def a_person_releases_what_is_gone(system: Level, gone: Train, number: int) -> bool:
+    """Who releases has looked, and no part of the train that was noted by that number is in the approach (X4).
+
+    His word may come late, and again.
+    """
+    return gone not in system.bodies or number < system.bodies[gone].came_at
 
 
-def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack) -> bool:
-    """Who accounts for a track has seen it empty since the restart: nobody is left who was forgotten on it (X3)."""
-    return all(not body.forgotten for _train, body in system.bodies.items() if body.track == track)
+def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack, number: int) -> bool:
+    """Who was asked by that number has seen the track empty since: nobody is left who was forgotten on it by then (X3).
+
+    His word may come late, and again.
+    """
+    return all(
+        not body.forgotten or number < body.forgotten_at
+        for _train, body in system.bodies.items()
+        if body.track == track
+    )
 
 
 # ---- transitions
@@ -231,13 +151,21 @@ def restarted(site: Road, system: Level) -> Level:
     return replace(
         system,
         bodies={
-            train: replace(body, was_struck=False, has_asked=body.has_asked and body.inside, forgotten=body.inside)
+            train: replace(
+                body,
+                was_struck=False,
+                has_asked=body.has_asked and body.inside,
+                forgotten=body.inside,
+                forgotten_at=system.newest + 1,
+            )
             for train, body in system.bodies.items()
         },
-        told=frozenset(),
+        told={},
         starting={},
-        crossing=restart_crossing(site.settings, site.tracks),
+        crossing=restart_crossing(site.settings, site.tracks, system.crossing.number + 1),
         accounted=frozenset(),
+        asked={track: system.newest + 1 for track in site.tracks},  # noqa: C420
+        newest=system.newest + 1,
         restarted=True,
         unseen=True,
         decided=False,
@@ -258,12 +186,14 @@ def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cyc
         track,
         inside=False,
         left_cycles=left_cycles,
+        came_at=system.newest + 1,
         is_on_road=False,
         is_whole=True,
         was_struck=False,
         has_asked=False,
         was_known=False,
         forgotten=False,
+        forgotten_at=system.newest,
     )
     return replace(system, bodies=system.bodies | {train: body})
 
@@ -302,9 +232,14 @@ def leave(site: Road, system: Level, gone: Train) -> Level:
 # ---- starting signals inside the start points
 
 
-def without(starting: Map[Train, int], gone: Train) -> Map[Train, int]:
-    """Give those that have asked to start, but for one."""
-    return {train: cycles for train, cycles in starting.items() if train != gone}
+def without(known: Map[Train, int], gone: Train) -> Map[Train, int]:
+    """Give all that are known but for one."""
+    return {train: number for train, number in known.items() if train != gone}
+
+
+def told_of(system: Level, train: Train) -> Map[Train, int]:
+    """Give whom the crossing was told of, with one more if it did not know that one."""
+    return system.told if train in system.told else system.told | {train: system.newest + 1}
 
 
 def come_to_stand(site: Road, system: Level, train: Train, signal: Signal) -> Level:
@@ -334,7 +269,7 @@ def promise_to_stand(site: Road, system: Level, train: Train, standing: Standing
             other: replace(body, was_struck=False, has_asked=False) if other == train and counts else body
             for other, body in system.bodies.items()
         },
-        told=system.told - {train} if counts else system.told,
+        told=without(system.told, train) if counts else system.told,
         crossing=machine.note_standing(site.signals, system.crossing, train, standing),
     )
 
@@ -346,7 +281,8 @@ def ask_to_start(site: Road, system: Level, train: Train, run_cycles: int) -> Le
         bodies={
             other: replace(body, was_struck=body.was_struck or other == train) for other, body in system.bodies.items()
         },
-        told=system.told | {train},
+        told=told_of(system, train),
+        newest=newest_with(system, train),
         starting=system.starting | {train: run_cycles},
         crossing=machine.note_start(system.crossing, train, run_cycles),
     )
@@ -366,9 +302,19 @@ def let_go(site: Road, system: Level, train: Train) -> Level:
 # ---- what the crossing is told
 
 
+def newest_with(system: Level, train: Train) -> int:
+    """Give the newest number once the crossing was told of a train; one that is known has its own."""
+    return system.newest if train in system.told else system.newest + 1
+
+
 def make_contact(site: Road, system: Level, train: Train) -> Level:
     """Radio contact with a train begins (003, 2.3)."""
-    return replace(system, told=system.told | {train}, crossing=machine.note_contact(system.crossing, train))
+    return replace(
+        system,
+        told=told_of(system, train),
+        newest=newest_with(system, train),
+        crossing=machine.note_contact(system.crossing, train),
+    )
 
 
 def hear_strike(site: Road, system: Level, train: Train) -> Level:
@@ -380,7 +326,8 @@ def hear_strike(site: Road, system: Level, train: Train) -> Level:
             other: replace(body, was_struck=body.was_struck or (other == train and is_new))
             for other, body in system.bodies.items()
         },
-        told=system.told | {train},
+        told=told_of(system, train),
+        newest=newest_with(system, train),
         crossing=machine.note_struck(system.crossing, train),
     )
 
@@ -391,6 +338,8 @@ def hear_terminal(site: Road, system: Level, track: CrossingTrack) -> Level:
         return system
     return replace(
         system,
+        asked=system.asked if track in system.asked else system.asked | {track: system.newest + 1},
+        newest=system.newest if track in system.asked else system.newest + 1,
         crossing=machine.note_heard(system.crossing, track),
         unheard_cycles=system.unheard_cycles | {track: 0},
     )
@@ -401,45 +350,59 @@ def hear_what_may_be_missed(site: Road, system: Level, track: CrossingTrack) -> 
     return replace(
         system,
         bodies={
-            train: replace(body, forgotten=True)
+            train: replace(body, forgotten=True, forgotten_at=system.newest + 1)
             if body.track == track and body.inside and train not in system.told
             else body
             for train, body in system.bodies.items()
         },
         accounted=system.accounted - {track},
+        asked=system.asked | {track: system.newest + 1},
+        newest=system.newest + 1,
         crossing=machine.note_missed(system.crossing, track),
     )
 
 
-def tell_gone(site: Road, system: Level, gone: Train, is_whole: bool) -> Level:
-    """A train's rear is proved out of the approach, at either end of it (X4, T14)."""
-    if not a_whole_train_told_gone_is_gone(system, gone, is_whole):
+def is_of_now(system: Level, gone: Train, number: int) -> bool:
+    """Tell whether a word is of what the crossing was told last of a train."""
+    return gone in system.told and system.told[gone] == number
+
+
+def tell_gone(site: Road, system: Level, gone: Train, number: int, is_whole: bool) -> Level:
+    """A train's rear is proved out of the approach, at either end of it; or that comes late, or again (X4, T14)."""
+    if not a_whole_train_told_gone_is_gone(system, gone, number, is_whole):
         return system
+    counts = is_whole and is_of_now(system, gone, number)
     return replace(
         system,
-        told=system.told - {gone} if is_whole else system.told,
-        starting=without(system.starting, gone) if is_whole else system.starting,
-        crossing=machine.note_gone(system.crossing, gone, is_whole),
+        told=without(system.told, gone) if counts else system.told,
+        starting=without(system.starting, gone) if counts else system.starting,
+        crossing=machine.note_gone(system.crossing, gone, number, is_whole),
     )
 
 
-def release(site: Road, system: Level, gone: Train) -> Level:
-    """A person on site releases a train that does not come any more (X4)."""
-    if not a_person_releases_what_is_gone(system, gone):
+def release(site: Road, system: Level, gone: Train, number: int) -> Level:
+    """A person on site releases a train that does not come any more; or that comes late, or again (X4)."""
+    if not a_person_releases_what_is_gone(system, gone, number):
         return system
+    counts = is_of_now(system, gone, number)
     return replace(
         system,
-        told=system.told - {gone},
-        starting=without(system.starting, gone),
-        crossing=machine.note_released(system.crossing, gone),
+        told=without(system.told, gone) if counts else system.told,
+        starting=without(system.starting, gone) if counts else system.starting,
+        crossing=machine.note_released(system.crossing, gone, number),
     )
 
 
-def account(site: Road, system: Level, track: CrossingTrack) -> Level:
-    """A person on site has seen a track to be empty (X3)."""
-    if not a_person_accounts_for_a_track_seen_empty(system, track):
+def account(site: Road, system: Level, track: CrossingTrack, number: int) -> Level:
+    """A person on site has seen a track to be empty; or that comes late, or again (X3)."""
+    if not a_person_accounts_for_a_track_seen_empty(system, track, number):
         return system
-    return replace(system, accounted=system.accounted | {track}, crossing=machine.note_empty(system.crossing, track))
+    counts = track in system.asked and system.asked[track] == number
+    return replace(
+        system,
+        accounted=system.accounted | {track} if counts else system.accounted,
+        crossing=machine.note_empty(system.crossing, track, number),
+    )
 
 
 # ---- cycles

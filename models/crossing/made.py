@@ -15,8 +15,10 @@ MADE = compile_machines([arrival, crossing, end_point, promise, start_point])
 NOTHING = packed(Ranging(False, 0, 0, 0))
 UNKNOWN = packed(Followed(0, 0, 0, 10**6, 0, 0, False))
 """Of a train of which there is no ranging; the ceiling is to be told."""
-OPEN = Crossing(asks={}, starts={}, silent_cycles={}, unaccounted={}, warns=False, warned_cycles=0)
+OPEN = Crossing(
+    asks={}, starts={}, silent_cycles={}, unaccounted={}, numbers={}, looks={}, number=0, warns=False, warned_cycles=0
+)
 """A crossing before anything is told."""
-START = restart_crossing(SETTINGS, frozenset(map(CrossingTrack, range(TRACKS))))  # type: ignore[arg-type]
+START = restart_crossing(SETTINGS, frozenset(map(CrossingTrack, range(TRACKS))), number=1)  # type: ignore[arg-type]
 """A crossing whose power has come back."""
 NO_DUES = packed({}, Map[Train, Due])

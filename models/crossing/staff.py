@@ -16,6 +16,7 @@ from models.crossing.radio import is_on
 from models.crossing.traffic import NEVER, TRACKS
 
 note_gone, note_released, note_empty = (MADE.crossing.note_gone, MADE.crossing.note_released, MADE.crossing.note_empty)
+number_of, look_of = MADE.crossing.number_of, MADE.crossing.look_of
 REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED = (
     NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted")
 )
@@ -43,7 +44,7 @@ def prove_rear(
     if other.number != road.number and hears_it_gone(
         day, other.run, other.number, train, track, road.number, now, hears
     ):
-        crossing = note_gone(crossing, train, True)
+        crossing = note_gone(crossing, train, number_of(crossing, train), True)
     if run[train].cleared == 1:
         return crossing
     pass_end_tags(day, run, line, train, now)
@@ -54,7 +55,7 @@ def prove_rear(
         run[train].gone, run[train].contact = 1, 0
         run[train].cleared = 1 - run[train].is_other
         out[REAR_BROKEN] += stays_s(day, run, train) > 0
-        return note_gone(crossing, train, True)
+        return note_gone(crossing, train, number_of(crossing, train), True)
     rear_um = run[train].way_um + line.length_um[day.trains[train].local]
     by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, out_s)
     is_known = run[train].contact == 1 or run[train].struck_s >= 0
@@ -62,10 +63,11 @@ def prove_rear(
         return crossing
     out[REAR_BROKEN] += run[train].gone == 0 and stays_s(day, run, train) > 0
     run[train].gone, run[train].cleared, run[train].contact = 1, 1, 0
-    if by_detector:
-        return note_gone(note_gone(crossing, train, True), OTHER_NAME + train, True)
-    out[RELEASED] += is_known
-    return note_released(note_released(crossing, train), OTHER_NAME + train)
+    out[RELEASED] += is_known and not by_detector
+    for name in (train, OTHER_NAME + train):
+        number = number_of(crossing, name)
+        crossing = note_gone(crossing, name, number, True) if by_detector else note_released(crossing, name, number)
+    return crossing
 
 
 # ---- power, and who looks at the tracks after it
@@ -107,7 +109,7 @@ def account(day: Any, run: Any, window: Any, unseen: Any, now: int, crossing: An
         looks = power.begin_s >= 0 and now >= power.end_s + int(power.size) and is_empty
         says = unlooked.begin_s >= 0 and now >= unlooked.end_s
         if unseen[track] and (looks or says):
-            crossing = note_empty(crossing, track)
+            crossing = note_empty(crossing, track, look_of(crossing, track))
             out[ACCOUNTED] += 1
             out[ACCOUNT_BROKEN] += not is_empty
             unseen[track] = 0

@@ -36,6 +36,7 @@ from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
+look_of = MADE.crossing.look_of
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
 Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
@@ -328,7 +329,8 @@ def live(
     """
     window, ends = windows_of(day)
     for track in range(TRACKS):
-        crossing = note_heard(note_empty(crossing, track), track)
+        crossing = note_heard(crossing, track)
+        crossing = note_empty(crossing, track, look_of(crossing, track))
     first.out[TRAINS] += len(day.trains)
     first.out[SECONDS_COUNT] += SECONDS
     moment = beside = Moment(crossing, 0, 0, 0, 10**6, 0, False, False, NEVER)

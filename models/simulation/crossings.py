@@ -72,6 +72,9 @@ class Crossings:
             starts={},
             silent_cycles={track: 0},
             unaccounted={track: False},
+            numbers={},
+            looks={track: 1},
+            number=1,
             warns=True,
             warned_cycles=-LONG_AGO_S,
         )
@@ -146,7 +149,8 @@ class Crossings:
         elif train not in state.attended_s:
             state.attended_s[train] = now_s + self.random.randint(*PERSON_S)
         elif now_s >= state.attended_s[train]:
-            state.crossing = machine.note_released(state.crossing, Known(train))
+            number = machine.number_of(state.crossing, Known(train))
+            state.crossing = machine.note_released(state.crossing, Known(train), number)
             state.followed.pop(train, None)
             del state.attended_s[train]
             self.diary.note(STAFF, train, f"is released at {state.name} by a person who has seen that it is gone")
@@ -162,7 +166,8 @@ class Crossings:
         """A crossing's link delivers a unit's word."""
         state, train = self._by_party[me], self.links.addresses.train[peer]
         if not fields["is_coming"]:
-            state.crossing = machine.note_gone(state.crossing, Known(train), True)
+            number = machine.number_of(state.crossing, Known(train))
+            state.crossing = machine.note_gone(state.crossing, Known(train), number, True)
             state.followed.pop(train, None)
             state.told.pop(train, None)
             return

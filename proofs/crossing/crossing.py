@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kernel.crossing import crossing as machine
 from models.crossing import crossing as world
-from models.crossing.crossing import Level, Road
+from models.crossing.level import Level, Road
 from models.measures import greater
 from proofs.theory import Theory, by_name
 
@@ -38,9 +38,13 @@ def it_is_not_in_service(site: Road, system: Level) -> bool:
     return (
         not system.in_service
         and nothing_has_happened(site, system)
+        and system.crossing.number == system.newest
         and all(False for _train in system.told)
         and all(False for _train in system.starting)
         and all(False for _train in system.crossing.starts)
+        and all(False for _train in system.crossing.numbers)
+        and all(False for _track in system.crossing.looks)
+        and all(False for _track in system.asked)
         and all(False for _train in system.crossing.asks)
         and all(False for _track in system.accounted)
         and all(False for _track, _unaccounted in system.crossing.unaccounted.items())
@@ -139,6 +143,43 @@ def who_was_told_of_is_known(site: Road, system: Level) -> bool:
     """The crossing knows those of whom it was told and not yet that they are gone, and nobody else (X1, X3)."""
     return all(train in system.crossing.asks for train in system.told) and all(
         train in system.told for train, _asks in system.crossing.asks.items()
+    )
+
+
+def what_is_noted_has_its_number(site: Road, system: Level) -> bool:
+    """A train by which it was told of, a track by which a person was asked to look (X3, X4)."""
+    return (
+        system.crossing.number == system.newest
+        and all(
+            train in system.crossing.numbers and system.crossing.numbers[train] == number
+            for train, number in system.told.items()
+        )
+        and all(train in system.told for train in system.crossing.numbers)
+        and all(
+            track in system.crossing.looks and system.crossing.looks[track] == number
+            for track, number in system.asked.items()
+        )
+        and all(track in system.asked for track in system.crossing.looks)
+        and all(number <= system.newest for _track, number in system.asked.items())
+        and all(track in system.crossing.unaccounted for track in system.asked)
+        and all(track in system.asked for track, _unaccounted in system.crossing.unaccounted.items())
+    )
+
+
+def a_train_is_noted_after_it_came(site: Road, system: Level) -> bool:
+    """By a number that none of its earlier runs has had (X4)."""
+    return all(
+        body.came_at <= system.newest + 1 and (train not in system.told or body.came_at <= system.told[train])
+        for train, body in system.bodies.items()
+    )
+
+
+def who_was_forgotten_is_looked_for_by_a_later_number(site: Road, system: Level) -> bool:
+    """What a person had seen before does not tell of it (X3)."""
+    return all(
+        body.track in system.asked and body.forgotten_at <= system.asked[body.track]
+        for _train, body in system.bodies.items()
+        if body.forgotten
     )
 
 
@@ -290,6 +331,9 @@ SAFETY = (
 INVARIANTS = (
     *SAFETY,
     who_was_told_of_is_known,
+    what_is_noted_has_its_number,
+    a_train_is_noted_after_it_came,
+    who_was_forgotten_is_looked_for_by_a_later_number,
     who_asks_to_start_is_known,
     who_struck_out_of_contact_asks,
     before_service_nothing_happens,

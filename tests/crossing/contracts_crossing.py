@@ -38,6 +38,11 @@ BOUNDS = ArrivalBounds(
 )
 
 
+def crossing_of(warns: bool, warned_cycles: int) -> Crossing:
+    """One that nobody is known to."""
+    return Crossing({}, {}, {}, {}, {}, {}, 0, warns, warned_cycles)
+
+
 def lawful_settings_leave_fifteen_seconds(warning_cycles: int, bell_cycles: int, lowering_cycles: int) -> None:
     """Of the warning time, when bell and lowering are over (X5)."""
     assert are_lawful(Settings(1_000, warning_cycles, bell_cycles, lowering_cycles, 15, 6, 40, 2, 99))
@@ -66,26 +71,26 @@ def another_warning_time_is_refused(warning_cycles: int, cycle_ms: int) -> None:
 def arms_wait_for_the_bell(warned_cycles: int, warns: bool) -> None:
     """And are up without a warning (X5)."""
     assert isinstance(warned_cycles, int)
-    crossing = Crossing({}, {}, {}, {}, warns, warned_cycles)
+    crossing = crossing_of(warns, warned_cycles)
     assert arms_are_to_be_down(SETTINGS, crossing) == (warns and warned_cycles >= 5)
 
 
 def nobody_on_the_way_is_no_warning(warned_cycles: int, warns: bool) -> None:
     """While every terminal is heard (X4)."""
     assert warned_cycles >= 0
-    assert decide(SETTINGS, Crossing({}, {}, {}, {}, warns, warned_cycles), {}) == Crossing({}, {}, {}, {}, False, 0)
+    assert decide(SETTINGS, crossing_of(warns, warned_cycles), {}) == Crossing({}, {}, {}, {}, {}, {}, 0, False, 0)
 
 
 def a_warning_grows_older(warned_cycles: int, warns: bool) -> None:
     """By a cycle (X2)."""
     assert warned_cycles >= 0
-    assert aged(Crossing({}, {}, {}, {}, warns, warned_cycles)).warned_cycles == (warned_cycles + 1 if warns else 0)
+    assert aged(crossing_of(warns, warned_cycles)).warned_cycles == (warned_cycles + 1 if warns else 0)
 
 
 def nobody_is_must_not_be_warned_of(warned_cycles: int) -> None:
     """Whatever has been (X4)."""
     assert warned_cycles >= 0
-    assert not must_warn(SETTINGS, Crossing({}, {}, {}, {}, True, warned_cycles))
+    assert not must_warn(SETTINGS, crossing_of(True, warned_cycles))
 
 
 def at_the_lines_speed_answers_are_by_way(way_um: int) -> None:

@@ -13,7 +13,7 @@ UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
 
 
 def restarted() -> Crossing:
-    return restart_crossing(SETTINGS, frozenset((UP, DOWN)))
+    return restart_crossing(SETTINGS, frozenset((UP, DOWN)), 1)
 
 
 @dataclass(kw_only=True)
@@ -24,6 +24,14 @@ class Road:
     warned_s: int = 0
     down_s: int = 0
     open_s: int = 0
+
+    def see_empty(self, track: CrossingTrack) -> None:
+        """A person who was asked says at once that a track is empty."""
+        self.crossing = machine.note_empty(self.crossing, track, machine.look_of(self.crossing, track))
+
+    def tell_gone(self, train: Train) -> None:
+        number = machine.number_of(self.crossing, train)
+        self.crossing = machine.note_gone(self.crossing, train, number, True)
 
     def hear_the_terminals(self) -> None:
         for track in (UP, DOWN):

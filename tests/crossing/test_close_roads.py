@@ -44,7 +44,8 @@ class RoadAt(Road):
 
     def __post_init__(self) -> None:
         for track in (UP, DOWN):
-            self.crossing = machine.note_heard(machine.note_empty(self.crossing, track), track)
+            self.see_empty(track)
+            self.crossing = machine.note_heard(self.crossing, track)
         self.decide({})
         assert not self.crossing.warns
 
@@ -58,7 +59,7 @@ class RoadAt(Road):
             self.heads.append((train, self.warned_s - 1, self.down_s - 1 - SETTINGS.lowering_cycles))
 
     def tell_gone(self, train: Train) -> None:
-        self.crossing = machine.note_gone(self.crossing, train, True)
+        super().tell_gone(train)
         self.followed = None
         self.gone.add(train)
 
@@ -191,7 +192,7 @@ class Two:
         for road in self.roads:
             road.meet(PASSES, before_mm, self.other_mm)
             if self.other_mm + LENGTH_MM < road.at_mm and PASSES not in road.gone:
-                road.crossing = machine.note_gone(road.crossing, PASSES, True)
+                Road.tell_gone(road, PASSES)
                 road.gone.add(PASSES)
 
     def seconds(self, count: int) -> Two:

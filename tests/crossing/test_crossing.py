@@ -23,6 +23,9 @@ CROSSINGS = st.builds(
     starts=st.dictionaries(st.sampled_from(TRAINS), st.integers(0, 60)),
     silent_cycles=st.dictionaries(st.sampled_from([UP, DOWN]), st.integers(0, 4)),
     unaccounted=st.dictionaries(st.sampled_from([UP, DOWN]), st.booleans()),
+    numbers=st.just({}),
+    looks=st.just({}),
+    number=st.just(0),
     warns=st.booleans(),
     warned_cycles=st.integers(0, 100),
 )
@@ -104,9 +107,11 @@ class Drawn:
 
     def go(self, train: Train) -> None:
         """A train is gone; its rear is proved, or somebody has looked."""
-        self.day.step("tell_gone", gone=train, is_whole=self.chance.random() < 0.5)
+        number = self.chance.choice((self.day.number(train), self.chance.randint(0, self.day.system.crossing.number)))
+        self.day.step("tell_gone", gone=train, number=number, is_whole=self.chance.random() < 0.5)
         self.day.step("leave", gone=train)
-        self.day.step(self.chance.choice(("release", "leave")), gone=train)
+        if self.chance.random() < 0.5:
+            self.day.step("release", gone=train, number=self.day.number(train))
 
 
 @settings(max_examples=20, deadline=None)

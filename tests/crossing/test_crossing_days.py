@@ -103,7 +103,15 @@ def careless(settings: Any, crossing: Any, dues: Any) -> Any:
         asks[place] = (name, False)
         told.append((name, 0))
     forgot = Made(
-        asks, crossing.starts, crossing.silent_cycles, crossing.unaccounted, crossing.warns, crossing.warned_cycles
+        asks,
+        crossing.starts,
+        crossing.silent_cycles,
+        crossing.unaccounted,
+        crossing.numbers,
+        crossing.looks,
+        crossing.number,
+        crossing.warns,
+        crossing.warned_cycles,
     )
     return decide(settings, forgot, told)
 
@@ -224,9 +232,11 @@ def test_cpython_and_compiled_decide_alike() -> None:
         silent = {number: int(source.integers(5)) for number in range(2)}
         warns = bool(source.integers(2))
         unaccounted = {number: bool(source.integers(8) == 0) for number in range(2)}
+        numbers = {train: int(source.integers(9)) for train in asks}
+        looks = {number: int(source.integers(9)) for number in range(2)}
         starts = {train: int(source.integers(50)) for train in asks if source.integers(2)}
         warned_cycles = int(source.integers(100)) if warns else 0
-        crossing = Crossing(asks, starts, silent, unaccounted, warns, warned_cycles)  # type: ignore[arg-type]
+        crossing = Crossing(asks, starts, silent, unaccounted, numbers, looks, 9, warns, warned_cycles)  # type: ignore[arg-type]
         dues = {train: Due(int(source.integers(3))) for train in asks if source.random() < 0.8}
         told = NO_DUES.copy()
         for train, due in dues.items():

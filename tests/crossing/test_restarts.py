@@ -23,7 +23,7 @@ TRACKS = (CrossingTrack("up"), CrossingTrack("down"))
 MOST_M_S = 28
 START_M = MOST_M_S * (SETTINGS.start_cycles + 1)
 LENGTH_M = 160
-Start = Callable[[Settings, frozenset[CrossingTrack]], Crossing]
+Start = Callable[[Settings, frozenset[CrossingTrack], int], Crossing]
 
 
 @dataclass
@@ -53,20 +53,22 @@ class World:
     closed_s: int = 0
     least_s: int = 10**6
     opened: int = 0
+    life: int = 0
     seen: set[CrossingTrack] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.fail()
 
     def fail(self) -> None:
-        self.crossing = self.start(SETTINGS, frozenset(TRACKS))
+        self.life += 1
+        self.crossing = self.start(SETTINGS, frozenset(TRACKS), 1_000 * self.life)
         self.seen = set()
 
     def look(self, *tracks: CrossingTrack) -> None:
         """A person looks; what is seen empty is said at once, if there is power."""
         for track in tracks:
             if self.powered and all(each.track != track or not each.inside() for each in self.trains):
-                self.crossing = machine.note_empty(self.crossing, track)
+                self.crossing = machine.note_empty(self.crossing, track, machine.look_of(self.crossing, track))
                 self.seen.add(track)
 
     def second(self) -> None:
@@ -99,7 +101,8 @@ class World:
             self.least_s = min(self.least_s, self.closed_s - SETTINGS.lowering_cycles)
         if train.way_m + LENGTH_M <= 0:
             self.trains.remove(train)
-            self.crossing = machine.note_gone(self.crossing, train.name, True)
+            number = machine.number_of(self.crossing, train.name)
+            self.crossing = machine.note_gone(self.crossing, train.name, number, True)
 
     def seconds(self, count: int) -> None:
         for _ in range(count):
@@ -189,9 +192,19 @@ def test_an_attack_fails(attack: Callable[[World], None]) -> None:
     world.judge()
 
 
-def forgetful(_settings: Settings, tracks: frozenset[CrossingTrack]) -> Crossing:
+def forgetful(_settings: Settings, tracks: frozenset[CrossingTrack], number: int) -> Crossing:
     """What a crossing was that began closed and accounted for nothing."""
-    return Crossing({}, {}, dict.fromkeys(tracks, 0), dict.fromkeys(tracks, False), True, 0)
+    return Crossing(
+        {},
+        {},
+        dict.fromkeys(tracks, 0),
+        dict.fromkeys(tracks, False),
+        {},
+        dict.fromkeys(tracks, number),
+        number,
+        True,
+        0,
+    )
 
 
 @pytest.mark.parametrize("attack", ATTACKS)

@@ -243,7 +243,7 @@ def test_two_trains_that_a_terminal_has_missed_are_both_seen_before_the_road_ope
     """They strike two minutes apart while it has no power, and queue; a person sees the first one leave (X3)."""
     road = Road()
     for track in (UP, DOWN):
-        road.crossing = crossing.note_empty(road.crossing, track)
+        road.see_empty(track)
     road.hear_the_terminals()
     road.decide({})
     assert not road.crossing.warns
@@ -256,11 +256,11 @@ def test_two_trains_that_a_terminal_has_missed_are_both_seen_before_the_road_ope
     road.crossing = crossing.note_missed(road.crossing, UP)
     point = start_point.note_owed(point)
     assert not point.owes
-    road.crossing = crossing.note_released(road.crossing, Train("the first of them"))
+    road.tell_gone(Train("the first of them"))
     for _ in range(60):
         road.hear_the_terminals()
         road.decide({})
     assert road.crossing.warns
-    road.crossing = crossing.note_empty(road.crossing, UP)
+    road.see_empty(UP)
     road.decide({})
     assert not road.crossing.warns

@@ -80,9 +80,9 @@ class World(Road):
     def look(self) -> None:
         """A person accounts for what he sees empty; who stands at a signal at danger is not in the way."""
         if not self.let_go or self.gone:
-            self.crossing = machine.note_empty(self.crossing, UP)
+            self.see_empty(UP)
         if not -LENGTH_MM < self.other_mm <= START_MM:
-            self.crossing = machine.note_empty(self.crossing, DOWN)
+            self.see_empty(DOWN)
         self.hear_the_terminals()
 
     def say(self, what: str) -> None:
@@ -151,13 +151,13 @@ class World(Road):
                 self.arrives()
             if self.way_mm + LENGTH_MM < 0 and not self.gone:
                 self.gone = True
-                self.crossing = machine.note_gone(self.crossing, TURNS, True)
+                self.tell_gone(TURNS)
         if self.now_s >= self.passes_s >= 0:
             before_mm, self.other_mm = self.other_mm, self.other_mm - LINE_MM_S
             if self.other_mm <= 0 < before_mm:
                 self.arrives()
             if self.other_mm + LENGTH_MM <= 0 < before_mm + LENGTH_MM:
-                self.crossing = machine.note_gone(self.crossing, PASSES, True)
+                self.tell_gone(PASSES)
 
     def seconds(self, count: int) -> World:
         for _ in range(count):

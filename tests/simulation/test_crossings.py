@@ -161,7 +161,7 @@ def test_a_crossing_that_decides_wrongly_is_noticed(
 
 
 def test_a_train_that_is_gone_and_not_forgotten_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("models.simulation.crossings.machine.note_gone", lambda known, _train, _whole: known)
+    monkeypatch.setattr("models.simulation.crossings.machine.note_gone", lambda known, *_: known)
     monkeypatch.setattr(road_oracles, "AT_LEAST_QUIET_S", 120)
     assert broken(line(NO_FAULT, hours=0.5)) == {OPENS_AGAIN}
 

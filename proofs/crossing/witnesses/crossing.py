@@ -151,10 +151,40 @@ def a_train_that_turned_back_ends_its_warning_by_the_start_tag() -> None:
     day.strike(ONE)
     day.cycle((ONE, NOW))
     before = day.system
-    assert day.step("tell_gone", gone=ONE, is_whole=True) == before
+    assert day.step("tell_gone", gone=ONE, number=day.number(ONE), is_whole=True) == before
     day.pass_by(ONE)
     day.cycle()
     assert not day.warns()
+
+
+def a_word_of_the_run_before_ends_no_warning() -> None:
+    """A train is told gone and comes once more under its name; then it is told gone again, or released, late (X4)."""
+    day = Day()
+    day.come(ONE)
+    old = day.number(ONE)
+    assert old == day.system.crossing.number == day.system.told[ONE]
+    day.cycle((ONE, NOW))
+    day.pass_by(ONE)
+    assert day.number(ONE) == machine.NONE
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    there = day.system
+    assert day.step("tell_gone", gone=ONE, number=old, is_whole=True) == there
+    day.step("hear_strike", train=ONE)
+    assert day.number(ONE) == day.system.crossing.number == old + 1
+    there = day.system
+    assert day.step("tell_gone", gone=ONE, number=old, is_whole=True) == there
+    assert day.step("release", gone=ONE, number=old) == there
+    day.step("ask_to_start", train=ONE, run_cycles=9)
+    assert day.number(ONE) == old + 1
+    there = day.system
+    assert day.step("tell_gone", gone=ONE, number=old, is_whole=True) == there
+    assert day.step("release", gone=ONE, number=old) == there
+    day.cycle()
+    assert day.warns()
+    day.pass_by(ONE)
+    day.step("ask_to_start", train=TWO, run_cycles=9)
+    assert day.number(TWO) == day.system.told[TWO] == old + 2
 
 
 def a_part_left_behind_keeps_the_warning() -> None:
@@ -162,14 +192,14 @@ def a_part_left_behind_keeps_the_warning() -> None:
     day = Day()
     day.come(ONE)
     day.cycle((ONE, NOW))
-    day.step("tell_gone", gone=ONE, is_whole=False)
+    day.step("tell_gone", gone=ONE, number=day.number(ONE), is_whole=False)
     assert ONE in day.system.crossing.asks
     day.cycle((ONE, FAR))
     assert day.warns()
     before = day.system
-    assert day.step("release", gone=ONE) == before
+    assert day.step("release", gone=ONE, number=day.number(ONE)) == before
     day.step("leave", gone=ONE)
-    day.step("release", gone=ONE)
+    day.step("release", gone=ONE, number=day.number(ONE))
     assert ONE not in day.system.crossing.asks
     day.cycle()
     assert not day.warns()
@@ -296,7 +326,15 @@ def every_number_fits_into_64_bits() -> None:
     settings = with_ints(Checked, SETTINGS)
     most = Checked(10**8)
     crossing = Crossing(
-        asks={ONE: True}, starts={}, silent_cycles={UP: most}, unaccounted={}, warns=True, warned_cycles=most
+        asks={ONE: True},
+        starts={},
+        silent_cycles={UP: most},
+        unaccounted={},
+        numbers={ONE: most},
+        looks={},
+        number=most,
+        warns=True,
+        warned_cycles=most,
     )
     crossing = machine.aged(machine.decide(settings, crossing, {}))
     assert (crossing.warned_cycles, crossing.silent_cycles[UP]) == (10**8 + 1, 10**8 + 1)
@@ -358,6 +396,7 @@ WITNESSES = (
     arms_stay_down_for_a_train_that_is_near,
     a_train_that_comes_after_the_opening_was_not_known,
     a_train_that_turned_back_ends_its_warning_by_the_start_tag,
+    a_word_of_the_run_before_ends_no_warning,
     a_part_left_behind_keeps_the_warning,
     one_of_two_that_is_gone_leaves_the_other,
     silence_of_a_start_point_warns,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Signal, Signals, Train
-from models.crossing.crossing import Arrived, Body, Level, Road
+from models.crossing.level import Arrived, Body, Level, Road
 from proofs.crossing.crossing import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -34,10 +34,22 @@ def new() -> Level:
     return Level(
         in_service=False,
         bodies={},
-        told=frozenset(),
+        told={},
         starting={},
-        crossing=Crossing(asks={}, starts={}, silent_cycles=unheard, unaccounted={}, warns=False, warned_cycles=0),
+        crossing=Crossing(
+            asks={},
+            starts={},
+            silent_cycles=unheard,
+            unaccounted={},
+            numbers={},
+            looks={},
+            number=0,
+            warns=False,
+            warned_cycles=0,
+        ),
         accounted=frozenset(),
+        asked={},
+        newest=0,
         restarted=False,
         unseen=False,
         decided=False,
@@ -69,14 +81,17 @@ class Day(Play[Road, Level]):
     def account(self, *tracks: CrossingTrack) -> None:
         """A person has seen tracks to be empty."""
         for track in tracks:
-            self.step("account", track=track)
+            self.step("account", track=track, number=machine.look_of(self.system.crossing, track))
             assert self.system.crossing.unaccounted[track] is False
             assert track in self.system.accounted
 
     def come(self, train: Train, track: CrossingTrack = UP, *, contact: bool = True) -> None:
         """A train comes, in contact if not told otherwise."""
+        number = self.system.crossing.number
         self.step("come", train=train, track=track, left_cycles=0)
-        assert self.system.bodies[train] == Body(track, False, 0, False, True, False, False, False, False)
+        assert self.system.bodies[train] == Body(
+            track, False, 0, number + 1, False, True, False, False, False, False, number
+        )
         if contact:
             self.step("make_contact", train=train)
             assert self.system.crossing.asks[train] is False
@@ -120,8 +135,16 @@ class Day(Play[Road, Level]):
         """Its rear is past, and proved so."""
         self.step("leave", gone=train)
         assert train not in self.system.bodies
-        self.step("tell_gone", gone=train, is_whole=True)
+        self.step("tell_gone", gone=train, number=self.number(train), is_whole=True)
         assert train not in self.system.crossing.asks
+
+    def number(self, train: Train) -> int:
+        """By which the crossing has noted a train."""
+        return machine.number_of(self.system.crossing, train)
+
+    def look(self, track: CrossingTrack) -> int:
+        """By which number a person is asked to look at a track."""
+        return machine.look_of(self.system.crossing, track)
 
     def until_it_can_arrive(self, train: Train, *dues: tuple[Train, Due]) -> int:
         """Let cycles pass until a train can be there; give how many."""

@@ -93,10 +93,10 @@ def a_train_that_leaves_is_told_gone() -> None:
 def it_alone_is_gone_by_it() -> None:
     """Of others that were warned of nothing is said; and nothing of it while it has not left (X4)."""
     mine, another = Train("mine"), Train("another")
-    crossing = Crossing({mine: True, another: True}, {}, {}, {}, True, 40)
+    crossing = Crossing({mine: True, another: True}, {}, {}, {}, {mine: 1, another: 2}, {}, 2, True, 40)
     for last, left in ((OUTER, {another: True}), (INNER, {mine: True, another: True})):
         is_gone = machine.has_left(SETTINGS, TailRead(INNER, last, 2, True), 0)
-        assert crossing_machine.note_gone(crossing, mine, is_gone).asks == left
+        assert crossing_machine.note_gone(crossing, mine, 1, is_gone).asks == left
 
 
 def who_stands_between_the_tags_is_not_gone() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import CrossingTrack, Due
 from proofs.crossing.witnesses.crossing_day import DOWN, ONE, SITE, THREE, TWO, UP, Day
 
@@ -47,14 +48,14 @@ def who_was_forgotten_finds_the_arms_down() -> None:
         day.cycle()
     down_cycles = day.system.down_cycles
     day.step("restart")
-    assert (dict(day.system.crossing.asks.items()), day.system.told) == ({}, frozenset())
+    assert (dict(day.system.crossing.asks.items()), set(day.system.told)) == ({}, set())
     body = day.system.bodies[ONE]
     assert (body.forgotten, body.was_struck, body.has_asked) == (True, False, True)
     assert day.system.unheard_cycles == {UP: 1, DOWN: 1}
     day.cycle()
     assert day.system.down_cycles == down_cycles + 1
     before = day.system
-    assert day.step("account", track=UP) == before
+    assert day.step("account", track=UP, number=day.look(UP)) == before
     day.account(DOWN)
     assert day.until_it_can_arrive(ONE) == 23
     arrived = day.arrive(ONE)
@@ -158,6 +159,20 @@ def a_track_that_settings_leave_out_warns() -> None:
     assert (day.warns(), day.system.unseen) == (False, False)
 
 
+def who_had_not_asked_has_not_asked_at_the_restart() -> None:
+    """It has been forgotten before the crossing was told of it; from its next decision on it has asked (X3, X4)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    before = day.system
+    restarted = day.step("restart")
+    assert (before.unseen, restarted.unseen) == (False, True)
+    body = restarted.bodies[ONE]
+    assert (body.has_asked, body.forgotten, body.forgotten_at) == (False, True, day.system.crossing.number)
+    day.cycle()
+    assert day.system.bodies[ONE].has_asked
+
+
 def a_restart_in_a_warning_is_over_with_it() -> None:
     """The next one begins with lamps and bells alone (X5)."""
     day = Day(opened=False)
@@ -195,9 +210,9 @@ def several_strikes_that_a_terminal_has_missed_are_seen_out_together() -> None:
     assert [day.system.bodies[train].has_asked for train in (ONE, TWO)] == [True, True]
     day.pass_by(THREE)
     day.pass_by(ONE)
-    day.step("release", gone=ONE)
+    day.step("release", gone=ONE, number=day.number(ONE))
     before = day.system
-    assert day.step("account", track=UP) == before
+    assert day.step("account", track=UP, number=day.look(UP)) == before
     day.cycle()
     assert (day.warns(), day.system.unseen) == (True, True)
     assert day.until_it_can_arrive(TWO) == 38
@@ -222,6 +237,32 @@ def who_is_known_is_not_missed() -> None:
     assert (day.warns(), day.system.bodies[ONE].has_asked) == (True, False)
 
 
+def a_word_from_before_a_restart_opens_nothing() -> None:
+    """It was said of an empty track; power fails again, with a train in the approach, and it comes once more (X3)."""
+    day = Day(opened=False)
+    old = {track: day.look(track) for track in (UP, DOWN)}
+    day.account(UP, DOWN)
+    day.cycle()
+    assert not day.warns()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    number = day.system.crossing.number
+    day.step("restart")
+    assert day.system.crossing.number == number + 1
+    assert (day.look(UP), day.look(DOWN), day.look(SIDING)) == (number + 1, number + 1, machine.NONE)
+    before = day.system
+    for track in (UP, DOWN):
+        assert day.step("account", track=track, number=old[track]) == before
+    assert day.step("account", track=SIDING, number=machine.NONE) == before
+    day.cycle()
+    assert day.warns()
+    day.account(DOWN)
+    day.step("hear_what_may_be_missed", track=DOWN)
+    before = day.system
+    assert day.step("account", track=DOWN, number=number + 1) == before
+    day.account(DOWN)
+
+
 WITNESSES = (
     a_start_keeps_the_road_closed,
     a_start_is_closed_until_terminals_are_heard,
@@ -232,6 +273,8 @@ WITNESSES = (
     a_strike_is_told_after_the_restart_too,
     a_track_that_settings_leave_out_warns,
     a_restart_in_a_warning_is_over_with_it,
+    who_had_not_asked_has_not_asked_at_the_restart,
     several_strikes_that_a_terminal_has_missed_are_seen_out_together,
     who_is_known_is_not_missed,
+    a_word_from_before_a_restart_opens_nothing,
 )

@@ -74,7 +74,7 @@ def who_stands_and_promises_keeps_no_road_closed() -> None:
         day.cycle((ONE, NOW))
         assert day.warns()
     day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
-    assert (day.system.told, dict(day.system.crossing.asks.items())) == (frozenset(), {})
+    assert (set(day.system.told), dict(day.system.crossing.asks.items())) == (set(), {})
     day.cycle()
     assert not day.warns()
     day.step("make_contact", train=ONE)
@@ -100,14 +100,14 @@ def a_promise_counts_no_more_once_the_train_has_asked() -> None:
     while not is_let_go(day, ONE):
         day.cycle()
     day.step("promise_to_stand", train=ONE, standing=Standing(STATION, True))
-    assert (day.system.told, day.system.starting) == (frozenset({ONE}), {ONE: RUN_CYCLES})
+    assert (set(day.system.told), day.system.starting) == ({ONE}, {ONE: RUN_CYCLES})
     before = day.system
     assert day.step("come_to_stand", train=ONE, signal=STATION) == before
     for _ in range(RUN_CYCLES + 50):
         day.cycle()
         assert day.warns()
     day.step("leave", gone=ONE)
-    day.step("release", gone=ONE)
+    day.step("release", gone=ONE, number=day.number(ONE))
     assert not day.system.starting
     assert not day.system.crossing.starts
     day.cycle()
@@ -130,7 +130,7 @@ def a_restart_forgets_who_asked_to_start() -> None:
     assert (day.system.bodies[ONE].forgotten, day.system.bodies[TWO].forgotten) == (True, False)
     assert not is_let_go(day, TWO)
     before = day.system
-    assert day.step("account", track=UP) == before
+    assert day.step("account", track=UP, number=day.look(UP)) == before
     day.account(DOWN)
     asked(day, TWO)
     assert (day.system.warned_cycles, day.system.crossing.warned_cycles) == (37, 5)
@@ -170,9 +170,9 @@ def a_train_that_comes_and_goes_asks_for_itself_alone() -> None:
     day.cycle()
     assert day.system.bodies[ONE].has_asked
     day.step("leave", gone=TWO)
-    day.step("tell_gone", gone=TWO, is_whole=False)
+    day.step("tell_gone", gone=TWO, number=day.number(TWO), is_whole=False)
     assert day.system.starting == {ONE: RUN_CYCLES, TWO: RUN_CYCLES}
-    day.step("tell_gone", gone=TWO, is_whole=True)
+    day.step("tell_gone", gone=TWO, number=day.number(TWO), is_whole=True)
     assert (day.system.starting, day.system.crossing.starts) == ({ONE: RUN_CYCLES}, {ONE: RUN_CYCLES})
     day = Day()
     day.come(ONE)
@@ -275,7 +275,7 @@ def who_was_forgotten_and_stands_is_looked_at_no_more() -> None:
     day.strike(ONE)
     day.step("restart")
     before = day.system
-    assert day.step("account", track=UP) == before
+    assert day.step("account", track=UP, number=day.look(UP)) == before
     stands = day.step("come_to_stand", train=ONE, signal=STATION)
     assert (stands.bodies[ONE].forgotten, stands.bodies[ONE].inside) == (False, False)
     day.account(UP, DOWN)
