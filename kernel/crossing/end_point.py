@@ -67,12 +67,14 @@ def are_lawful(settings: EndPointSettings) -> bool:
 def has_left(settings: EndPointSettings, read: TailRead, age_cycles: int) -> bool:
     """Tell whether a train that tells this has left by this end point, with all that belongs to it (X4, T14).
 
+    No time is below 0: a clock that goes back tells nothing.
+
     ``age_cycles``: how long ago its tail read the later tag.
     """
     return (
         read.before == settings.inner
         and read.last == settings.outer
-        and read.apart_cycles <= settings.apart_cycles
+        and 0 <= read.apart_cycles <= settings.apart_cycles
         and read.is_whole
-        and age_cycles <= settings.told_cycles
+        and 0 <= age_cycles <= settings.told_cycles
     )

@@ -189,6 +189,12 @@ def what_is_told_too_old_does_not_count() -> None:
     assert not end.hears(told, late_cycles=4)
 
 
+def a_time_below_zero_tells_nothing() -> None:
+    """The clock of a host, or of a train, has gone back (X4)."""
+    for apart_cycles, age_cycles, left in ((0, 0, True), (-1, 0, False), (0, -1, False)):
+        assert machine.has_left(SETTINGS, TailRead(INNER, OUTER, apart_cycles, True), age_cycles) is left
+
+
 def settings_are_checked() -> None:
     """Neither what is told nor the way from tag to tag lasts longer than changing ends; two tags are two (X4)."""
     for change in ({"told_cycles": 61}, {"apart_cycles": 61}, {"outer": INNER}):
@@ -249,6 +255,7 @@ WITNESSES = (
     the_tags_of_the_next_road_say_nothing_of_this_one,
     a_rear_that_creeps_out_is_not_told_gone,
     what_is_told_too_old_does_not_count,
+    a_time_below_zero_tells_nothing,
     settings_are_checked,
     what_nature_does_not_do_does_not_happen,
     every_number_fits_into_64_bits,
