@@ -68,9 +68,10 @@ def who_stands_at_a_starting_signal_was_not_let_go(system: Level, train: Train) 
     return train in system.bodies and train not in system.starting
 
 
-def who_stands_before_the_road_is_not_on_it(system: Level, train: Train) -> bool:
-    """Of a train that stands at a signal before the road, facing it, no part is on the road (X3)."""
-    return not system.bodies[train].is_on_road
+def who_stands_before_the_road_is_not_on_it(site: Road, system: Level, train: Train, signal: Signal) -> bool:
+    """Of a whole train that stands at a signal before the road, facing it, no part is on the road (X3)."""
+    body = system.bodies[train]
+    return signal not in site.signals.before or not body.is_whole or not body.is_on_road
 
 
 def only_who_stands_promises_to_stand(site: Road, system: Level, train: Train, standing: Standing) -> bool:
@@ -219,9 +220,12 @@ def arrive(site: Road, system: Level, train: Train) -> Level:
 
 def part(site: Road, system: Level, train: Train) -> Level:
     """A coupling breaks; what is left behind may be anywhere, and run (X4)."""
-    if train not in system.bodies:
-        return system
-    return replace(system, bodies=system.bodies | {train: replace(system.bodies[train], is_whole=False)})
+    return replace(
+        system,
+        bodies={
+            other: replace(body, is_whole=body.is_whole and other != train) for other, body in system.bodies.items()
+        },
+    )
 
 
 def leave(site: Road, system: Level, gone: Train) -> Level:
@@ -249,12 +253,16 @@ def come_to_stand(site: Road, system: Level, train: Train, signal: Signal) -> Le
     """
     if not who_stands_at_a_starting_signal_was_not_let_go(system, train):
         return system
+    if not who_stands_before_the_road_is_not_on_it(site, system, train, signal):
+        return system
     body = system.bodies[train]
-    if signal not in site.signals.before or not body.is_whole:
-        return system
-    if not who_stands_before_the_road_is_not_on_it(system, train):
-        return system
-    stands = replace(body, inside=False, has_asked=body.has_asked and not body.forgotten, forgotten=False)
+    is_clear = signal in site.signals.before and body.is_whole
+    stands = replace(
+        body,
+        inside=body.inside and not is_clear,
+        has_asked=body.has_asked and not (body.forgotten and is_clear),
+        forgotten=body.forgotten and not is_clear,
+    )
     return replace(system, bodies=system.bodies | {train: stands})
 
 
