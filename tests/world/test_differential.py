@@ -17,6 +17,7 @@ import kernel
 import models.world
 from kernel.crossing.crossing import CrossingTrack
 from kernel.crossing.crossing import Train as CrossingTrain
+from kernel.crossing.ranging_schedule import CrossingName
 from kernel.names import (
     Block,
     Cab,
@@ -77,8 +78,10 @@ UNIVERSE: dict[Any, list[Any]] = {
 CROSSING: dict[Any, list[Any]] = {
     CrossingTrack: [CrossingTrack("up"), CrossingTrack("down")],
     CrossingTrain: [CrossingTrain("t"), CrossingTrain("u")],
+    CrossingName: [CrossingName("c"), CrossingName("d")],
 }
-"""Names of the level crossing, whose restart stands beside the others'."""
+"""Names of the level crossing, whose restarts stand beside the others'."""
+AT_A_CROSSING = {f"kernel.restarts.restart_{machine}" for machine in ("crossing", "ranging_schedule", "start_point")}
 
 
 def functions() -> Iterator[Callable[..., Any]]:
@@ -107,5 +110,5 @@ def test_every_transition_axiom_and_premise_is_compared() -> None:
 @pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_cpython_and_lifted_terms_agree(name: str) -> None:
-    universe = CROSSING if name == "kernel.restarts.restart_crossing" else UNIVERSE
+    universe = CROSSING if name in AT_A_CROSSING else UNIVERSE
     check_function(FUNCTIONS[name], universe, examples=10, symbolic=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import CrossingTrack, Due
 from proofs.crossing.witnesses.crossing_day import DOWN, ONE, SITE, THREE, TWO, UP, Day
@@ -25,6 +27,8 @@ def a_start_keeps_the_road_closed() -> None:
     day.cycle()
     assert (day.warns(), day.system.restarted, day.system.unseen) == (False, False, False)
     assert day.system.warned_cycles == 0
+    silent = replace(day.system.crossing, warned_cycles=SITE.settings.bell_cycles)
+    assert not machine.arms_are_to_be_down(SITE.settings, silent), "no arm falls without its bell"
 
 
 def a_start_is_closed_until_terminals_are_heard() -> None:
@@ -206,6 +210,7 @@ def several_strikes_that_a_terminal_has_missed_are_seen_out_together() -> None:
     assert day.system.crossing.unaccounted == {UP: True, DOWN: False}
     assert day.system.accounted == frozenset({DOWN})
     assert [day.system.bodies[train].forgotten for train in (ONE, TWO, THREE)] == [True, True, False]
+    assert {day.system.bodies[train].forgotten_at for train in (ONE, TWO)} == {day.system.newest}
     day.cycle()
     assert [day.system.bodies[train].has_asked for train in (ONE, TWO)] == [True, True]
     day.pass_by(THREE)
@@ -249,11 +254,11 @@ def a_word_from_before_a_restart_opens_nothing() -> None:
     number = day.system.crossing.number
     day.step("restart")
     assert day.system.crossing.number == number + 1
-    assert (day.look(UP), day.look(DOWN), day.look(SIDING)) == (number + 1, number + 1, machine.NONE)
+    assert (day.look(UP), day.look(DOWN), day.look(SIDING)) == (number + 1, number + 1, 0)
     before = day.system
     for track in (UP, DOWN):
         assert day.step("account", track=track, number=old[track]) == before
-    assert day.step("account", track=SIDING, number=machine.NONE) == before
+    assert day.step("account", track=SIDING, number=0) == before
     day.cycle()
     assert day.warns()
     day.account(DOWN)

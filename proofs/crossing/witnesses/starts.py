@@ -266,6 +266,19 @@ def what_one_train_does_changes_no_other() -> None:
         (True, False),
         (False, True),
     ]
+    day.step("part", train=TWO)
+    assert [body.is_whole for _train, body in day.system.bodies.items()] == [False, False]
+
+
+def who_asks_to_start_is_told_of_as_one_that_has_struck() -> None:
+    """Another that asks after it takes nothing from that (X3)."""
+    day = Day()
+    for train in (ONE, TWO):
+        day.come(train)
+    asked(day, ONE)
+    assert [body.was_struck for _train, body in day.system.bodies.items()] == [True, False]
+    asked(day, TWO)
+    assert [body.was_struck for _train, body in day.system.bodies.items()] == [True, True]
 
 
 def who_was_forgotten_and_stands_is_looked_at_no_more() -> None:
@@ -281,6 +294,19 @@ def who_was_forgotten_and_stands_is_looked_at_no_more() -> None:
     day.account(UP, DOWN)
     day.cycle()
     assert not day.warns()
+
+
+def who_was_forgotten_and_has_parted_is_looked_for_still() -> None:
+    """Its front part stands at the signal; the rest may be anywhere (X3, X4)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.strike(ONE)
+    day.step("part", train=ONE)
+    day.step("restart")
+    day.cycle()
+    before = day.system
+    assert (before.bodies[ONE].forgotten, before.bodies[ONE].has_asked) == (True, True)
+    assert day.step("come_to_stand", train=ONE, signal=STATION) == before
 
 
 def what_may_be_told_of_standing() -> None:
@@ -308,6 +334,8 @@ WITNESSES = (
     who_has_the_road_before_its_signal_keeps_it_closed,
     who_has_parted_keeps_the_road_closed,
     what_one_train_does_changes_no_other,
+    who_asks_to_start_is_told_of_as_one_that_has_struck,
+    who_was_forgotten_and_has_parted_is_looked_for_still,
     who_was_forgotten_and_stands_is_looked_at_no_more,
     what_may_be_told_of_standing,
 )
