@@ -218,7 +218,7 @@ def has_just_come(site: Railway, body: Body) -> bool:
 
 def is_of_the_line(body: Body, age_ms: int) -> bool:
     """Tell whether a report was made while its train was on the line, and so is in the line's figures (A1)."""
-    return body.came_ms > 3_600_000 or age_ms < body.came_ms
+    return age_ms < body.came_ms
 
 
 # ---- what was told, by the register of the line alone

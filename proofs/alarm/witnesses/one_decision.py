@@ -10,6 +10,7 @@ from kernel.alarm.distance import (
     GREATEST_AGE_MS,
     GREATEST_PLACE_MM,
     NO_TRAIN_FIX,
+    UM_A_MM,
     AlarmBounds,
     TrainFix,
     WorkerFix,
@@ -25,6 +26,8 @@ from kernel.alarm.tone import (
     Reason,
     Register,
 )
+from models.alarm import worksite as world
+from models.alarm.line import FRESH
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     BRANCH,
@@ -278,6 +281,9 @@ def what_is_written_or_shown_backwards_is_a_fault() -> None:
     for name in (TUNNEL, YARD):
         section = REGISTER.sections[name]
         backwards = replace(section, from_mm=section.to_mm, to_mm=section.from_mm)
+        middle_um = UM_A_MM * (section.from_mm + section.to_mm) // 2
+        assert world.is_between_the_ends(section, middle_um)
+        assert world.is_between_the_ends(backwards, middle_um)
         for worker_mm in (WORKER_MM, (section.from_mm + section.to_mm) // 2):
             assert machine.tone(replace(REGISTER, sections={YARD: backwards}), handset(worker_mm=worker_mm)) == FAULT
     point = NoUse(Reason.STABLING, 60 * KM, 60 * KM, zone_mm=0)
@@ -289,6 +295,14 @@ def what_is_written_or_shown_backwards_is_a_fault() -> None:
     lost = TrainFix(22 * KM, 10_001, UP, True)
     assert stabled(Display(24 * KM, 19 * KM, 0), lost, worker_mm=28 * KM) == FAULT
     assert stabled(Display(19 * KM, 24 * KM, 0), lost, worker_mm=28 * KM) == NORMAL
+
+
+def sources_agree_while_both_are_fresh() -> None:
+    """A fix that has grown too old agrees with nothing, wherever the display shows its train (A2)."""
+    fix, site = TrainFix(30 * KM, FRESH.fix_ms, UP, True), world.Railway(REGISTER)
+    of = world.OfTrain(fix, Display(28 * KM, 32 * KM, 0), jumped=False, newest=fix)
+    assert world.is_told_alike(site, of)
+    assert not world.is_told_alike(site, replace(of, fix=replace(fix, age_ms=FRESH.fix_ms + 1)))
 
 
 def every_number_fits_into_64_bits() -> None:
@@ -332,5 +346,6 @@ WITNESSES = (
     from_zone_a_on_a_train_counts_at_the_outer_end,
     no_use_means_no_normal_tone,
     what_is_written_or_shown_backwards_is_a_fault,
+    sources_agree_while_both_are_fresh,
     every_number_fits_into_64_bits,
 )

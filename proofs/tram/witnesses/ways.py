@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from proofs.tram.witnesses.line import FIRST, NEITHER, RECOVERS, SECOND, THIRD, Day, two_stops_apart
+from dataclasses import replace
+
+from models.tram import dispatching as world
+from models.tram.dispatching import Run
+from proofs.tram.witnesses.line import FIRST, NEITHER, RECOVERS, SECOND, SITE, THIRD, Day, two_stops_apart
 
 
 def what_was_told_of_the_other_way_ends_no_run_on_this_one() -> None:
@@ -66,8 +70,41 @@ def a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known() -> Non
     day.off(FIRST)
 
 
+def what_one_tram_tells_or_does_takes_nothing_from_another() -> None:
+    """Reports stay under way, from this way and from elsewhere; a unit starts anew by itself alone (G3, G6)."""
+    day = two_stops_apart()
+    before = day.system
+    day.wait(1)
+    day.report(FIRST)
+    day.report(SECOND)
+    day.step("tell_elsewhere", tram=THIRD)
+    assert len(day.system.told - before.told) == 2
+    assert before.told < day.system.told
+    assert before.told_elsewhere < day.system.told_elsewhere
+    other = day.body(SECOND)
+    day.step("restart_unit", tram=FIRST, now_ms=day.system.centre.now_ms)
+    assert set(day.system.bodies) == {FIRST, SECOND}
+    assert day.body(SECOND) == other
+
+
+def who_is_on_the_way_neither_comes_nor_arrives() -> None:
+    """It came before its confirmation was given anew; and it stands at its stop, and has not departed (G3)."""
+    day = two_stops_apart()
+    body, system = day.body(FIRST), day.system
+    anew = replace(system, runs={FIRST: Run(body.stop, system.now_ms)})
+    here = replace(body, left=False)
+    assert not world.a_tram_comes_where_and_when_it_was_confirmed(SITE, anew, FIRST, here)
+    assert world.a_tram_comes_where_and_when_it_was_confirmed(SITE, replace(anew, bodies={}), FIRST, here)
+    stands = day.system.bodies[SECOND]
+    assert not stands.left
+    event = {"noticed": True, "told_stop": stands.stop + 1, "stands": True}
+    assert day.step("arrive", tram=SECOND, **event) == system
+
+
 WITNESSES = (
     what_was_told_of_the_other_way_ends_no_run_on_this_one,
     a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to,
     a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known,
+    what_one_tram_tells_or_does_takes_nothing_from_another,
+    who_is_on_the_way_neither_comes_nor_arrives,
 )
