@@ -60,9 +60,7 @@ def a_train_without_radio_is_warned_of_from_its_start_point() -> None:
     day.until_it_can_arrive(ONE)
     assert day.arrive(ONE).warned_cycles == 62
     day = Day()
-    day.come(ONE, contact=False)
-    day.strike(ONE)
-    day.step("hear_strike", train=ONE)
+    day.come_without_radio(ONE)
     day.until_it_can_arrive(ONE)
     assert day.arrive(ONE).warned_cycles == 44
 

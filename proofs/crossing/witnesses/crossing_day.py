@@ -103,6 +103,13 @@ class Day(Play[Road, Level]):
         left_cycles = max(body.left_cycles, self.site.settings.start_cycles)
         assert self.system.bodies[train] == replace(body, inside=True, left_cycles=left_cycles)
 
+    def come_without_radio(self, train: Train, track: CrossingTrack = UP) -> None:
+        """A train comes and passes its start point, whose terminal tells of it."""
+        self.come(train, track, contact=False)
+        self.strike(train)
+        self.step("hear_strike", train=train)
+        assert self.system.crossing.asks[train] is True
+
     def cycle(
         self, *dues: tuple[Train, Due], heard: tuple[CrossingTrack, ...] = (UP, DOWN), down: bool | None = None
     ) -> None:

@@ -45,9 +45,7 @@ def a_start_is_closed_until_terminals_are_heard() -> None:
 def who_was_forgotten_finds_the_arms_down() -> None:
     """It had struck; power fails, terminals are heard again, and it arrives after the time that it always had (X3)."""
     day = Day()
-    day.come(ONE, contact=False)
-    day.strike(ONE)
-    day.step("hear_strike", train=ONE)
+    day.come_without_radio(ONE)
     for _ in range(20):
         day.cycle()
     down_cycles = day.system.down_cycles
@@ -199,9 +197,7 @@ def several_strikes_that_a_terminal_has_missed_are_seen_out_together() -> None:
     for train in (ONE, TWO):
         day.come(train, contact=False)
         day.strike(train)
-    day.come(THREE, DOWN, contact=False)
-    day.strike(THREE)
-    day.step("hear_strike", train=THREE)
+    day.come_without_radio(THREE, DOWN)
     for _ in range(4):
         day.cycle(heard=(DOWN,))
     before = day.system

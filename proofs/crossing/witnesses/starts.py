@@ -185,9 +185,7 @@ def a_train_that_comes_and_goes_asks_for_itself_alone() -> None:
 def who_stands_across_the_road_keeps_it_closed() -> None:
     """Its head stands at the next road's signal, and its promise is of that one alone (X4)."""
     day = Day()
-    day.come(ONE, contact=False)
-    day.strike(ONE)
-    day.step("hear_strike", train=ONE)
+    day.come_without_radio(ONE)
     day.until_it_can_arrive(ONE)
     day.arrive(ONE)
     there = day.system
@@ -224,9 +222,7 @@ def who_has_the_road_before_its_signal_keeps_it_closed() -> None:
 def who_has_parted_keeps_the_road_closed() -> None:
     """Its front stands at the signal before the road, and knows that it is not whole (X4)."""
     day = Day()
-    day.come(ONE, contact=False)
-    day.strike(ONE)
-    day.step("hear_strike", train=ONE)
+    day.come_without_radio(ONE)
     day.cycle()
     before = day.system
     assert day.step("part", train=TWO) == before
@@ -248,9 +244,7 @@ def what_one_train_does_changes_no_other() -> None:
     """It arrives, parts, stands and promises for itself alone (X3, X4)."""
     day = Day()
     for train, track in ((ONE, UP), (TWO, DOWN)):
-        day.come(train, track, contact=False)
-        day.strike(train)
-        day.step("hear_strike", train=train)
+        day.come_without_radio(train, track)
     day.cycle()
     day.step("come_to_stand", train=TWO, signal=STATION)
     assert set(day.system.bodies) == {ONE, TWO}
