@@ -145,6 +145,49 @@ def a_sick_antenna_shows() -> None:
     assert above.system == before
 
 
+def a_record_is_taken_once() -> None:
+    """It is delivered until it is taken, and the same passing delivers it no second time (T1, T16)."""
+    above = Above()
+    assert above.hears(ONE, ONE) == [ONE]
+    above.step("take")
+    assert not machine.delivers(above.system.reader)
+    assert above.hears(ONE, ONE) == []
+
+
+def a_cycle_counts_its_own_frames() -> None:
+    """Two frames on both sides of a cycle's beginning are none; nor is a record that nobody took (T1, P7)."""
+    above = Above()
+    assert above.hears(ONE) == []
+    above.step("begin_a_cycle")
+    assert above.system.slots == JUST_STARTED.slots
+    assert above.hears(ONE) == []
+    assert above.hears(ONE) == [ONE]
+    above.step("begin_a_cycle")
+    assert not machine.delivers(above.system.reader)
+
+
+def another_antenna_was_not_above_what_the_one_before_was() -> None:
+    """What was heard stays heard; what was delivered is taken (T3, T13)."""
+    above = Above()
+    assert above.hears(ONE, ONE) == [ONE]
+    above.step("be_another")
+    assert [(slot.heard, slot.below) for slot in above.system.slots[:2]] == [(ONE, NO_FRAME), (ONE, NO_FRAME)]
+    assert not machine.delivers(above.system.reader)
+
+
+def a_train_that_begins_anew_has_heard_nothing() -> None:
+    """A sound antenna stays sound, and one that has failed stays failed, until staff mends it (T13, P7)."""
+    above = Above()
+    above.hears(ONE)
+    above.step("begin_anew")
+    assert above.system == replace(JUST_STARTED, reader=machine.mended())
+    assert above.hears(ONE) == []
+    assert above.hears(ONE) == [ONE]
+    above.hears(NO_FRAME, level=Level(799, True), sick=True)
+    above.step("begin_anew")
+    assert above.system == replace(JUST_STARTED, sick=True)
+
+
 WITNESSES = (
     two_frames_of_four,
     a_passing_is_one_delivery,
@@ -153,4 +196,8 @@ WITNESSES = (
     a_sick_antenna_is_deaf_until_mended,
     the_limits_are_sound,
     a_sick_antenna_shows,
+    a_record_is_taken_once,
+    a_cycle_counts_its_own_frames,
+    another_antenna_was_not_above_what_the_one_before_was,
+    a_train_that_begins_anew_has_heard_nothing,
 )
