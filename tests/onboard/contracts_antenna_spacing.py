@@ -68,10 +68,17 @@ def a_place_not_known_proves_nothing(uid: int, least_mm: int, most_mm: int) -> N
 
 
 def the_tail_before_the_head_is_latched(uid: int, place_mm: int) -> None:
-    """In reversed order, whatever the odometry says (T13)."""
+    """In reversed order: the head had not read the tag, so there was nothing to hold the tail's read against (T13)."""
     assert isinstance(place_mm, int)
-    checked = replace(FRESH, checked=True, tail_read=True, tail_uid=uid)
-    assert not is_healthy(note_head_read(checked, uid, Way(True, place_mm, place_mm)))
+    tail = note_tail_read(LIMITS, replace(FRESH, checked=True), uid, Way(True, 0, 0))
+    assert note_head_read(tail, uid, Way(True, place_mm, place_mm)).broken
+
+
+def a_head_that_comes_round_to_what_the_tail_has_read_accuses_nobody(uid: int, place_mm: int) -> None:
+    """On a loop no longer than the train, that read was held against the head's of the lap before (T13)."""
+    assert isinstance(place_mm, int)
+    tail = replace(FRESH, checked=True, tail_read=True, tail_uid=uid)
+    assert is_healthy(note_head_read(tail, uid, Way(True, place_mm, place_mm)))
 
 
 def a_restarted_line_is_not_healthy(uid: int, place_mm: int) -> None:
