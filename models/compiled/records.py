@@ -139,8 +139,14 @@ def packed(value: Any, type_: Any = None) -> Any:
         return tuple([packed(item) for item in value])
     if is_record(type(value)):
         cls: Any = type(value)
-        return tuple_class(cls)(*[packed(getattr(value, name), hint) for name, hint in hints_of(cls).items()])
+        items = [(getattr(value, name), hint) for name, hint in hints_of(cls).items()]
+        return tuple_class(cls)(*[item if _is_plain(item) else packed(item, hint) for item, hint in items])
     raise TypeError(f"{value!r} cannot be handed to compiled code")
+
+
+def _is_plain(item: Any) -> bool:
+    """Whether compiled code takes an item as it is: most items of a record are."""
+    return type(item) is bool or (type(item) is int and LEAST <= item <= MOST)
 
 
 def _listed(value: Any, type_: Any) -> Any:

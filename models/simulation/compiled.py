@@ -66,6 +66,7 @@ class Compiled:
 
     def __init__(self, limits: Limits, computer: Computer) -> None:
         self._run, self._held = made(), _begun(packed(limits), packed(computer))
+        self._is_put = True
         self._take(computer)
 
     def _take(self, computer: Computer) -> None:
@@ -85,11 +86,14 @@ class Compiled:
     @computer.setter
     def computer(self, computer: Computer) -> None:
         if computer != self._computer:
-            _put(self._held, packed(computer))
+            self._is_put = False
             self._take(computer)
 
     def run(self, moving: Moving, kept: Kept, errors: Errors, given: Given, noises: Any, most: int) -> Ran:
         """Run cycles, as :class:`models.simulation.cycles.Interpreted` does."""
+        if not self._is_put:
+            _put(self._held, packed(self._computer))
+            self._is_put = True
         ran, motion, brake, self.broken, self.passed = self._run(self._held, moving, kept, errors, given, noises, most)
         self.motion, self.brake, self._computer = _motion_of(motion), _brake_of(brake), None
         return Ran(*ran)

@@ -32,7 +32,7 @@ class Standing:
 
 Board = Mapping[Train, Standing]
 AGAIN_S = 120
-REMEMBERED = 1_000
+REMEMBERED = 10_000
 """So many boards are remembered with what they came to: trains ask again and again while nobody has moved."""
 
 
@@ -44,9 +44,18 @@ class Foresight:
         self.ways = ways
         self._bit = {block: 1 << at for at, block in enumerate(sorted(layout.blocks))}
         self._needs = {route: self._mask(self._swept(route)) for route in layout.routes}
+        self._to_reach = self._needed_by_all()
         self._masks: dict[frozenset[Block], int] = {}
         self._arriving: dict[Hashable, frozenset[Train]] = {}
         self._towards: dict[tuple[Block, Block], list[tuple[int, Block]]] = {}
+
+    def _needed_by_all(self) -> dict[Block, int]:
+        """What every route needs that ends in a block: the block itself, at the least."""
+        found = dict[Block, int]()
+        for route, needs in self._needs.items():
+            end = self.layout.destination[route]
+            found[end] = found.get(end, needs) & needs
+        return found
 
     def _swept(self, route: Route) -> Iterable[Block]:
         for block in self.layout.claims[route]:
@@ -95,6 +104,8 @@ class Foresight:
             others |= mask if other != train else 0
         if goal in standing.blocks:
             return True
+        if self._to_reach.get(goal, 0) & others:
+            return False
         todo, seen = list(standing.blocks), set(standing.blocks)
         if standing.ways_on is not None:
             todo = [self.layout.destination[route] for route in standing.ways_on if not self._needs[route] & others]
@@ -121,8 +132,18 @@ class Foresight:
 
     def lets_begin(self, board: Board, train: Train, goal: Block) -> bool:
         """Tell whether a train may make for a goal: it gets there, and so do all that did."""
+        if goal not in board[train].blocks and self._to_reach.get(goal, 0) & self._never_freed(board, train):
+            return False
         begun = self.arriving({**board, train: replace(board[train], goal=goal)}, train)
         return train in begun and self.arriving(board, train) <= begun
+
+    def _never_freed(self, board: Board, train: Train) -> int:
+        """The blocks of other trains that stay where they are."""
+        found = 0
+        for other, standing in board.items():
+            if standing.goal is None and other != train:
+                found |= self._there(standing.blocks)
+        return found
 
     def barring(self, board: Board, train: Train, goal: Block) -> Barred | None:
         """Who stands on a train's shortest way to a goal, and where; None if nobody does."""

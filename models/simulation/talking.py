@@ -7,8 +7,9 @@ the radio's time a line can spare.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields as fields_of
+from operator import is_
 from typing import Any
 
 from kernel.link import Party
@@ -39,6 +40,7 @@ from models.simulation.parts import Joined, in_parts
 from models.simulation.wording import Fields, was_sent
 from models.simulator.machines import (
     NOWHERE,
+    Message,
     centre_says,
     contacts,
     is_news_to_centre,
@@ -61,6 +63,8 @@ Sensed = Callable[[Train], tuple[Standstill, ThroughLine]]
 """What odometry, line and the machines on board say of a train's standstill and of the way to its tail."""
 AskedFor = Callable[[Run], tuple[Standstill, int, int] | None]
 """How a run's train stands, which end its brake holds, and where the block ends that the run starts in."""
+Say = tuple[Party, Party, Message]
+"""Who says what to whom."""
 
 KINDS: Mapping[type, str] = {
     Challenge: "challenge",
@@ -104,23 +108,57 @@ class Talk:
         self.sensed = sensed
         self.asked_for = asked_for
         self._offered, self._echoed = Joined(), Joined()
+        self._nothing_said: dict[Train, tuple[object, ...]] = {}
         self._unit, self._terminal = links.addresses.unit, links.addresses.terminal
 
     # ---- saying
 
     def with_train(self, train: Train) -> None:
-        """Everything that is to be said now by and to one train, and by the terminals near it."""
-        for point in terminals_near(self.play, train):
-            for told in terminal_says(self.play, point, contacts(self.play, point)):
-                if is_news_to_centre(self.play, told):
-                    self._say(self._terminal[point], self._unit[train], told)
-        for said in centre_says(self.play, train):
-            if (self.may_answer(train) or not isinstance(said, Challenge)) and is_news_to_unit(self.play, train, said):
-                self._say(CENTRE, self._unit[train], said)
+        """Everything that is to be said now by and to one train, and by the terminals near it.
+
+        Where nothing was to be said, nothing is until something changes of what was looked at.
+        """
+        looked_at = self._looked_at(train)
+        if all(map(is_, looked_at, self._nothing_said.get(train, (None,)))):
+            return
+        said = self._to_unit(train)
+        self._say_all(said)
         self._gives_back(train)
-        for answered in unit_says(self.play, train):
-            if is_news_to_centre(self.play, answered):
-                self._say(self._unit[train], CENTRE, answered)
+        answered = self._to_centre(train)
+        self._say_all(answered)
+        if said or answered or self._wanted_back(train):
+            self._nothing_said.pop(train, None)
+        else:
+            self._nothing_said[train] = looked_at
+
+    def _looked_at(self, train: Train) -> tuple[object, ...]:
+        """All that decides on what is to be said by and to a train, but for runs that are wanted back."""
+        system = self.play.system
+        unit, terminals, lies = system.units[train], system.terminals, system.track.lies
+        return system.centre, unit, terminals, lies, self.may_answer(train)
+
+    def _to_unit(self, train: Train) -> list[Say]:
+        """What terminals near a train and the centre have to say to its unit."""
+        found = [
+            (self._terminal[point], self._unit[train], told)
+            for point in terminals_near(self.play, train)
+            for told in terminal_says(self.play, point, contacts(self.play, point))
+            if is_news_to_centre(self.play, told)
+        ]
+        return found + [
+            (CENTRE, self._unit[train], said)
+            for said in centre_says(self.play, train)
+            if (self.may_answer(train) or not isinstance(said, Challenge)) and is_news_to_unit(self.play, train, said)
+        ]
+
+    def _to_centre(self, train: Train) -> list[Say]:
+        """What a train's unit has to say to the centre."""
+        says = unit_says(self.play, train)
+        return [(self._unit[train], CENTRE, said) for said in says if is_news_to_centre(self.play, said)]
+
+    def _say_all(self, said: Iterable[Say]) -> None:
+        for each in said:
+            self._say(*each)
 
     def _say(self, me: Party, peer: Party, said: Any) -> None:
         """Send what a machine says."""
@@ -191,10 +229,15 @@ class Talk:
 
     # ---- what the computer on board brings about
 
+    def _wanted_back(self, train: Train) -> list[Run]:
+        """Runs that a unit may still give back."""
+        orders = self.play.system.units[train].orders
+        return [run for run, order in orders.items() if order.recalled and not (order.given_back or order.begun)]
+
     def _gives_back(self, train: Train) -> None:
         """A unit asks its brake control for what is wanted back; what the brake keeps it out of it gives back (T9)."""
-        for run, order in self.play.system.units[train].orders.items():
-            said = self.asked_for(run) if order.recalled and not (order.given_back or order.begun) else None
+        for run in self._wanted_back(train):
+            said = self.asked_for(run)
             if said is None:
                 continue
             at, held_end_mm, start_end_mm = said
