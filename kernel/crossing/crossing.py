@@ -25,6 +25,7 @@ from typing import NewType
 from kernel.crossing import arrival
 from kernel.crossing.arrival import ArrivalBounds, Followed
 from kernel.maps import Map
+from kernel.onboard.arithmetic import smaller
 
 LEAST_DOWN_MS = 15_000
 """From barriers down to the arrival, never less (003, 2.1, note 2; X5)."""
@@ -98,7 +99,7 @@ class Crossing:
     ``asks``: each train that it knows of, and whether that has asked for the warning.
     ``starts``: those that have asked to start at a signal inside the start points, and within how many cycles
     none arrives from there.
-    ``silent_cycles``: for how long each start point's terminal has told nothing.
+    ``silent_cycles``: how long ago each start point's terminal spoke, of what it was heard to say since.
     ``unaccounted``: each track, and whether nobody has seen it empty since the last restart, of the crossing or of a
     terminal on it; such a track warns.
     ``numbers``: by which number it has noted each train; ``looks``: by which it asks a person to look at each track.
@@ -226,12 +227,25 @@ def note_struck(crossing: Crossing, train: Train) -> Crossing:
     return replace(numbered(crossing, train), asks=crossing.asks | {train: True})
 
 
-def note_heard(crossing: Crossing, track: CrossingTrack) -> Crossing:
-    """A terminal is heard; every strike that it had not told of comes first (X3, T14).
+def newest_word(crossing: Crossing, track: CrossingTrack, age_cycles: int) -> int:
+    """Give how long ago a terminal spoke last, by a word of this age and by what was heard of it before (X3, ours)."""
+    if track not in crossing.silent_cycles:
+        return age_cycles
+    return smaller(age_cycles, crossing.silent_cycles[track])
+
+
+def note_heard(crossing: Crossing, track: CrossingTrack, age_cycles: int) -> Crossing:
+    """A terminal is heard; every strike from before it spoke that it had not told of comes first (X3, T14).
+
+    ``age_cycles``: how long ago it spoke, at the most.  While a word is under way, a train may strike and the terminal
+    fail; so silence counts from when it spoke.  Of an age below zero there is no word (ours).
 
     One whose track the settings leave out has a track that nobody has accounted for (ours).
     """
-    heard = replace(crossing, silent_cycles=crossing.silent_cycles | {track: 0})
+    if age_cycles < 0:
+        return crossing
+    spoke_cycles = newest_word(crossing, track, age_cycles)
+    heard = replace(crossing, silent_cycles=crossing.silent_cycles | {track: spoke_cycles})
     if track in crossing.unaccounted:
         return heard
     return asking(heard, track)

@@ -50,16 +50,17 @@ def nobody_arrives_before_he_can(system: Level, train: Train) -> bool:
     return system.bodies[train].left_cycles <= 0
 
 
-def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack) -> bool:
-    """Who has passed a start point without contact is told of when its terminal is next heard, at the latest (X3).
+def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack, age_cycles: int) -> bool:
+    """Who had passed a start point without contact when its terminal spoke is told of when that is heard (X3).
 
+    The word may have been under way for any time, and be no older than it is taken for.
     A strike is put down to a train in contact only if that has made it.  Strikes from before a restart are not told
     again, nor are those that a terminal without power has missed: it tells first that there may be some.
     """
     return all(
         train in system.told or body.forgotten
         for train, body in system.bodies.items()
-        if body.track == track and body.inside
+        if body.track == track and body.inside and body.inside_cycles >= age_cycles
     )
 
 
@@ -190,6 +191,7 @@ def come(site: Road, system: Level, train: Train, track: CrossingTrack, left_cyc
         came_at=system.newest + 1,
         is_on_road=False,
         is_whole=True,
+        inside_cycles=0,
         was_struck=False,
         has_asked=False,
         was_known=False,
@@ -205,7 +207,8 @@ def pass_start_point(site: Road, system: Level, train: Train) -> Level:
         return system
     body = system.bodies[train]
     left_cycles = greater(body.left_cycles, site.settings.start_cycles)
-    return replace(system, bodies=system.bodies | {train: replace(body, inside=True, left_cycles=left_cycles)})
+    inside = replace(body, inside=True, inside_cycles=0, left_cycles=left_cycles)
+    return replace(system, bodies=system.bodies | {train: inside})
 
 
 def arrive(site: Road, system: Level, train: Train) -> Level:
@@ -340,16 +343,25 @@ def hear_strike(site: Road, system: Level, train: Train) -> Level:
     )
 
 
-def hear_terminal(site: Road, system: Level, track: CrossingTrack) -> Level:
-    """A terminal is heard, and has no more to tell (X3, T14)."""
-    if not the_terminal_tells_every_strike_first(system, track):
+def last_spoke(system: Level, track: CrossingTrack, age_cycles: int) -> int:
+    """Give how long ago a terminal spoke, with a word of this age."""
+    if track in system.unheard_cycles and system.unheard_cycles[track] < age_cycles:
+        return system.unheard_cycles[track]
+    return age_cycles
+
+
+def hear_terminal(site: Road, system: Level, track: CrossingTrack, age_cycles: int) -> Level:
+    """A terminal is heard, by a word that it spoke so long ago, when it had no more to tell (X3, T14)."""
+    if not the_terminal_tells_every_strike_first(system, track, age_cycles):
         return system
+    heard = replace(system, crossing=machine.note_heard(system.crossing, track, age_cycles))
+    if age_cycles < 0:
+        return heard
     return replace(
-        system,
+        heard,
         asked=system.asked if track in system.asked else system.asked | {track: system.newest + 1},
         newest=system.newest if track in system.asked else system.newest + 1,
-        crossing=machine.note_heard(system.crossing, track),
-        unheard_cycles=system.unheard_cycles | {track: 0},
+        unheard_cycles=system.unheard_cycles | {track: last_spoke(system, track, age_cycles)},
     )
 
 
@@ -463,7 +475,10 @@ def run_a_cycle(site: Road, system: Level, are_down: bool) -> Level:
         return system
     return replace(
         system,
-        bodies={train: replace(body, left_cycles=body.left_cycles - 1) for train, body in system.bodies.items()},
+        bodies={
+            train: replace(body, left_cycles=body.left_cycles - 1, inside_cycles=body.inside_cycles + 1)
+            for train, body in system.bodies.items()
+        },
         crossing=machine.aged(system.crossing),
         decided=False,
         warned_cycles=system.warned_cycles + 1 if system.crossing.warns else 0,

@@ -44,9 +44,11 @@ FAULTS = (
           "practice: a late train"),
     Fault("close_roads", "a second road lay so close to the first", 0.3, 68_400, 68_400, "m", 250, 700,
           "practice: two streets of a town"),
+    Fault("late_words", "a terminal's words were under way for seconds", 0.3, 600, 7_200, "s", 1, 2,
+          "practice: a relay, retries"),
 )  # fmt: skip
 """In the order of the simulation's windows.  ``power`` is as large as a person takes to come once it is back."""
 
-DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind", "close_roads")
+DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind", "close_roads", "late_words")
 
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

@@ -29,6 +29,7 @@ class Body:
     ``came_at``: history: the number that the crossing was to give next when it came, or was made up.
     ``is_on_road``: it has come to the road, and its rear is not past it yet.
     ``is_whole``: nothing has parted from it.
+    ``inside_cycles``: history: how long ago it passed its start point.
     ``was_struck``: history: a terminal told of it, which was not in contact.
     ``has_asked``: history: that was so at a decision, or it was due, or in contact and nothing was known of it, or it
     was forgotten.
@@ -44,6 +45,7 @@ class Body:
     came_at: int
     is_on_road: bool
     is_whole: bool
+    inside_cycles: int
     was_struck: bool
     has_asked: bool
     was_known: bool
@@ -85,7 +87,7 @@ class Level:
     ``lowered_cycles``: for how long its arms have been lowered or held down.
     ``are_down``, ``down_cycles``: they are down, and for how many whole cycles.
     ``opened_cycles``: since a warning last ended.
-    ``unheard_cycles``: history: for how long each start point's terminal has not been heard.
+    ``unheard_cycles``: history: how long ago each start point's terminal spoke, of what was heard of it.
     ``last``: the last arrival.
     """
 

@@ -13,7 +13,7 @@ from models.compiled import compiled
 from models.crossing.columns import NUMBER
 from models.crossing.faults import KIND
 from models.crossing.made import MADE
-from models.crossing.radio import RADIO_OUT
+from models.crossing.radio import RADIO_OUT, is_on
 from models.crossing.sites import START_POINT
 from models.crossing.staff import OTHER_NAME
 from models.crossing.traffic import NEVER, TRACKS
@@ -22,8 +22,8 @@ StartPoint, StartPointSettings = MADE.start_point.StartPoint, MADE.start_point.S
 note_read, note_strike, striker = MADE.start_point.note_read, MADE.start_point.note_strike, MADE.start_point.striker
 aged_point = MADE.start_point.aged
 note_struck, note_heard = MADE.crossing.note_struck, MADE.crossing.note_heard
-START_TAGS, LATE_READS, UNSTRUCK, TERMINAL = (
-    KIND[name] for name in ("start_tags", "late_reads", "unstruck", "terminal")
+START_TAGS, LATE_READS, UNSTRUCK, TERMINAL, LATE_WORDS = (
+    KIND[name] for name in ("start_tags", "late_reads", "unstruck", "terminal", "late_words")
 )
 STRIKE_BROKEN, WRONG_STRIKER, UNREAD = (NUMBER[name] for name in ("strike_broken", "wrong_striker", "unread"))
 TOLD_S, WAITS_S, CHANGES_S = START_POINT.told_cycles, START_POINT.waits_cycles, START_POINT.changes_cycles
@@ -128,12 +128,21 @@ def strike(day: Any, run: Any, points: Any, track: int, train: int, out: Any) ->
 
 
 @compiled
+def under_way_s(day: Any, track: int) -> Any:
+    """Give for how long the words of a track's terminals are under way."""
+    is_late = day.on[LATE_WORDS] and day.faults[LATE_WORDS].track_of == track
+    return int(day.faults[LATE_WORDS].size) if is_late else 0
+
+
+@compiled
 def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -> Any:
-    """Hear a start point's terminal: first what it has to tell, and then that it is there (X3, T14)."""
-    if day.on[TERMINAL] and day.faults[TERMINAL].track_of == track:
+    """Hear a start point's terminal: first what it had to tell as it spoke, and then that it was there (X3, T14)."""
+    age_s = under_way_s(day, track)
+    spoke_s = now - age_s
+    if is_on(day, TERMINAL, spoke_s) and day.faults[TERMINAL].track_of == track:
         return crossing
     for train in range(window[track, 0], window[track, 1]):
-        if run[train].name >= 0:
+        if run[train].name >= 0 and run[train].struck_s <= spoke_s:
             crossing = note_struck(crossing, run[train].name)
             run[train].name = NEVER
-    return note_heard(crossing, track)
+    return note_heard(crossing, track, age_s)

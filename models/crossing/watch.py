@@ -329,7 +329,7 @@ def live(
     """
     window, ends = windows_of(day)
     for track in range(TRACKS):
-        crossing = note_heard(crossing, track)
+        crossing = note_heard(crossing, track, 0)
         crossing = note_empty(crossing, track, look_of(crossing, track))
     first.out[TRAINS] += len(day.trains)
     first.out[SECONDS_COUNT] += SECONDS

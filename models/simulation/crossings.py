@@ -186,7 +186,7 @@ class Crossings:
         for train in state.strikes:
             state.crossing = machine.note_struck(state.crossing, Known(train))
         state.strikes = []
-        state.crossing = machine.note_heard(state.crossing, state.track)
+        state.crossing = machine.note_heard(state.crossing, state.track, 0)
 
     def _ranging(self, state: State, train: Train) -> Ranging:
         """What has come of a train since the last decision, made no younger than it may be."""

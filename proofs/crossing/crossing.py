@@ -250,8 +250,17 @@ def every_train_is_on_a_track(site: Road, system: Level) -> bool:
     return all(body.track in site.tracks for _train, body in system.bodies.items())
 
 
+def an_untold_train_comes_from_its_start_point(site: Road, system: Level) -> bool:
+    """Who has passed a start point untold since the restart is as far as that, less what it has run since (X3)."""
+    return all(
+        body.left_cycles + body.inside_cycles >= site.settings.start_cycles
+        for train, body in system.bodies.items()
+        if body.inside and not body.forgotten and train not in system.told
+    )
+
+
 def an_untold_train_is_far(site: Road, system: Level) -> bool:
-    """Who has passed a start point untold since the restart did so since its terminal was heard last (X3)."""
+    """Who has passed a start point untold since the restart did so since its terminal spoke last (X3)."""
     return all(
         body.left_cycles + system.unheard_cycles[body.track] >= site.settings.start_cycles
         for train, body in system.bodies.items()
@@ -343,6 +352,7 @@ INVARIANTS = (
     only_a_person_accounts_for_a_track,
     who_was_forgotten_keeps_its_track_unaccounted,
     every_train_is_on_a_track,
+    an_untold_train_comes_from_its_start_point,
     an_untold_train_is_far,
     what_is_not_warned_of_is_left,
     who_was_warned_of_still_asks,

@@ -35,7 +35,7 @@ class Road:
 
     def hear_the_terminals(self) -> None:
         for track in (UP, DOWN):
-            self.crossing = machine.note_heard(self.crossing, track)
+            self.crossing = machine.note_heard(self.crossing, track, 0)
 
     def decide(self, dues: dict[Train, Due]) -> None:
         self.crossing = machine.decide(SETTINGS, self.crossing, dues)

@@ -45,7 +45,7 @@ class RoadAt(Road):
     def __post_init__(self) -> None:
         for track in (UP, DOWN):
             self.see_empty(track)
-            self.crossing = machine.note_heard(self.crossing, track)
+            self.crossing = machine.note_heard(self.crossing, track, 0)
         self.decide({})
         assert not self.crossing.warns
 

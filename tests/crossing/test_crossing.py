@@ -102,7 +102,7 @@ class Drawn:
         dues |= {train: Due.NOW for train, body in day.system.bodies.items() if body.inside and body.left_cycles < 42}
         for track in (UP, DOWN):
             if chance.random() < 0.7:
-                day.step("hear_terminal", track=track)
+                day.step("hear_terminal", track=track, age_cycles=0)
         day.cycle(*dues.items(), heard=())
 
     def go(self, train: Train) -> None:

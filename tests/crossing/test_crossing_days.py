@@ -145,6 +145,19 @@ def test_a_strike_put_down_to_another_train_is_seen() -> None:
     assert {"wrong_striker", "late_warning"} <= set(broken)
 
 
+def test_silence_counts_from_when_a_terminal_spoke() -> None:
+    """On days on which its words are under way for seconds while it fails, trains without radio are warned of in time.
+
+    Who took such a word for one of now would find it silent too late (X3).
+    """
+    rows = days(6, beyond=("late_words", "terminal", "no_radio"))
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    for name in ("late_words", "terminal", "no_radio"):
+        assert rows[:, NUMBER[f"fault_{name}"]].all()
+    assert rows[:, NUMBER["silences"]].sum() > 0
+    assert rows[:, NUMBER["conventional"]].sum() > 0
+
+
 def test_trains_run_side_by_side_and_close_behind() -> None:
     """One of each two has a radio and the other one none (X3)."""
     for name in ("beside", "close_behind"):

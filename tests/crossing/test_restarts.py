@@ -79,7 +79,7 @@ class World:
                 if self.powered:
                     self.crossing = machine.note_struck(self.crossing, train.name)
         for track in TRACKS:
-            self.crossing = machine.note_heard(self.crossing, track)
+            self.crossing = machine.note_heard(self.crossing, track, 0)
         if not self.powered:
             self.fail()
         warned = self.crossing.warns

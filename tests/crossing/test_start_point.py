@@ -248,7 +248,7 @@ def test_two_trains_that_a_terminal_has_missed_are_both_seen_before_the_road_ope
     road.decide({})
     assert not road.crossing.warns
     for _ in range(300):
-        road.crossing = crossing.note_heard(road.crossing, DOWN)
+        road.crossing = crossing.note_heard(road.crossing, DOWN, 0)
         road.decide({})
     assert road.warned_s == 300 - SETTINGS.silence_cycles
     point = restart_start_point(NOBODY)

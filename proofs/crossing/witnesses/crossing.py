@@ -242,7 +242,7 @@ def who_came_in_silence_is_told_of_first() -> None:
         day.cycle(heard=(UP,))
     assert not day.warns()
     before = day.system
-    assert day.step("hear_terminal", track=DOWN) == before
+    assert day.step("hear_terminal", track=DOWN, age_cycles=0) == before
     day.cycle(heard=(UP,))
     assert day.warns()
     day.step("hear_strike", train=ONE)
@@ -250,6 +250,34 @@ def who_came_in_silence_is_told_of_first() -> None:
     while day.system.bodies[ONE].left_cycles > 0:
         day.cycle()
     assert day.arrive(ONE).warned_cycles == 41
+
+
+def a_word_counts_from_when_its_terminal_spoke() -> None:
+    """Under way while a train strikes and the terminal fails; a newer one was heard; of no age; of a new track (X3)."""
+    day = Day()
+    day.come(ONE, DOWN, contact=False)
+    for _ in range(2):
+        day.cycle(heard=(UP,))
+    day.strike(ONE)
+    day.cycle(heard=(UP,))
+    before = day.system
+    assert (before.unheard_cycles[DOWN], before.bodies[ONE].inside_cycles) == (3, 1)
+    for age_cycles in (-1, 0, 1, 3, 50):
+        assert day.step("hear_terminal", track=DOWN, age_cycles=age_cycles) == before
+    day.step("hear_terminal", track=DOWN, age_cycles=2)
+    assert day.system.crossing.silent_cycles[DOWN] == day.system.unheard_cycles[DOWN] == 2
+    assert not day.warns()
+    day.step("hear_terminal", track=restarts.SIDING, age_cycles=7)
+    assert day.system.crossing.silent_cycles[restarts.SIDING] == day.system.unheard_cycles[restarts.SIDING] == 7
+    assert day.system.crossing.unaccounted[restarts.SIDING]
+    day.step("hear_strike", train=ONE)
+    heard = day.system
+    assert day.step("hear_terminal", track=DOWN, age_cycles=-1) == heard
+    day.step("hear_terminal", track=DOWN, age_cycles=1)
+    assert day.system.crossing.silent_cycles[DOWN] == day.system.unheard_cycles[DOWN] == 1
+    day.cycle(heard=(UP,))
+    assert day.system.crossing.silent_cycles[DOWN] == day.system.unheard_cycles[DOWN] == 2
+    assert day.warns()
 
 
 # ---- arms
@@ -399,6 +427,7 @@ WITNESSES = (
     one_of_two_that_is_gone_leaves_the_other,
     silence_of_a_start_point_warns,
     who_came_in_silence_is_told_of_first,
+    a_word_counts_from_when_its_terminal_spoke,
     lamps_and_bells_come_first,
     settings_are_checked,
     a_train_is_far_by_the_longer_time,

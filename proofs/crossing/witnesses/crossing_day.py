@@ -75,7 +75,7 @@ class Day(Play[Road, Level]):
             self.account(UP, DOWN)
             self.cycle()
             for track in (UP, DOWN):
-                self.step("hear_terminal", track=track)
+                self.step("hear_terminal", track=track, age_cycles=0)
             assert not self.warns()
 
     def account(self, *tracks: CrossingTrack) -> None:
@@ -90,7 +90,7 @@ class Day(Play[Road, Level]):
         number = self.system.crossing.number
         self.step("come", train=train, track=track, left_cycles=0)
         assert self.system.bodies[train] == Body(
-            track, False, 0, number + 1, False, True, False, False, False, False, number
+            track, False, 0, number + 1, False, True, 0, False, False, False, False, number
         )
         if contact:
             self.step("make_contact", train=train)
@@ -101,7 +101,7 @@ class Day(Play[Road, Level]):
         body = self.system.bodies[train]
         self.step("pass_start_point", train=train)
         left_cycles = max(body.left_cycles, self.site.settings.start_cycles)
-        assert self.system.bodies[train] == replace(body, inside=True, left_cycles=left_cycles)
+        assert self.system.bodies[train] == replace(body, inside=True, inside_cycles=0, left_cycles=left_cycles)
 
     def come_without_radio(self, train: Train, track: CrossingTrack = UP) -> None:
         """A train comes and passes its start point, whose terminal tells of it."""
@@ -115,7 +115,7 @@ class Day(Play[Road, Level]):
     ) -> None:
         """Terminals are heard, the crossing decides, and a cycle passes; arms come down in time, and rise at once."""
         for track in heard:
-            self.step("hear_terminal", track=track)
+            self.step("hear_terminal", track=track, age_cycles=0)
             assert self.system.crossing.silent_cycles[track] == self.system.unheard_cycles[track] == 0
         assert self.step("decide", dues=dict(dues)).decided
         if down is None:

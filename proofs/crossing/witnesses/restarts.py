@@ -130,7 +130,7 @@ def a_strike_is_told_after_the_restart_too() -> None:
     day.come(ONE, contact=False)
     day.strike(ONE)
     before = day.system
-    assert day.step("hear_terminal", track=UP) == before
+    assert day.step("hear_terminal", track=UP, age_cycles=0) == before
     day.step("hear_strike", train=ONE)
     day.account(UP, DOWN)
     day.cycle()
@@ -145,15 +145,15 @@ def a_strike_is_told_after_the_restart_too() -> None:
 def a_track_that_settings_leave_out_warns() -> None:
     """Once its terminal is heard; a restart forgets it, until it is heard again (X3)."""
     day = Day()
-    day.step("hear_terminal", track=SIDING)
+    day.step("hear_terminal", track=SIDING, age_cycles=0)
     assert day.system.crossing.unaccounted == {UP: False, DOWN: False, SIDING: True}
-    day.step("hear_terminal", track=UP)
+    day.step("hear_terminal", track=UP, age_cycles=0)
     day.cycle()
     assert (day.warns(), day.system.unseen) == (True, True)
     day.step("restart")
     assert (set(day.system.unheard_cycles), day.system.unseen) == (set(SITE.tracks), True)
     day.account(UP, DOWN)
-    day.step("hear_terminal", track=SIDING)
+    day.step("hear_terminal", track=SIDING, age_cycles=0)
     day.cycle()
     assert (day.warns(), day.system.unseen) == (True, True)
     day.account(SIDING)
@@ -201,7 +201,7 @@ def several_strikes_that_a_terminal_has_missed_are_seen_out_together() -> None:
     for _ in range(4):
         day.cycle(heard=(DOWN,))
     before = day.system
-    assert day.step("hear_terminal", track=UP) == before
+    assert day.step("hear_terminal", track=UP, age_cycles=0) == before
     day.step("hear_what_may_be_missed", track=UP)
     assert day.system.crossing.unaccounted == {UP: True, DOWN: False}
     assert day.system.accounted == frozenset({DOWN})
