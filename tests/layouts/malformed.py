@@ -45,7 +45,7 @@ SECONDS = 20
 """A file that takes a processor longer hangs, and so does one that takes a clock so much longer."""
 WAITS = 10
 BYTES = 4 * 2**30
-"""The address space of a process that checks."""
+"""The address space that a process may take while it checks, beyond what it has as it begins."""
 SMALL = 40_000
 """Good files of so many bytes are drawn more often than larger ones."""
 SHARE = 25
@@ -153,9 +153,16 @@ def _ended(goods: Sequence[Good], seed: int, number: int, exit_code: int) -> Out
     return Outcome(number, base, done, "a hang" if -exit_code in HANGS else by, "", SECONDS)
 
 
+def _mapped_bytes() -> int:
+    """The address space of this process: after a fork, all that its parent has mapped, whatever that is."""
+    pages = Path("/proc/self/statm").read_text("ascii").split()[0]
+    return int(pages) * resource.getpagesize()
+
+
 def _work(goods: Sequence[Good], seed: int, numbers: Sequence[int], results: Connection) -> None:
     """Check one file after the other, until one of them ends the process."""
-    resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+    most = _mapped_bytes() + BYTES
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     for each in HANGS:
         signal.signal(each, signal.SIG_DFL)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 import sys
 import time
 from pathlib import Path
@@ -75,3 +76,10 @@ def test_what_is_wrong_is_noticed(fault: object, said: str, monkeypatch: pytest.
     monkeypatch.setattr(heisoku, "run", fault)
     (found,) = outcomes(GOODS, 1, [5], jobs=1)
     assert found.wrong == said
+
+
+def test_what_its_parent_has_mapped_is_not_held_against_a_process() -> None:
+    """A test runner maps whatever its tests need; the files that are checked have nothing of that."""
+    with mmap.mmap(-1, malformed.BYTES + 2**30):
+        found = list(outcomes(GOODS, 7, range(8), jobs=2))
+    assert [each.wrong for each in found] == [None] * 8
