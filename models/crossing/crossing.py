@@ -15,7 +15,7 @@ from kernel.crossing.crossing import CrossingTrack, Due, Signal, Standing, Train
 from kernel.maps import Map
 from kernel.restarts import restart_crossing
 from models.crossing.level import Arrived, Body, Level, Road
-from models.measures import greater
+from models.measures import greater, lesser
 
 # ---- assumptions
 
@@ -345,9 +345,9 @@ def hear_strike(site: Road, system: Level, train: Train) -> Level:
 
 def last_spoke(system: Level, track: CrossingTrack, age_cycles: int) -> int:
     """Give how long ago a terminal spoke, with a word of this age."""
-    if track in system.unheard_cycles and system.unheard_cycles[track] < age_cycles:
-        return system.unheard_cycles[track]
-    return age_cycles
+    if track not in system.unheard_cycles:
+        return age_cycles
+    return lesser(age_cycles, system.unheard_cycles[track])
 
 
 def hear_terminal(site: Road, system: Level, track: CrossingTrack, age_cycles: int) -> Level:

@@ -197,21 +197,12 @@ def decide(site: Channel, system: Ranging) -> Ranging:
     """A cycle of the crossings begins: all that was taken before is older by one (X1, X2)."""
     if not a_decision_begins_each_cycle(site, system):
         return system
-    schedule = machine.next_cycle(system.schedule)
     return replace(
         system,
-        schedule=schedule,
+        schedule=machine.next_cycle(system.schedule),
         taken={number: cycles + 1 for number, cycles in system.taken.items()},
         phase_ms=0,
-        waits={
-            pair: replace(
-                wait,
-                held_cycles=schedule.turns[pair].age_cycles
-                if wait.waited_ms >= site.settings.slot_ms and pair in schedule.turns
-                else wait.held_cycles + 1,
-            )
-            for pair, wait in system.waits.items()
-        },
+        waits={pair: replace(wait, held_cycles=wait.held_cycles + 1) for pair, wait in system.waits.items()},
     )
 
 

@@ -128,6 +128,12 @@ def strike(day: Any, run: Any, points: Any, track: int, train: int, out: Any) ->
 
 
 @compiled
+def is_silent(day: Any, track: int, now: int) -> Any:
+    """Tell whether the terminals of a track say nothing then."""
+    return is_on(day, TERMINAL, now) and day.faults[TERMINAL].track_of == track
+
+
+@compiled
 def under_way_s(day: Any, track: int) -> Any:
     """Give for how long the words of a track's terminals are under way."""
     is_late = day.on[LATE_WORDS] and day.faults[LATE_WORDS].track_of == track
@@ -139,7 +145,7 @@ def hear(day: Any, run: Any, window: Any, track: int, now: int, crossing: Any) -
     """Hear a start point's terminal: first what it had to tell as it spoke, and then that it was there (X3, T14)."""
     age_s = under_way_s(day, track)
     spoke_s = now - age_s
-    if is_on(day, TERMINAL, spoke_s) and day.faults[TERMINAL].track_of == track:
+    if is_silent(day, track, spoke_s):
         return crossing
     for train in range(window[track, 0], window[track, 1]):
         if run[train].name >= 0 and run[train].struck_s <= spoke_s:

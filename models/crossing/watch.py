@@ -30,7 +30,7 @@ from models.crossing.radio import is_on, likely, ranging
 from models.crossing.records import AWAY, SET, UNDER_WAY, Moment, bounds_of, line_of, road_of
 from models.crossing.sites import Trial
 from models.crossing.staff import account, forget, has_no_power, prove_rear
-from models.crossing.start_points import hear, note_read, strikes
+from models.crossing.start_points import hear, is_silent, note_read, strikes
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
@@ -46,7 +46,7 @@ CLOSED, TRAINS, ARRIVALS, SECONDS_COUNT = (NUMBER[name] for name in ("closed_s",
 JUDGED = np.array([NUMBER[name] for name in (*CLAIMS, *ASSUMPTIONS, *MONITORS)])
 """What is counted at the second road as at the first."""
 ARRIVALS_BESIDE, CLOSED_BESIDE = NUMBER["arrivals_beside"], NUMBER["closed_beside_s"]
-TERMINAL, SLOW_ARMS, CLOSE_ROADS = KIND["terminal"], KIND["slow_arms"], KIND["close_roads"]
+SLOW_ARMS, CLOSE_ROADS = KIND["slow_arms"], KIND["close_roads"]
 CLEAR_UM = 600_000_000
 """A train comes onto the line when the one before is so far."""
 DRAIN_S = 1_200
@@ -266,8 +266,7 @@ def decide_at(
     for track in range(TRACKS):
         strikes(day, road.run, line, window, road.points, track, now, reads, road.out)
         crossing = tell(day, road, other, line, window, track, now, crossing, dues, settings, hears)
-        is_silent = day.on[TERMINAL] and day.faults[TERMINAL].track_of == track
-        road.unheard[track] = road.unheard[track] + 1 if is_silent else 0
+        road.unheard[track] = road.unheard[track] + 1 if is_silent(day, track, now) else 0
     if has_no_power(day):
         forget(day, road.run, window, now, road.out)
         dues.clear()

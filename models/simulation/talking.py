@@ -7,7 +7,7 @@ the radio's time a line can spare.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields as fields_of
 from operator import is_
 from typing import Any
@@ -118,14 +118,16 @@ class Talk:
 
         Where nothing was to be said, nothing is until something changes of what was looked at.
         """
-        looked_at = self._looked_at(train)
-        if all(map(is_, looked_at, self._nothing_said.get(train, (None,)))):
+        looked_at, before = self._looked_at(train), self._nothing_said.get(train)
+        if before is not None and all(map(is_, looked_at, before)):
             return
         said = self._to_unit(train)
-        self._say_all(said)
+        for each in said:
+            self._say(*each)
         self._gives_back(train)
         answered = self._to_centre(train)
-        self._say_all(answered)
+        for each in answered:
+            self._say(*each)
         if said or answered or self._wanted_back(train):
             self._nothing_said.pop(train, None)
         else:
@@ -133,9 +135,9 @@ class Talk:
 
     def _looked_at(self, train: Train) -> tuple[object, ...]:
         """All that decides on what is to be said by and to a train, but for runs that are wanted back."""
-        system = self.play.system
+        system, is_tied = self.play.system, self.play.is_tied
         unit, terminals, lies = system.units[train], system.terminals, system.track.lies
-        return system.centre, unit, terminals, lies, self.may_answer(train)
+        return system.centre, unit, terminals, lies, self.may_answer(train), is_tied
 
     def _to_unit(self, train: Train) -> list[Say]:
         """What terminals near a train and the centre have to say to its unit."""
@@ -155,10 +157,6 @@ class Talk:
         """What a train's unit has to say to the centre."""
         says = unit_says(self.play, train)
         return [(self._unit[train], CENTRE, said) for said in says if is_news_to_centre(self.play, said)]
-
-    def _say_all(self, said: Iterable[Say]) -> None:
-        for each in said:
-            self._say(*each)
 
     def _say(self, me: Party, peer: Party, said: Any) -> None:
         """Send what a machine says."""

@@ -19,7 +19,7 @@ from models.crossing.made import MADE, NO_DUES
 from models.crossing.records import SET
 from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
 from models.crossing.traffic import SECONDS, drawn, there_m
-from models.crossing.watch import decide, watched
+from models.crossing.watch import Machines, decide, watched
 from models.days.system import Numbers
 
 BROKEN_BY = {fault.name: fault.breaks for fault in FAULTS if fault.breaks}
@@ -96,16 +96,12 @@ Made = MADE.crossing.Crossing
 
 
 @compiled
-def careless(settings: Any, crossing: Any, dues: Any) -> Any:
-    """Who has no answer is taken to be far, and whoever asked is forgotten."""
-    asks, told = crossing.asks.copy(), dues.copy()
-    for place, (name, _) in enumerate(crossing.asks):
-        asks[place] = (name, False)
-        told.append((name, 0))
-    forgot = Made(
+def known(crossing: Any, asks: Any, silent: Any) -> Any:
+    """What a crossing knows, with other askers and silences."""
+    return Made(
         asks,
         crossing.starts,
-        crossing.silent_cycles,
+        silent,
         crossing.unaccounted,
         crossing.numbers,
         crossing.looks,
@@ -113,6 +109,16 @@ def careless(settings: Any, crossing: Any, dues: Any) -> Any:
         crossing.warns,
         crossing.warned_cycles,
     )
+
+
+@compiled
+def careless(settings: Any, crossing: Any, dues: Any) -> Any:
+    """Who has no answer is taken to be far, and whoever asked is forgotten."""
+    asks, told = crossing.asks.copy(), dues.copy()
+    for place, (name, _) in enumerate(crossing.asks):
+        asks[place] = (name, False)
+        told.append((name, 0))
+    forgot = known(crossing, asks, crossing.silent_cycles)
     return decide(settings, forgot, told)
 
 
@@ -145,17 +151,43 @@ def test_a_strike_put_down_to_another_train_is_seen() -> None:
     assert {"wrong_striker", "late_warning"} <= set(broken)
 
 
-def test_silence_counts_from_when_a_terminal_spoke() -> None:
-    """On days on which its words are under way for seconds while it fails, trains without radio are warned of in time.
+LATE_S = 2
 
-    Who took such a word for one of now would find it silent too late (X3).
+
+@compiled
+def as_of_now(settings: Any, crossing: Any, dues: Any) -> Any:
+    """Words that are under way count as ones of now."""
+    silent = crossing.silent_cycles.copy()
+    for place, (track, cycles) in enumerate(crossing.silent_cycles):
+        silent[place] = (track, cycles - LATE_S)
+    now = decide(settings, known(crossing, crossing.asks, silent), dues)
+    return known(now, now.asks, crossing.silent_cycles)
+
+
+def test_silence_counts_from_when_a_terminal_spoke() -> None:
+    """Its words are under way all day, nobody has a radio, and it fails as a train strikes (X3).
+
+    That train is warned of in time; the others as long after their strikes as words take.
     """
-    rows = days(6, beyond=("late_words", "terminal", "no_radio"))
-    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
-    for name in ("late_words", "terminal", "no_radio"):
-        assert rows[:, NUMBER[f"fault_{name}"]].all()
-    assert rows[:, NUMBER["silences"]].sum() > 0
-    assert rows[:, NUMBER["conventional"]].sum() > 0
+    day = drawn(5, 0, STRAIGHT, quiet=True)
+    day.trains["radio"] = 0
+    day.faults[KIND["late_words"]] = (0, 2 * SECONDS, 0, LATE_S)
+    ours = np.flatnonzero(day.trains["track"] == 0)
+    untouched = watched(STRAIGHT, day, np.zeros(len(COLUMNS), np.int64))
+    told_s = untouched["asked_s"] - untouched["struck_s"]
+    assert (told_s[ours] == LATE_S).all()
+    assert (np.delete(told_s, ours) == 0).all()
+    found = []
+    for train in ours[10:40:5]:
+        fails_s = int(untouched["struck_s"][train])
+        day.faults[KIND["terminal"]] = (fails_s, fails_s + 60, 0, 0)
+        sound, broken = np.zeros((2, len(COLUMNS)), np.int64)
+        watched(STRAIGHT, day, sound)
+        assert counted(sound[None], CLAIMS) == counted(sound[None], ASSUMPTIONS) == {}
+        watched(STRAIGHT, day, broken, Machines(decides=as_of_now))
+        found.append((sound[NUMBER["silences"]], broken[NUMBER["unwarned_silence"]]))
+    assert sum(silences for silences, _ in found) > 0
+    assert sum(unwarned for _, unwarned in found) > 0
 
 
 def test_trains_run_side_by_side_and_close_behind() -> None:

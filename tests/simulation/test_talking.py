@@ -8,11 +8,14 @@ from typing import Any
 import pytest
 
 from kernel.names import Train
+from models.simulation.faults import Setting
 from models.simulation.simulation import Simulation
 from models.simulation.talking import Talk
 from models.world.state import System
 from tests.simulation.lines import HARD, SAMPLES, plan
 
+OFTEN_CANCELLED = {**HARD, "route_cancelled": Setting(60.0, 0, 0)}
+"""A run that is wanted back waits for its train, and that the train comes to rest is no change of what is looked at."""
 Told = tuple[list[tuple[str, Mapping[str, Any]]], list[tuple[int, int]]]
 
 
@@ -32,7 +35,7 @@ def told(seed: int, place: str) -> Told:
         del system
         steps.append((name, dict(event)))
 
-    sim = Simulation(plan(place, seed, trains=2, hours=0.2, chosen=HARD), step)
+    sim = Simulation(plan(place, seed, trains=2, hours=0.2, chosen=OFTEN_CANCELLED), step)
     sim.run(lambda now: seconds.append((now.air.sent, now.air.lost)))
     return steps, seconds
 

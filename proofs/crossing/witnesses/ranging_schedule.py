@@ -58,6 +58,12 @@ class Played(Play[Channel, Ranging]):
         if self.system.phase_ms == self.site.bounds.cycle_ms:
             assert self.step("decide").phase_ms == 0
 
+    def decided(self) -> None:
+        """Run until the next decision."""
+        self.tick()
+        while self.system.phase_ms != 0:
+            self.tick()
+
     def ordered(self) -> list[Pair]:
         """Who is ordered now."""
         schedule = self.system.schedule
@@ -282,7 +288,25 @@ def a_ranging_begins_and_ends_in_its_time() -> None:
     assert channel.step("decide") == before
 
 
+def what_is_held_and_what_was_taken_grow_older_with_each_decision() -> None:
+    """A ranging that was begun; who has not been ranged, by decisions since it registered (X1, X2)."""
+    channel = Played()
+    channel.register(ONE)
+    channel.next_slot()
+    number = channel.range()
+    for cycles in (1, 2, 3):
+        assert channel.system.taken[number] == cycles - 1
+        channel.decided()
+        assert channel.system.taken[number] == cycles
+    channel.register(TWO)
+    assert channel.system.waits[TWO].held_cycles == 0
+    for cycles in (1, 2):
+        channel.decided()
+        assert channel.system.waits[TWO].held_cycles == cycles
+
+
 WITNESSES = (
+    what_is_held_and_what_was_taken_grow_older_with_each_decision,
     pairs_take_turns,
     an_order_that_is_lost_costs_its_slot_alone,
     a_restart_in_the_middle_of_a_slot_waits_for_another,

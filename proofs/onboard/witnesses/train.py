@@ -16,6 +16,8 @@ from kernel.onboard.way import Way
 from models.onboard.train_nature import (
     a_brake_that_has_responded_keeps_its_bound,
     a_rolling_wheel_measures,
+    fastest_cycle_nm,
+    tail_comes_over,
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
@@ -168,6 +170,18 @@ def a_tail_that_follows_as_preset_counts() -> None:
     read = ride.system
     ride.tail_reads(tag_mm + 2_000, front_mm=ride.system.front_nm // NM_A_MM)
     assert ride.system == read, "there is no such tag under it"
+
+
+def a_tail_comes_over_a_tag_by_what_tags_and_reads_may_err() -> None:
+    """Tags lie within 200 mm of their places here, and are read within 500 mm: to the millimetre (T2)."""
+    system = approaching(START_MM + 100_000).system
+    over_nm = NM_A_MM * (system.awaited_mm + LIMITS.tags.antenna_mm - 700) + system.trailing.apart_nm
+    for off_nm, comes in ((0, True), (-1, False)):
+        at_nm = over_nm + off_nm
+        assert tail_comes_over(SITE, replace(system, front_nm=at_nm, from_nm=at_nm)) is comes
+    far_nm = over_nm + fastest_cycle_nm(SITE)
+    for from_nm, comes in ((over_nm, True), (over_nm - 1, False)):
+        assert tail_comes_over(SITE, replace(system, front_nm=far_nm, from_nm=from_nm)) is comes
 
 
 def a_tail_that_is_shaken_brakes_the_train() -> None:
@@ -455,6 +469,7 @@ WITNESSES = (
     a_tag_that_hides_a_curve_is_none_of_this_world,
     a_fix_that_contradicts_leaves_the_track_unknown,
     a_tail_that_follows_as_preset_counts,
+    a_tail_comes_over_a_tag_by_what_tags_and_reads_may_err,
     a_tail_that_is_shaken_brakes_the_train,
     a_train_that_rolls_back_is_braked,
     a_rear_that_was_left_behind_is_no_tail,
