@@ -26,6 +26,7 @@ from numba.core.serialize import NumbaPickler
 
 from models.compiled.called import Inner
 from models.compiled.contents import Unknown, digest_of, digest_of_types
+from models.compiled.references import count_by_one_thread
 from models.kept_folder import kept_folder
 from models.names_apart import name_apart
 
@@ -176,3 +177,4 @@ class _Unpickler(pickle.Unpickler):
 
 
 name_apart()
+count_by_one_thread()
