@@ -191,3 +191,17 @@ def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Follo
         return replace(followed, warns=must_warn(bounds, followed))
     now = taken(bounds, followed, ranging)
     return replace(now, warns=contradicts(bounds, followed, ranging) or must_warn(bounds, now))
+
+
+def has_turned_back(bounds: ArrivalBounds, followed: Followed, ranging: Ranging, start_mm: int) -> bool:
+    """Tell whether a train that was just followed by this ranging runs away, and is before its start point (X4, ours).
+
+    Then nothing follows it any more: whenever it comes again it strikes there, if no contact is made before.
+    ``start_mm``: from the start point to the road.  One that is warned of is left to whoever proves its rear out.
+    """
+    return (
+        counts(bounds, ranging)
+        and ranging.speed_mm_s < 0
+        and not followed.warns
+        and followed.way_um > UM_A_MM * start_mm
+    )

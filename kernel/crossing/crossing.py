@@ -263,7 +263,7 @@ def note_gone(crossing: Crossing, gone: Train, number: int, is_whole: bool) -> C
     """A train's rear is proved out of the approach, and the train is whole (X4, T14).
 
     By its tail's reads at an end point, beyond the road or beyond its start point (``end_point``), or by all its axles
-    at the end detector.
+    at the end detector.  Of one in contact that turns back before its start point, by its ranging (``arrival``).
     """
     return note_released(crossing, gone, number) if is_whole else crossing
 

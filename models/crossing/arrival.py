@@ -45,6 +45,18 @@ class Brought:
 
 
 @dataclass(frozen=True)
+class LetGo:
+    """A history: when the train was last taken for one that has turned back before its start point.
+
+    ``is_any``: it was.  ``way_um``: its head's way to the crossing then.  ``start_mm``: that of its start point.
+    """
+
+    is_any: bool
+    way_um: int
+    start_mm: int
+
+
+@dataclass(frozen=True)
 class Coming:
     """One moment of a train that is in contact.
 
@@ -61,6 +73,7 @@ class Coming:
     ``silent_cycles``: history: for how many decisions the radio has brought nothing, or what it had brought before.
     ``warned_cycles``: history: how long the warning has lasted.
     ``followed``: what the crossing knows.
+    ``let_go``: history: as what turned back it was let go.
     """
 
     way_um: int
@@ -77,6 +90,7 @@ class Coming:
     silent_cycles: int
     warned_cycles: int
     followed: Followed
+    let_go: LetGo
 
 
 # ---- what rangings tell, one beside the other
@@ -284,6 +298,15 @@ def acknowledge(site: Crossing, system: Coming, asked_um: int) -> Coming:
         worst=followed,
         left_cycles=site.bounds.warning_cycles + 2,
     )
+
+
+def turn_back(site: Crossing, system: Coming, ranging: Ranging, start_mm: int) -> Coming:
+    """Once it has decided, it lets a train go that runs away and is before its start point (X4)."""
+    if a_decision_begins_each_cycle(system):
+        return system
+    if not arrival.has_turned_back(site.bounds, system.followed, ranging, start_mm):
+        return system
+    return replace(system, let_go=LetGo(True, system.way_um, start_mm))
 
 
 def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Coming:

@@ -54,6 +54,7 @@ COUNTS: Mapping[str, str] = {
     "arrivals_beside": "heads at the second road, where one lay close to the first",
     "warnings": "warnings that began",
     "likely_late": "arrivals that the paper's reckoning, without bounds, would have warned of late",
+    "turned_back": "trains in contact that were let go as they turned back before their start point (X4)",
     "rangings": "rangings that counted",
     "promised": "trains that promised a ceiling (X2)",
     "asked_faster": "of them that asked to go faster",

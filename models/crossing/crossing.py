@@ -102,9 +102,12 @@ def the_arms_come_down_in_time(site: Road, lowered_cycles: int, are_down: bool) 
 def a_whole_train_told_gone_is_gone(system: Level, gone: Train, number: int, is_whole: bool) -> bool:
     """Evidence of a rear is of the run that was noted by that number, and of a whole train no part is left behind (X4).
 
+    Or the train is in contact, and has turned back before its start point; it strikes that when it comes again.
     It may come late, and again, when the train is on its way once more.
     """
-    return not is_whole or gone not in system.bodies or number < system.bodies[gone].came_at
+    if not is_whole or gone not in system.bodies:
+        return True
+    return number < system.bodies[gone].came_at or not system.bodies[gone].inside
 
 
 def a_person_releases_what_is_gone(system: Level, gone: Train, number: int) -> bool:
@@ -388,12 +391,18 @@ def is_of_now(system: Level, gone: Train, number: int) -> bool:
 
 
 def tell_gone(site: Road, system: Level, gone: Train, number: int, is_whole: bool) -> Level:
-    """A train's rear is proved out of the approach, at either end of it; or that comes late, or again (X4, T14)."""
+    """A rear is proved out of the approach, or who turned back comes as new; or that is late, or again (X4, T14)."""
     if not a_whole_train_told_gone_is_gone(system, gone, number, is_whole):
         return system
     counts = is_whole and is_of_now(system, gone, number)
     return replace(
         system,
+        bodies={
+            train: replace(body, came_at=system.newest + 1, was_struck=False, has_asked=False)
+            if train == gone and counts
+            else body
+            for train, body in system.bodies.items()
+        },
         told=without(system.told, gone) if counts else system.told,
         starting=without(system.starting, gone) if counts else system.starting,
         crossing=machine.note_gone(system.crossing, gone, number, is_whole),

@@ -35,12 +35,17 @@ def inner_of(road: Any, track: Any, side: Any) -> Any:
 
 @compiled
 def pass_end_tags(day: Any, run: Any, line: Any, train: int, now: int) -> None:
-    """Let a rear pass the tags beyond the road, or those beyond its start point; the tail reads them or not."""
+    """Let a rear pass the tags beyond the road, or those beyond its start point; the tail reads them or not.
+
+    Who turns back before it has come to its start point is out at once, and passes no tag.
+    """
     kind = day.trains[train].local
+    if run[train].pace_um < 0 and run[train].struck_s < 0 and run[train].out_s == NEVER:
+        run[train].out_s = now
     rear_um = run[train].way_um + line.length_um[kind]
     back_um = run[train].way_um - line.start_um[kind] - BACK_UM
     is_back = run[train].pace_um < 0 and back_um > INNER_TAG_UM - OUTER_TAG_UM
-    if run[train].inner_s == NEVER and (rear_um <= -INNER_TAG_UM or is_back):
+    if run[train].out_s == NEVER and run[train].inner_s == NEVER and (rear_um <= -INNER_TAG_UM or is_back):
         run[train].inner_s = now
         run[train].has_read_inner = int(day.trains[train].radio == 1 and not day.on[END_TAGS])
     if run[train].out_s == NEVER and (rear_um <= -OUTER_TAG_UM or (is_back and back_um > 0)):

@@ -16,7 +16,7 @@ FAULTS = (
     Fault("late_contact", "contact was made late", 0.6, 600, 7_200, "m", 100, 900, "practice: shadowing"),
     Fault("no_radio", "trains without radio", 1.0, 68_400, 68_400, "1", 0.02, 0.20, "practice: other lines' trains"),
     Fault("stops_short", "a train stood before the crossing", 0.5, 30, 600, "m", 20, 900, "practice: a signal, a door"),
-    Fault("turns_back", "a train turned back before the road", 0.1, 30, 200, "m", 300, 1_000, "practice: possession"),
+    Fault("turns_back", "a train turned back before the road", 0.1, 30, 200, "m", 300, 1_900, "practice: possession"),
     Fault("sprints", "a train came slowly and then gained all it could", 0.5, 0, 0, "m", 300, 1_100, "worst case"),
     # ---- beyond what is assumed
     Fault("reflection", "rangings were off by more than their bound", 0.0, 3_600, 14_400, "m", 150, 400,

@@ -35,6 +35,7 @@ from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
+has_turned_back, note_gone, number_of = MADE.arrival.has_turned_back, MADE.crossing.note_gone, MADE.crossing.number_of
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
 look_of = MADE.crossing.look_of
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
@@ -42,6 +43,7 @@ Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
 GAIN_BROKEN, ARMS_BROKEN = NUMBER["gain_broken"], NUMBER["arms_broken"]
 LOST, CONTRADICTED, RANGINGS = (NUMBER[name] for name in ("lost", "contradicted", "rangings"))
+TURNED_BACK, REAR_BROKEN = NUMBER["turned_back"], NUMBER["rear_broken"]
 CLOSED, TRAINS, ARRIVALS, SECONDS_COUNT = (NUMBER[name] for name in ("closed_s", "trains", "arrivals", "seconds"))
 JUDGED = np.array([NUMBER[name] for name in (*CLAIMS, *ASSUMPTIONS, *MONITORS)])
 """What is counted at the second road as at the first."""
@@ -60,6 +62,7 @@ class Machines(NamedTuple):
     settings: Any = SET
     reads: Any = note_read
     hears: Any = has_left
+    turns: Any = has_turned_back
 
 
 MACHINES = Machines()
@@ -164,10 +167,28 @@ def followed_of(run: Any, train: int) -> Any:
 
 
 @compiled
+def start_mm(line: Any, kind: Any) -> Any:
+    """Give how far before the road a kind's start point lies, rounded to the safe side."""
+    return -(-line.start_um[kind] // 1_000)
+
+
+@compiled
+def let_go(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
+    """Follow a train no more that has turned back before its start point, or runs out over it (X4)."""
+    run[train].gone, run[train].contact = 1, 0
+    run[train].cleared = 1 - run[train].is_other
+    if run[train].out_s == NEVER:
+        run[train].out_s = now
+    out[TURNED_BACK] += 1
+    out[REAR_BROKEN] += run[train].way_um <= line.start_um[day.trains[train].local]
+    return note_gone(crossing, train, number_of(crossing, train), True)
+
+
+@compiled
 def follow_train(
-    day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, out: Any
+    day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, turns: Any, out: Any
 ) -> Any:
-    """Take a train's ranging, reckon, and answer when it is due (X1, X2)."""
+    """Take a train's ranging, reckon, and answer when it is due; or let it go (X1, X2, X4)."""
     told = ranging(day, run, line, train, now, out)
     bounds = bounds_of(line, day.trains[train].local)
     valid = counts(bounds, told)
@@ -183,6 +204,8 @@ def follow_train(
         held = take_promise(bounds, run, train, followed_of(run, train), told)
         out[CONTRADICTED] += run[train].arrived_s < 0 and contradicts(bounds, held, told)
         known = follow(bounds, held, told)
+        if turns(bounds, known, told, start_mm(line, day.trains[train].local)):
+            return let_go(day, run, line, train, now, crossing, out)
     if known.age_cycles > bounds.silence_cycles and run[train].lost == 0:
         run[train].lost = 1
         out[LOST] += run[train].arrived_s < 0
@@ -210,6 +233,7 @@ def tell(
     dues: Any,
     settings: Any,
     hears: Any,
+    turns: Any,
 ) -> Any:
     """Tell the crossing all of a track, once its start points have been struck (X1 to X4)."""
     run, out = road.run, road.out
@@ -222,7 +246,7 @@ def tell(
         if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
             if day.trains[train].promises == 1:
                 promises(day, run, line, train, now, out)
-            crossing = follow_train(day, run, line, train, now, crossing, dues, settings, out)
+            crossing = follow_train(day, run, line, train, now, crossing, dues, settings, turns, out)
     return crossing
 
 
@@ -257,6 +281,7 @@ def decide_at(
     settings: Any,
     reads: Any,
     hears: Any,
+    turns: Any,
     start: Any,
     dues: Any,
 ) -> Any:
@@ -265,7 +290,7 @@ def decide_at(
     dues.clear()
     for track in range(TRACKS):
         strikes(day, road.run, line, window, road.points, track, now, reads, road.out)
-        crossing = tell(day, road, other, line, window, track, now, crossing, dues, settings, hears)
+        crossing = tell(day, road, other, line, window, track, now, crossing, dues, settings, hears, turns)
         road.unheard[track] = road.unheard[track] + 1 if is_silent(day, track, now) else 0
     if has_no_power(day):
         forget(day, road.run, window, now, road.out)
@@ -318,6 +343,7 @@ def live(
     settings: Any,
     reads: Any,
     hears: Any,
+    turns: Any,
     crossing: Any,
     start: Any,
     dues: Any,
@@ -340,10 +366,12 @@ def live(
             enter(day, first.run, line, window, ends, track, now)
             if apart_um > 0:
                 see_from_there(first.run, second.run, window, track, apart_um)
-        moment = decide_at(day, first, second, line, window, moment, now, decides, settings, reads, hears, start, dues)
+        moment = decide_at(
+            day, first, second, line, window, moment, now, decides, settings, reads, hears, turns, start, dues
+        )
         if apart_um > 0:
             beside = decide_at(
-                there, second, first, line, window, beside, now, decides, settings, reads, hears, start, dues
+                there, second, first, line, window, beside, now, decides, settings, reads, hears, turns, start, dues
             )
         begun = window.copy()
         for track in range(TRACKS):

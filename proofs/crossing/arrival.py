@@ -18,6 +18,7 @@ from models.crossing.arrival import (
     take_ceiling,
     take_ranging,
     towards_mm_s,
+    turn_back,
 )
 from models.measures import UM_A_MM
 from proofs.theory import Theory, by_name
@@ -56,6 +57,7 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.followed.told_speed_mm_s == system.brought.towards_mm_s == towards_mm_s(system.told)
         and not system.contradicted
         and system.ranged == Taken(system.way_um, system.pace_um, 0)
+        and not system.let_go.is_any
     )
 
 
@@ -77,7 +79,17 @@ def a_ranging_that_contradicts_the_one_before_warns(site: Crossing, system: Comi
     return system.followed.warns or not system.contradicted
 
 
+def who_is_let_go_is_before_its_start_point(site: Crossing, system: Coming) -> bool:
+    """Of a train that is taken for one that has turned back, the head is farther than its start point (X4)."""
+    return not system.let_go.is_any or system.let_go.way_um > UM_A_MM * system.let_go.start_mm
+
+
 # ---- what it rests on
+
+
+def who_is_not_warned_of_is_bounded(site: Crossing, system: Coming) -> bool:
+    """A decision not to warn rests on a ranging that counts (X3)."""
+    return not system.decided or system.followed.warns or system.followed.age_cycles <= site.bounds.silence_cycles
 
 
 def the_ranging_before_is_kept(site: Crossing, system: Coming) -> bool:
@@ -164,9 +176,11 @@ SAFETY = (
     warned_long_enough_before_the_arrival,
     lost_ranging_warns,
     a_ranging_that_contradicts_the_one_before_warns,
+    who_is_let_go_is_before_its_start_point,
 )
 INVARIANTS = (
     *SAFETY,
+    who_is_not_warned_of_is_bounded,
     the_ranging_before_is_kept,
     no_pace_is_beyond_its_ceiling,
     the_ranging_still_bounds_the_train,
@@ -178,7 +192,7 @@ INVARIANTS = (
     even_the_worst_cannot_arrive_too_early,
 )
 PREMISES = (bounds_are_above_zero,)
-STEPS = (decide, run_a_cycle, arrive, take_ranging, keep_to, take_ceiling, acknowledge)
+STEPS = (decide, run_a_cycle, arrive, take_ranging, keep_to, take_ceiling, acknowledge, turn_back)
 
 THEORY = Theory(
     "arrival",

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import arrival as machine
 from kernel.crossing.arrival import FARTHEST_MM, UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import cannot_both_be, is_of_this_line
+from models.crossing.arrival import LetGo, cannot_both_be, is_of_this_line
 from proofs.crossing.witnesses.contact import BOUNDS, LINE_UM, NOTHING, SITE, Train, brought, contacted
 from proofs.onboard.witnesses.sixty_four_bits import Checked, with_ints
 
@@ -76,6 +76,40 @@ def a_train_that_reverses_may_turn_again() -> None:
     while train.system.pace_um < 0:
         train.cycle(train.system.pace_um + 10_000)
     assert train.to_the_crossing() >= 350
+
+
+def who_turns_back_before_its_start_point_is_let_go() -> None:
+    """Once it certainly moves away, its nearest is beyond the start point, and it is not warned of (X4)."""
+    train = Train(contacted(1_200_000, 0))
+    train.cycle(-10_000)
+    train.range()
+    assert train.step("turn_back", ranging=train.ranging(), start_mm=1_100_000).let_go == LetGo(False, 0, 0)
+    train.decide()
+    there, leaving = train.system, train.ranging()
+    assert (leaving.speed_mm_s, there.followed.way_um, there.way_um) == (-100, 1_200_000_000, 1_200_000_000)
+    for ranging in (NOTHING, replace(leaving, valid=False), replace(leaving, speed_mm_s=0)):
+        assert train.step("turn_back", ranging=ranging, start_mm=1_199_999) == there
+    assert train.step("turn_back", ranging=leaving, start_mm=1_200_000) == there
+    for speed_mm_s in (-1, -100):
+        train.system = there
+        train.step("turn_back", ranging=replace(leaving, speed_mm_s=speed_mm_s), start_mm=1_199_999)
+        assert train.system.let_go == LetGo(True, 1_200_000_000, 1_199_999)
+    train.run(-10_000)
+    assert train.system.let_go == LetGo(True, 1_200_000_000, 1_199_999), "of then, wherever it is now"
+
+
+def who_was_warned_of_is_not_let_go_as_it_turns_back() -> None:
+    """Its rear is proved out by its tail, or a person looks: nobody knows why it was warned of (X4)."""
+    train = Train(contacted(9_000_000, 0))
+    for _ in range(22):
+        train.cycle(-10_000, NOTHING)
+    assert train.warns()
+    train.range()
+    train.decide()
+    held, leaving = train.system, train.ranging()
+    assert held.followed.way_um > 8_000_000_000
+    assert leaving.speed_mm_s < 0
+    assert train.step("turn_back", ranging=leaving, start_mm=1_000_000) == held
 
 
 def a_warning_once_begun_is_kept() -> None:
@@ -393,6 +427,8 @@ WITNESSES = (
     a_slow_train_is_warned_of_later,
     a_train_that_stops_short_asks_for_no_warning,
     a_train_that_reverses_may_turn_again,
+    who_turns_back_before_its_start_point_is_let_go,
+    who_was_warned_of_is_not_let_go_as_it_turns_back,
     a_warning_once_begun_is_kept,
     lost_ranging_warns_at_once,
     without_rangings_the_worst_is_reckoned_with,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.crossing.arrival import UM_A_MM, ArrivalBounds, Followed, Ranging
-from models.crossing.arrival import Brought, Coming, Crossing, Taken
+from models.crossing.arrival import Brought, Coming, Crossing, LetGo, Taken
 from proofs.crossing.arrival import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -41,6 +41,7 @@ def contacted(way_mm: int = 2_000_000, speed_mm_s: int = 20_000) -> Coming:
         silent_cycles=0,
         warned_cycles=0,
         followed=known,
+        let_go=LetGo(False, 0, 0),
     )
 
 

@@ -155,6 +155,36 @@ def a_train_that_turned_back_ends_its_warning_by_the_start_tag() -> None:
     assert not day.warns()
 
 
+def who_turns_back_before_its_start_point_is_forgotten() -> None:
+    """It has struck nothing; when it comes again it strikes, and a word of before ends no warning (X3, X4)."""
+    day = Day()
+    day.come(ONE)
+    day.come(TWO)
+    day.step("hear_strike", train=THREE)
+    old, number = day.number(ONE), day.system.crossing.number
+    day.cycle((ONE, NOW), (TWO, FAR))
+    assert day.system.bodies[ONE].has_asked
+    others = day.system.bodies[TWO]
+    turned = day.step("tell_gone", gone=ONE, number=old, is_whole=True)
+    assert (turned.bodies[ONE].came_at, turned.bodies[ONE].has_asked) == (number + 1, False)
+    assert turned.bodies[TWO] == others
+    assert not [known for known in (turned.told, turned.crossing.asks, turned.crossing.numbers) if ONE in known]
+    day.strike(ONE)
+    day.step("hear_strike", train=ONE)
+    assert (day.number(ONE), day.system.crossing.asks[ONE]) == (number + 1, True)
+    struck = day.system
+    assert day.step("tell_gone", gone=ONE, number=old, is_whole=True) == struck, "late, and again"
+
+
+def who_struck_nothing_and_is_told_gone_has_not_been_told_of() -> None:
+    """A strike that was put down to a train before its start point is over as well, and counts no more (X3, X4)."""
+    day = Day()
+    day.come(ONE, contact=False)
+    day.step("hear_strike", train=ONE)
+    assert day.system.bodies[ONE].was_struck
+    assert not day.step("tell_gone", gone=ONE, number=day.number(ONE), is_whole=True).bodies[ONE].was_struck
+
+
 def a_word_of_the_run_before_ends_no_warning() -> None:
     """A train is told gone and comes once more under its name; then it is told gone again, or released, late (X4)."""
     day = Day()
@@ -422,6 +452,8 @@ WITNESSES = (
     arms_stay_down_for_a_train_that_is_near,
     a_train_that_comes_after_the_opening_was_not_known,
     a_train_that_turned_back_ends_its_warning_by_the_start_tag,
+    who_turns_back_before_its_start_point_is_forgotten,
+    who_struck_nothing_and_is_told_gone_has_not_been_told_of,
     a_word_of_the_run_before_ends_no_warning,
     a_part_left_behind_keeps_the_warning,
     one_of_two_that_is_gone_leaves_the_other,
