@@ -86,6 +86,7 @@ DECISIONS: Mapping[str, str] = {
     "interlocking.send_": "a machine sends what it decides to say: the message is the decision",
     "crossing.put_into_service": "the crossing refuses settings that are not lawful: that is its decision",
     "crossing.let_go": "the crossing lets no train start too soon: that is its decision",
+    "arrival.turn_back": "the ground unit lets a train go that has turned back: that is its decision",
     "ranging_schedule.send_order": "the ground unit sends what it orders: that is its decision",
     "ranging_schedule.hear_answer": "the ground unit tells a crossing of what counts alone: that is its decision",
     "interlocking.correct_statement": "the first person reads off what the unit shows: what it shows is its decision",
