@@ -115,6 +115,14 @@ def counts(bounds: ArrivalBounds, ranging: Ranging) -> bool:
     )
 
 
+def begins_contact(bounds: ArrivalBounds, ranging: Ranging) -> bool:
+    """Tell whether contact begins by this ranging: it counts, and the train does not run away for certain (X1, ours).
+
+    One that does would be lost out of the radio's reach, and the road closed for nobody.
+    """
+    return counts(bounds, ranging) and ranging.speed_mm_s >= 0
+
+
 def taken(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Followed:
     """Take a ranging: shortened by its age at the greatest speed of the line (X2, ours).
 
@@ -196,8 +204,9 @@ def follow(bounds: ArrivalBounds, followed: Followed, ranging: Ranging) -> Follo
 def has_turned_back(bounds: ArrivalBounds, followed: Followed, ranging: Ranging, start_mm: int) -> bool:
     """Tell whether a train that was just followed by this ranging runs away, and is before its start point (X4, ours).
 
-    Then nothing follows it any more: whenever it comes again it strikes there, if no contact is made before.
-    ``start_mm``: from the start point to the road.  One that is warned of is left to whoever proves its rear out.
+    If it is whole it is gone then (``crossing.note_gone``), and contact with it is over: whenever it comes again it
+    strikes there, or contact is made before.  ``start_mm``: from its start point to the road, rounded up.
+    One that was due, lost or contradicted as it was followed is left to whoever proves its rear out.
     """
     return (
         counts(bounds, ranging)

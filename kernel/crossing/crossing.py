@@ -210,7 +210,7 @@ def look_of(crossing: Crossing, track: CrossingTrack) -> int:
 def note_contact(crossing: Crossing, train: Train) -> Crossing:
     """Take a train in that is in contact (003, 2.3).
 
-    One that a start point has told of stays with conventional control until it is past (X3).
+    One that a start point has told of stays with conventional control until it is gone (X3).
     """
     if train in crossing.asks:
         return crossing

@@ -1,6 +1,6 @@
 """References of compiled code are counted by plain additions.
 
-Compiled functions hold the interpreter's lock while they run, so that no two threads count at once; numba counts by
+What numba compiles holds the interpreter's lock while it runs, so that no two threads count at once.  It counts by
 locked instructions all the same, and machines whose maps are handed on by value spent three quarters of a day's time
 in them.  ``tests/compiled/test_references.py`` asks that what nobody refers to is freed as before.
 """

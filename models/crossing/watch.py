@@ -13,7 +13,7 @@ import numpy as np
 from models.compiled import compiled, packed
 from models.crossing.ceilings import answer_ask, forget_promise, promises, take_promise
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, MONITORS, NUMBER
-from models.crossing.end_points import has_left
+from models.crossing.end_points import has_left, stays_s
 from models.crossing.faults import KIND
 from models.crossing.judging import judge_decision, judge_trains, old_crossing
 from models.crossing.made import MADE, NO_DUES, OPEN, START, UNKNOWN
@@ -34,6 +34,7 @@ from models.crossing.start_points import hear, is_silent, note_read, strikes
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
+begins_contact = MADE.arrival.begins_contact
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 has_turned_back, note_gone, number_of = MADE.arrival.has_turned_back, MADE.crossing.note_gone, MADE.crossing.number_of
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
@@ -174,13 +175,18 @@ def start_mm(line: Any, kind: Any) -> Any:
 
 @compiled
 def let_go(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
-    """Follow a train no more that has turned back before its start point, or runs out over it (X4)."""
+    """Follow a train no more that has turned back before its start point, or runs out over it (X4).
+
+    It tells that it is whole; one that has left a part inside breaks what is assumed.
+    """
     run[train].gone, run[train].contact = 1, 0
     run[train].cleared = 1 - run[train].is_other
     if run[train].out_s == NEVER:
         run[train].out_s = now
     out[TURNED_BACK] += 1
-    out[REAR_BROKEN] += run[train].way_um <= line.start_um[day.trains[train].local]
+    is_inside = run[train].way_um <= line.start_um[day.trains[train].local]
+    leaves_a_part = run[train].struck_s >= 0 and stays_s(day, run, train) > 0
+    out[REAR_BROKEN] += is_inside or leaves_a_part
     return note_gone(crossing, train, number_of(crossing, train), True)
 
 
@@ -194,7 +200,7 @@ def follow_train(
     valid = counts(bounds, told)
     out[RANGINGS] += valid
     if run[train].contact == 0:
-        if not valid or told.way_mm <= 0:
+        if not begins_contact(bounds, told) or told.way_mm <= 0:
             return crossing
         run[train].contact = 1
         crossing = note_contact(crossing, train)
@@ -242,7 +248,7 @@ def tell(
         if run[train].state != UNDER_WAY:
             continue
         crossing = prove_rear(day, road, other, line, train, track, now, crossing, hears)
-        in_reach = run[train].contact == 1 or run[train].way_um <= day.trains[train].contact_um
+        in_reach = run[train].way_um <= day.trains[train].contact_um
         if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
             if day.trains[train].promises == 1:
                 promises(day, run, line, train, now, out)

@@ -102,7 +102,7 @@ class World(Road):
     def follow(self) -> dict[Train, Due]:
         told = self.ranging()
         if self.followed is None:
-            if not arrival.counts(BOUNDS, told) or told.speed_mm_s < 0:
+            if not arrival.begins_contact(BOUNDS, told):
                 return {}
             self.crossing = machine.note_contact(self.crossing, TRAIN)
             now = arrival.taken(BOUNDS, Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False), told)

@@ -98,6 +98,14 @@ def who_turns_back_before_its_start_point_is_let_go() -> None:
     assert train.system.let_go == LetGo(True, 1_200_000_000, 1_199_999), "of then, wherever it is now"
 
 
+def contact_begins_with_nobody_who_runs_away() -> None:
+    """Who stands, or may come nearer, is followed; who certainly runs away is not, nor anybody by no ranging (X1)."""
+    stands = Ranging(True, 1_200_000, 0, 0)
+    assert machine.begins_contact(BOUNDS, stands)
+    assert not machine.begins_contact(BOUNDS, replace(stands, speed_mm_s=-1))
+    assert not machine.begins_contact(BOUNDS, replace(stands, valid=False))
+
+
 def who_was_warned_of_is_not_let_go_as_it_turns_back() -> None:
     """Its rear is proved out by its tail, or a person looks: nobody knows why it was warned of (X4)."""
     train = Train(contacted(9_000_000, 0))
@@ -428,6 +436,7 @@ WITNESSES = (
     a_train_that_stops_short_asks_for_no_warning,
     a_train_that_reverses_may_turn_again,
     who_turns_back_before_its_start_point_is_let_go,
+    contact_begins_with_nobody_who_runs_away,
     who_was_warned_of_is_not_let_go_as_it_turns_back,
     a_warning_once_begun_is_kept,
     lost_ranging_warns_at_once,
