@@ -27,7 +27,7 @@ from proofs.theory import Theory, by_name
 
 
 def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
-    """At first contact the train is bounded by a ranging, and before the start point; else that one warns (X3).
+    """At first contact the train is bounded by a ranging, and before the start point; else that one warns (X1, X3).
 
     There not even a train at the line's greatest speed arrives within the warning time and the cycle until a decision,
     and what is gained in a cycle to spare.
@@ -50,6 +50,7 @@ def contact_is_made_in_time(site: Crossing, system: Coming) -> bool:
         and system.left_cycles == site.bounds.warning_cycles + 1
         and system.worst.way_um > (site.bounds.warning_cycles + 1) * site.bounds.line_um + site.bounds.gain_um
         and is_of_this_line(site.bounds, system.told)
+        and arrival.begins_contact(site.bounds, system.told)
         and system.told.age_cycles == 0
         and UM_A_MM * system.told.way_mm <= system.way_um
         and system.pace_um <= site.bounds.cycle_ms * system.told.speed_mm_s
