@@ -5,10 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
+from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Settings, Train
 from kernel.restarts import restart_crossing
-from models.crossing.sites import SETTINGS
 
+SETTINGS = Settings(
+    cycle_ms=1_000,
+    warning_cycles=35,
+    bell_cycles=5,
+    lowering_cycles=10,
+    least_down_cycles=20,
+    lifting_cycles=6,
+    reopening_cycles=20,
+    silence_cycles=2,
+    start_cycles=39,
+)
 UP, DOWN = CrossingTrack("up"), CrossingTrack("down")
 
 

@@ -17,8 +17,7 @@ from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Due, Signal, Signals, Standing, Train
-from models.crossing.sites import SETTINGS
-from tests.crossing.road import DOWN, UP, Road
+from tests.crossing.road import DOWN, SETTINGS, UP, Road
 
 LINE_MM_S, GAIN_MM_S2, BRAKES_MM_S2 = 28_000, 950, 800
 LENGTH_MM = 120_000

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Settings, Train
 from kernel.restarts import restart_crossing
-from models.crossing.sites import SETTINGS
+from tests.crossing.road import SETTINGS
 
 TRACKS = (CrossingTrack("up"), CrossingTrack("down"))
 MOST_M_S = 28

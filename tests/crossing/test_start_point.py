@@ -18,8 +18,7 @@ from kernel.crossing.crossing import Train
 from kernel.crossing.start_point import StartPoint, StartPointSettings
 from kernel.names import Tag
 from kernel.restarts import restart_start_point
-from models.crossing.sites import SETTINGS
-from tests.crossing.road import DOWN, UP, Road
+from tests.crossing.road import DOWN, SETTINGS, UP, Road
 
 TAG_MM = 30_000
 TOLD_S, WAITS_S, CHANGES_S = 2, 20, 60

@@ -1,7 +1,7 @@
 """Trains in contact that run to and fro over their start point, turn anywhere, and lose their radio (X2 to X4).
 
-A world of its own, in mm and seconds: nothing of models or proofs is in it but the settings of the trials.  Rangings
-are late, wrong within their bounds, or do not come; a person releases who was warned of and is seen out again.
+A world of its own, in mm and seconds: nothing of models or proofs is in it but the kernel's functions.  Rangings are
+late, wrong within their bounds, or do not come; a person releases who was warned of and is seen out again.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
 from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
 from kernel.crossing.crossing import Due, Train
-from models.crossing.sites import SETTINGS
-from tests.crossing.road import DOWN, UP, Road
+from tests.crossing.road import DOWN, SETTINGS, UP, Road
 
 LINE_MM_S, GAIN_MM_S2, BRAKES_MM_S2 = 28_000, 950, 800
 START_MM = LINE_MM_S * (SETTINGS.start_cycles + 1)
