@@ -85,6 +85,18 @@ TAG_READER: Mapping[str, tuple[Memory, str]] = {
 }
 """A tag reader: its antenna counts as failed (`kernel.onboard.tag_reader.restarted`)."""
 
+LINK: Mapping[str, tuple[Memory, str]] = {
+    "me": (Memory.LASTING, ""),
+    "peer": (Memory.LASTING, ""),
+    "life": (Memory.COUNTED, "life"),
+    "peer_life": (Memory.LOST, "None"),
+    "sent": (Memory.LOST, "0"),
+    "newest": (Memory.LOST, "None"),
+    "missed": (Memory.LOST, "0"),
+    "clock_ms": (Memory.LOST, "now_ms"),
+}
+"""One end of a link: a new life, in which nobody was heard (`kernel.link.begin`)."""
+
 RANGING_SCHEDULE: Mapping[str, tuple[Memory, str]] = {
     "turns": (Memory.LOST, "{}"),
     "pairs": (Memory.LOST, "0"),
@@ -111,6 +123,14 @@ TRAM_CENTRE: Mapping[str, tuple[Memory, str]] = {
     "elsewhere_ms": (Memory.LOST, "{}"),
 }
 """The trams' centre: nothing survives (`kernel.tram.centre.restarted`)."""
+
+TRAM_ANSWER: Mapping[str, tuple[Memory, str]] = {
+    "slot": (Memory.LASTING, ""),
+    "is_known": (Memory.LOST, "False"),
+    "age_ms": (Memory.LOST, "0"),
+    "in_this_cycle": (Memory.LOST, "False"),
+}
+"""What a station has of a tram: nothing was heard (`kernel.tram.cycle.nothing_heard`)."""
 
 TRAM_DISPLAY: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),

@@ -19,11 +19,13 @@ from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
 from kernel.crossing.ranging_schedule import Schedule
 from kernel.crossing.start_point import StartPoint
+from kernel.link import Link
 from kernel.onboard.tag_reader import Reader
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
 from kernel.tram import display as tram_display
+from kernel.tram.cycle import Heard
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from proofs import assumptions, fault_pages, joints, promise, promises
@@ -65,9 +67,9 @@ TRAM_CENTRE = (
     " recovers before a tram that came at the first stop since has left the stop after next."
 )
 CROSSING = (
-    "Every train is forgotten. The road is closed, arms down, until a person has seen each track empty. No life is"
-    " counted: a train that waits at a starting signal asks anew, and one that was let go is under way, so that its"
-    " track is not empty; a message that comes twice changes nothing."
+    "Every train is forgotten, with its ceiling by the ground unit as well. The road is closed, arms down, until a"
+    " person has seen each track empty. No life is counted: a train that waits at a starting signal asks anew, and one"
+    " that was let go is under way, so that its track is not empty; a message that comes twice changes nothing."
 )
 PROMISE = (
     "All of it survives a restart of the train: it is written before it is told. The crossing forgets what it has"
@@ -79,6 +81,13 @@ TAG_READER = (
     " counts as failed, and delivers nothing, until staff has found it sound (`kernel.onboard.computer.mend_head`,"
     " `mend_tail`). Finding the train whole does not say so, nor does locating it anew: after that, as ends may have"
     " been changed, one antenna that has failed makes both count as failed."
+)
+LINK = (
+    "Its names are written, and its life is counted up before the first telegram; all else is forgotten. Nothing that"
+    " was sent to an earlier life is delivered, and of the peer's lives nothing of one that is over. A life that is"
+    " repeated, as by a spare unit with a count of its own, would let telegrams from before the start be delivered once"
+    " more. That is assumed away (`counters_survive`), and is a duty of whoever swaps a unit: its count goes on above"
+    " that of the other one."
 )
 RANGING_SCHEDULE = (
     "The number survives: it is written before the order is sent, so that no answer to an order from before the start"
@@ -92,6 +101,10 @@ START_POINT = (
     " the crossing warns until a person has released that name. Until it is heard its silence warns. A spare unit"
     " starts in the same way. The terminal of an end point keeps nothing at all: each telegram of a tail is judged by"
     " itself, and one from before a start counts for no longer than any other."
+)
+TRAM_ANSWER = (
+    "Nothing survives but the slot, which is written: no tram is known before it has answered in that. A spare station"
+    " starts in the same way."
 )
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
@@ -132,9 +145,11 @@ def persistence_page() -> str:
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("A tag reader on board", Reader, persistence.TAG_READER, TAG_READER),
+        ("One end of a radio link", Link, persistence.LINK, LINK),
         ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),
         ("The terminal of a start point", StartPoint, persistence.START_POINT, START_POINT),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
+        ("What a tram station has heard", Heard, persistence.TRAM_ANSWER, TRAM_ANSWER),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),
         ("The display's server, which keeps the alarm's list", Server, persistence.ALARM_SERVER, ALARM_SERVER),

@@ -7,11 +7,17 @@ import inspect
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from kernel import link, persistence
+from kernel.alarm import tone, train_list
 from kernel.centre import Centre
 from kernel.terminal import Terminal
+from kernel.tram import centre as tram_centre
+from kernel.tram import cycle
+from kernel.tram import display as tram_display
 from kernel.unit import Unit
 from models.world import truth
 from proofs import assumptions, lints, pages, usage
@@ -85,6 +91,34 @@ def test_the_assumptions_named_are_those_of_the_proof() -> None:
 def test_every_variable_that_a_restart_meets_is_described(state: type) -> None:
     assert set(pages.described(state)) == set(inspect.get_annotations(state))
     assert all(words.strip() for words in pages.described(state).values())
+
+
+STARTS: dict[str, Callable[..., Any]] = {
+    "LINK": link.begin,
+    "TRAM_CENTRE": tram_centre.restarted,
+    "TRAM_ANSWER": cycle.nothing_heard,
+    "TRAM_DISPLAY": tram_display.begun,
+    "ALARM_SERVER": train_list.started,
+    "ALARM_HANDSET": tone.switched_on,
+}
+"""Of whose tables no restart function is written: what they start by."""
+
+
+@pytest.mark.parametrize("name", STARTS)
+def test_what_a_start_leaves_is_what_its_table_says(name: str) -> None:
+    """Field by field, as it is written; what survives is handed over by its own name (T8)."""
+    made = [
+        node.value
+        for node in ast.walk(ast.parse(inspect.getsource(STARTS[name])))
+        if isinstance(node, ast.Return) and isinstance(node.value, ast.Call)
+    ]
+    assert len(made) == 1
+    told = {each.arg: ast.unparse(each.value).removeprefix("machine.") for each in made[0].keywords}
+    table = getattr(persistence, name)
+    assert told == {field: value or field for field, (_memory, value) in table.items()}
+    assert f"`{STARTS[name].__module__}.{STARTS[name].__name__}`" in (ROOT / "kernel" / "persistence.py").read_text(
+        "utf-8"
+    )
 
 
 # ---- the world
