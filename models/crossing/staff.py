@@ -17,8 +17,8 @@ from models.crossing.traffic import NEVER, TRACKS
 
 note_gone, note_released, note_empty = (MADE.crossing.note_gone, MADE.crossing.note_released, MADE.crossing.note_empty)
 number_of, look_of = MADE.crossing.number_of, MADE.crossing.look_of
-REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED = (
-    NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted")
+REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED, TURNED_BACK = (
+    NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted", "turned_back")
 )
 END_DETECTOR = KIND["end_detector"]
 POWER, UNLOOKED = KIND["power"], KIND["unlooked"]
@@ -29,6 +29,29 @@ END_DETECTOR_UM = 25_000_000
 
 
 # ---- rears
+
+
+@compiled
+def told_gone(run: Any, train: int, crossing: Any) -> Any:
+    """Tell that a train is gone, by its own name; it is not followed any more (X4)."""
+    run[train].gone, run[train].contact = 1, 0
+    run[train].cleared = 1 - run[train].is_other
+    return note_gone(crossing, train, number_of(crossing, train), True)
+
+
+@compiled
+def let_go(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
+    """Follow a train no more that has turned back before its start point, or runs out over it (X4).
+
+    It tells that it is whole; one that has left a part inside breaks what is assumed.
+    """
+    if run[train].out_s == NEVER:
+        run[train].out_s = now
+    out[TURNED_BACK] += 1
+    is_inside = run[train].way_um <= line.start_um[day.trains[train].local]
+    leaves_a_part = run[train].struck_s >= 0 and stays_s(day, run, train) > 0
+    out[REAR_BROKEN] += is_inside or leaves_a_part
+    return told_gone(run, train, crossing)
 
 
 @compiled
@@ -52,10 +75,8 @@ def prove_rear(
     if out_s < 0 or out_s == now:
         return crossing
     if run[train].gone == 0 and hears_it_gone(day, run, road.number, train, track, road.number, now, hears):
-        run[train].gone, run[train].contact = 1, 0
-        run[train].cleared = 1 - run[train].is_other
         out[REAR_BROKEN] += stays_s(day, run, train) > 0
-        return note_gone(crossing, train, number_of(crossing, train), True)
+        return told_gone(run, train, crossing)
     rear_um = run[train].way_um + line.length_um[day.trains[train].local]
     by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, out_s)
     is_known = run[train].contact == 1 or run[train].struck_s >= 0

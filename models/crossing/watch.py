@@ -13,7 +13,7 @@ import numpy as np
 from models.compiled import compiled, packed
 from models.crossing.ceilings import answer_ask, forget_promise, promises, take_promise
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, MONITORS, NUMBER
-from models.crossing.end_points import has_left, stays_s
+from models.crossing.end_points import has_left
 from models.crossing.faults import KIND
 from models.crossing.judging import judge_decision, judge_trains, old_crossing
 from models.crossing.made import MADE, NO_DUES, OPEN, START, UNKNOWN
@@ -29,14 +29,13 @@ from models.crossing.motion import (
 from models.crossing.radio import is_on, likely, ranging
 from models.crossing.records import AWAY, SET, UNDER_WAY, Moment, bounds_of, line_of, road_of
 from models.crossing.sites import Trial
-from models.crossing.staff import account, forget, has_no_power, prove_rear
+from models.crossing.staff import account, forget, has_no_power, let_go, prove_rear
 from models.crossing.start_points import hear, is_silent, note_read, strikes
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
-begins_contact = MADE.arrival.begins_contact
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
-has_turned_back, note_gone, number_of = MADE.arrival.has_turned_back, MADE.crossing.note_gone, MADE.crossing.number_of
+begins_contact, has_turned_back = MADE.arrival.begins_contact, MADE.arrival.has_turned_back
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
 look_of = MADE.crossing.look_of
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
@@ -44,7 +43,6 @@ Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
 GAIN_BROKEN, ARMS_BROKEN = NUMBER["gain_broken"], NUMBER["arms_broken"]
 LOST, CONTRADICTED, RANGINGS = (NUMBER[name] for name in ("lost", "contradicted", "rangings"))
-TURNED_BACK, REAR_BROKEN = NUMBER["turned_back"], NUMBER["rear_broken"]
 CLOSED, TRAINS, ARRIVALS, SECONDS_COUNT = (NUMBER[name] for name in ("closed_s", "trains", "arrivals", "seconds"))
 JUDGED = np.array([NUMBER[name] for name in (*CLAIMS, *ASSUMPTIONS, *MONITORS)])
 """What is counted at the second road as at the first."""
@@ -171,23 +169,6 @@ def followed_of(run: Any, train: int) -> Any:
 def start_mm(line: Any, kind: Any) -> Any:
     """Give how far before the road a kind's start point lies, rounded to the safe side."""
     return -(-line.start_um[kind] // 1_000)
-
-
-@compiled
-def let_go(day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
-    """Follow a train no more that has turned back before its start point, or runs out over it (X4).
-
-    It tells that it is whole; one that has left a part inside breaks what is assumed.
-    """
-    run[train].gone, run[train].contact = 1, 0
-    run[train].cleared = 1 - run[train].is_other
-    if run[train].out_s == NEVER:
-        run[train].out_s = now
-    out[TURNED_BACK] += 1
-    is_inside = run[train].way_um <= line.start_um[day.trains[train].local]
-    leaves_a_part = run[train].struck_s >= 0 and stays_s(day, run, train) > 0
-    out[REAR_BROKEN] += is_inside or leaves_a_part
-    return note_gone(crossing, train, number_of(crossing, train), True)
 
 
 @compiled

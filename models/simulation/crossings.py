@@ -203,7 +203,7 @@ class Crossings:
             ranging = self._ranging(state, train)
             if train in state.followed:
                 known = arrival.follow(BOUNDS, state.followed[train], ranging)
-            elif arrival.counts(BOUNDS, ranging):
+            elif arrival.begins_contact(BOUNDS, ranging):
                 state.crossing = machine.note_contact(state.crossing, Known(train))
                 known = arrival.taken(BOUNDS, Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False), ranging)
             else:

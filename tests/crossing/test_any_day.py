@@ -2,8 +2,8 @@
 
 Trains follow one another on two tracks, with radio and without; they stop short, and the last of a track runs to and
 fro, out over its start point and in again.  Power fails, twice and for any time, with trains anywhere.  Decisions are
-taken a little early or late.  Rangings are late, wrong within their bounds, or do not come.  People release what has
-left, and account for tracks that they see empty.
+taken a little early or late.  Rangings are late, wrong within their bounds, or do not come, for minutes of one train.
+People release what has left, and account for tracks that they see empty.
 """
 
 from __future__ import annotations
@@ -38,8 +38,9 @@ BOUNDS = ArrivalBounds(
     4 * OFF_MM_S + GAIN_MM_S2 + BRAKES_MM_S2,
 )
 NOTHING_KNOWN = Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False)
-LOOKS_S, WHOLE_S = 60, 1_500
+LOOKS_S, RUNS_OUT_S, WHOLE_S = 60, 25, 1_500
 Decide = Callable[[Settings, Crossing, Map[Train, Due]], Crossing]
+HasTurnedBack = Callable[[ArrivalBounds, Followed, Ranging, int], bool]
 
 
 @dataclass
@@ -47,6 +48,7 @@ class Body:
     """A train: of its head ``way_mm`` to the road, and what the ground unit and people have of it.
 
     ``stops_mm``: where it stands for ``stands_s``.  ``to_and_fro_s``: until then it runs in and out, if it does so.
+    ``unheard``: the seconds in which its radio is out, if it has one.
     ``out_s``: for how long it has been out of the approach, though the crossing knows it.
     """
 
@@ -57,6 +59,7 @@ class Body:
     stops_mm: int
     stands_s: int
     to_and_fro_s: int
+    unheard: range
     speed_mm_s: int = 15_000
     aims_mm_s: int = 15_000
     inside: bool = False
@@ -79,6 +82,7 @@ class Found:
     opened_on: int = 0
     open_s: int = 0
     let_go: int = 0
+    let_go_inside: int = 0
     failed_inside: int = 0
 
 
@@ -91,6 +95,7 @@ class Day:
 
     chance: Random
     decide: Decide = machine.decide
+    has_turned_back: HasTurnedBack = arrival.has_turned_back
     bodies: list[Body] = field(default_factory=list)
     found: Found = field(default_factory=Found)
     now_s: int = 0
@@ -108,6 +113,8 @@ class Day:
             way_mm = START_MM + 300_000
             for place in range(count := self.chance.randint(1, 3)):
                 runs_to_and_fro = place == count - 1 and self.chance.random() < 0.6
+                to_and_fro_s = self.chance.randint(200, 700) if runs_to_and_fro else 0
+                unheard_s = max(0, to_and_fro_s - self.chance.randint(0, 15)) or self.chance.randint(0, 400)
                 self.bodies.append(
                     Body(
                         name=Train(f"{track} {place}"),
@@ -116,7 +123,8 @@ class Day:
                         has_radio=self.chance.random() < 0.7,
                         stops_mm=self.chance.randint(100_000, START_MM + 200_000),
                         stands_s=self.chance.choice((0, 20, 120)),
-                        to_and_fro_s=self.chance.randint(200, 700) if runs_to_and_fro else 0,
+                        to_and_fro_s=to_and_fro_s,
+                        unheard=range(unheard_s, unheard_s + self.chance.choice((0, 20, 200))),
                     )
                 )
                 way_mm = self.bodies[-1].way_mm + LENGTH_MM + APART_MM
@@ -127,13 +135,17 @@ class Day:
     # ---- trains
 
     def drive(self, body: Body, ahead: Body | None, lasts_ms: int) -> None:
-        """As fast as its driver means to, but for the train ahead of it."""
+        """As fast as its driver means to, but for the train ahead of it.
+
+        Who runs to and fro runs out as its radio fails, if it did not before.
+        """
         aims_mm_s = LINE_MM_S
         if self.now_s < body.to_and_fro_s:
             if self.chance.random() < 0.04:
-                body.aims_mm_s = self.chance.choice((-6_000, -6_000, 0, 4_000, 12_000))
-            aims_mm_s = body.aims_mm_s if body.way_mm < START_MM + 600_000 else 12_000
-            aims_mm_s = -6_000 if body.way_mm < 500_000 else aims_mm_s
+                body.aims_mm_s = self.chance.choice((-6_000, -6_000, 0, 3_000, 6_000))
+            aims_mm_s = body.aims_mm_s if body.way_mm < START_MM + 400_000 else 6_000
+            if body.way_mm < 700_000 or body.unheard.start - RUNS_OUT_S <= self.now_s:
+                aims_mm_s = -6_000
         elif body.stands_s > 0 and body.way_mm > body.stops_mm:
             aims_mm_s = self.stopping_mm_s(body.way_mm - body.stops_mm)
             body.stands_s -= body.speed_mm_s == 0
@@ -182,8 +194,9 @@ class Day:
                 now = arrival.taken(BOUNDS, NOTHING_KNOWN, told)
             else:
                 now = arrival.follow(BOUNDS, body.followed, told)
-                if arrival.has_turned_back(BOUNDS, now, told, START_MM):
+                if self.has_turned_back(BOUNDS, now, told, START_MM):
                     self.found.let_go += 1
+                    self.found.let_go_inside += body.way_mm <= START_MM
                     self.over(body)
                     continue
             body.followed = arrival.aged(BOUNDS, now)
@@ -196,7 +209,8 @@ class Day:
         speed_mm_s = body.speed_mm_s + self.chance.randint(-OFF_MM_S, OFF_MM_S) + OFF_MM_S
         body.said = ((self.now_s, way_mm, speed_mm_s), *body.said[:LATEST_S])
         taken_s, way_mm, speed_mm_s = self.chance.choice(body.said)
-        return Ranging(self.chance.random() > 0.05, way_mm, speed_mm_s, self.now_s - taken_s)
+        is_heard = self.chance.random() > 0.05 and self.now_s not in body.unheard
+        return Ranging(is_heard, way_mm, speed_mm_s, self.now_s - taken_s)
 
     def over(self, body: Body) -> None:
         """It is told gone, or released, and not followed any more."""
@@ -262,8 +276,10 @@ class Day:
         self.now_s, self.now_ms = self.now_s + 1, next_ms
 
 
-def played(number: int, decide: Decide = machine.decide) -> Found:
-    day = Day(Random(f"any day {number}"), decide)
+def played(
+    number: int, decide: Decide = machine.decide, has_turned_back: HasTurnedBack = arrival.has_turned_back
+) -> Found:
+    day = Day(Random(f"any day {number}"), decide, has_turned_back)
     while day.now_s < WHOLE_S and not all(body.way_mm < -2 * LENGTH_MM for body in day.bodies):
         day.cycle()
     return day.found
@@ -274,7 +290,7 @@ def judge(number: int) -> Found:
     assert found.warned_ms
     assert min(found.warned_ms) >= SETTINGS.cycle_ms * SETTINGS.warning_cycles
     assert min(found.lowered_ms) >= SETTINGS.cycle_ms * (SETTINGS.lowering_cycles + SETTINGS.least_down_cycles)
-    assert found.opened_on == 0
+    assert found.opened_on == found.let_go_inside == 0
     return found
 
 
@@ -310,3 +326,27 @@ def test_who_opens_after_a_failure_is_seen() -> None:
         min(found.warned_ms, default=10**6) < 35_000 or found.opened_on
         for found in (played(number, opens_after_a_failure) for number in range(20))
     )
+
+
+def wherever_it_is(bounds: ArrivalBounds, followed: Followed, ranging: Ranging, _start_mm: int) -> bool:
+    """Whoever runs away is let go."""
+    return arrival.has_turned_back(bounds, followed, ranging, -10_000_000)
+
+
+def test_who_is_let_go_inside_is_seen_and_may_come_unwarned() -> None:
+    days = [played(number, has_turned_back=wherever_it_is) for number in range(100)]
+    assert any(day.let_go_inside for day in days[:20])
+    assert any(min(day.warned_ms, default=10**6) < 35_000 for day in days)
+
+
+def nobody(_bounds: ArrivalBounds, _followed: Followed, _ranging: Ranging, _start_mm: int) -> bool:
+    return False
+
+
+def test_if_nobody_is_let_go_the_road_is_closed_for_longer() -> None:
+    """The radio of who runs away fails, and nobody has come to look."""
+    kept, open_s = (
+        sum(played(number, has_turned_back=turns).open_s for number in range(20))
+        for turns in (nobody, arrival.has_turned_back)
+    )
+    assert kept < open_s

@@ -207,6 +207,21 @@ def of_any_tag(settings: Any, read: Any, age: Any) -> Any:
     return read.is_whole
 
 
+@compiled
+def wherever_it_is(bounds: Any, followed: Any, ranging: Any, start_mm: Any) -> Any:
+    """Whoever runs away is let go."""
+    return ranging.valid and ranging.speed_mm_s < 0
+
+
+def test_who_turns_back_before_its_start_point_is_let_go() -> None:
+    """And nobody inside it: whoever lets such a train go takes a train for gone that is not."""
+    named = ("turns_back",)
+    rows = days(8, beyond=named)
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    assert rows[:, NUMBER["turned_back"]].sum() > 1
+    assert counted(days(8, beyond=named, turns=wherever_it_is), ASSUMPTIONS).keys() == {"rear_broken"}
+
+
 def test_two_roads_close_together() -> None:
     """Each train comes to both; what is told of the tags beyond the one opens the other for nobody (X4, T14).
 
