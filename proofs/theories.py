@@ -31,7 +31,7 @@ from proofs.onboard import (
     train_length,
 )
 from proofs.theory import READING, START, Theory
-from proofs.tram import cycle, dispatching, display, stopping
+from proofs.tram import cycle, dispatching, display, map_matching, stopping
 
 IN_ORDER: tuple[Theory, ...] = (
     INTERLOCKING,
@@ -57,6 +57,7 @@ IN_ORDER: tuple[Theory, ...] = (
     arrival.THEORY,
     dispatching.THEORY,
     display.THEORY,
+    map_matching.THEORY,
     stopping.THEORY,
     cycle.THEORY,
     due.THEORY,

@@ -1,14 +1,19 @@
 """Where on its line a tram is, by a place in the plane: projected at right angles onto it (002, 3.1.1; G1).
 
 A tram is on its line, and so the part of the error across the track is taken away; what is along it stays
-(4.1).  A place farther from the line than ``most_mm`` is none: there the fix is wrong, or it is another
-line's.  The line is a row of points in mm of a plane grid, with the kilometrage of each.  All is exact in
+(4.1).  The place told is the nearest on the line.  It counts only as far as it is known: beside it goes a range
+of kilometrage outside of which the tram is nowhere, if the fix is off by no more than is written.  Where the line
+bends back beside itself, or another part of it is as near, the range is wide, and no place is told (ours).
+
+The line is a row of stretches in mm of a plane grid, with the kilometrage of both ends of each.  All is exact in
 whole numbers of any size; a projected point is rounded to the mm, so the correction is to within 2 mm.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from kernel.onboard.arithmetic import larger, limited, magnitude, smaller
 
 
 @dataclass(frozen=True)
@@ -21,15 +26,49 @@ class Point:
 
 @dataclass(frozen=True)
 class Stretch:
-    """A straight piece of the line from one point to another, and the kilometrage of both (G1).
+    """A straight piece of the line, and its kilometrage, which grows evenly along it (G1).
 
-    ``to_kilometrage_mm`` is not below ``from_kilometrage_mm``.
+    ``start``: where it begins.  ``east_mm``, ``north_mm``: so far on it ends.  ``length_mm``: its length in the plane,
+    rounded up.  ``from_mm``: the kilometrage of its start.  ``grows_mm``: so much more is that of its end.
     """
 
     start: Point
-    end: Point
-    from_kilometrage_mm: int
-    to_kilometrage_mm: int
+    east_mm: int
+    north_mm: int
+    length_mm: int
+    from_mm: int
+    grows_mm: int
+
+
+@dataclass(frozen=True)
+class MatchLimits:
+    """What is written for a line, in mm (G1, ours).
+
+    ``error_mm``: a fix is off by no more, with what the table is off the track.
+    ``most_mm``: a place counts if it is off by no more along the line.
+    """
+
+    error_mm: int
+    most_mm: int
+
+
+@dataclass(frozen=True)
+class Foot:
+    """Where a perpendicular from a fix meets a stretch, or that drawn on beyond its ends (002, 3.1.1; G1).
+
+    ``is_sound``: it is a stretch, with a length that is written no shorter and a kilometrage that grows (ours).
+    ``is_beside``: the fix is no farther beside it than it errs.  ``along_mm2``: how far along the stretch the foot is,
+    times its length; below 0 before its start.  ``least_mm2``, ``most_mm2``: the same, less and more by what the fix
+    errs.  ``square_mm2``: the square of its length.
+    """
+
+    stretch: Stretch
+    is_sound: bool
+    is_beside: bool
+    along_mm2: int
+    least_mm2: int
+    most_mm2: int
+    square_mm2: int
 
 
 @dataclass(frozen=True)
@@ -41,10 +80,55 @@ class Matched:
     correction_mm2: int
 
 
+@dataclass(frozen=True)
+class Range:
+    """A range of kilometrage, both ends in it (G1, ours)."""
+
+    from_mm: int
+    to_mm: int
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the stretches of a line that were looked at so far say of a fix (G1, ours).
+
+    ``place``: the fix.  ``is_sound``: each stretch is one.  ``nearest``: the nearest place on them.  ``within``: the
+    tram is on none of them, or in this range.  Neither is there if the fix is farther from all than it errs.
+    """
+
+    place: Point
+    is_sound: bool
+    nearest: Matched | None
+    within: Range | None
+
+
+def nothing_found(place: Point) -> Found:
+    """Begin with a fix: no stretch of the line was looked at (G1)."""
+    return Found(place=place, is_sound=True, nearest=None, within=None)
+
+
 def apart_mm2(one: Point, other: Point) -> int:
     """Give the square of the distance of two points (G1)."""
     x_mm, y_mm = one.x_mm - other.x_mm, one.y_mm - other.y_mm
     return x_mm * x_mm + y_mm * y_mm
+
+
+def foot_on(limits: MatchLimits, stretch: Stretch, place: Point) -> Foot:
+    """Give the foot of the perpendicular from a fix to a stretch; it errs along it as across it (002, 3.1.1; G1)."""
+    x_mm, y_mm, length_mm = place.x_mm - stretch.start.x_mm, place.y_mm - stretch.start.y_mm, stretch.length_mm
+    along_mm2 = x_mm * stretch.east_mm + y_mm * stretch.north_mm
+    across_mm2 = y_mm * stretch.east_mm - x_mm * stretch.north_mm
+    square_mm2 = stretch.east_mm * stretch.east_mm + stretch.north_mm * stretch.north_mm
+    off_mm2 = limits.error_mm * length_mm
+    return Foot(
+        stretch=stretch,
+        is_sound=length_mm > 0 and 0 < square_mm2 <= length_mm * length_mm and stretch.grows_mm > 0,
+        is_beside=magnitude(across_mm2) <= off_mm2,
+        along_mm2=along_mm2,
+        least_mm2=along_mm2 - off_mm2,
+        most_mm2=along_mm2 + off_mm2,
+        square_mm2=square_mm2,
+    )
 
 
 def part_of(length: int, part: int, whole: int) -> int:
@@ -55,41 +139,65 @@ def part_of(length: int, part: int, whole: int) -> int:
     return length * part // whole if whole > 0 else 0
 
 
-def foot_mm2(stretch: Stretch, place: Point) -> int:
-    """Give how far along a stretch the foot of the perpendicular is, times its length; limited to its ends (G1)."""
-    length_mm2 = apart_mm2(stretch.start, stretch.end)
-    along_mm2 = (place.x_mm - stretch.start.x_mm) * (stretch.end.x_mm - stretch.start.x_mm) + (
-        place.y_mm - stretch.start.y_mm
-    ) * (stretch.end.y_mm - stretch.start.y_mm)
-    if along_mm2 < 0:
-        return 0
-    return along_mm2 if along_mm2 < length_mm2 else length_mm2
-
-
-def projected(stretch: Stretch, place: Point) -> Matched:
-    """Project a place at right angles onto a stretch; beyond its ends, onto the end (002, 3.1.1; G1)."""
-    length_mm2 = apart_mm2(stretch.start, stretch.end)
-    foot = foot_mm2(stretch, place)
+def projected(foot: Foot, place: Point) -> Matched:
+    """Project a place onto a stretch; beyond its ends, onto the end (002, 3.1.1; G1)."""
+    stretch, whole_mm2 = foot.stretch, foot.square_mm2
+    part_mm2 = limited(foot.along_mm2, 0, whole_mm2)
     point = Point(
-        stretch.start.x_mm + part_of(stretch.end.x_mm - stretch.start.x_mm, foot, length_mm2),
-        stretch.start.y_mm + part_of(stretch.end.y_mm - stretch.start.y_mm, foot, length_mm2),
+        stretch.start.x_mm + part_of(stretch.east_mm, part_mm2, whole_mm2),
+        stretch.start.y_mm + part_of(stretch.north_mm, part_mm2, whole_mm2),
     )
-    kilometrage_mm = stretch.from_kilometrage_mm + part_of(
-        stretch.to_kilometrage_mm - stretch.from_kilometrage_mm, foot, length_mm2
+    return Matched(stretch.from_mm + part_of(stretch.grows_mm, part_mm2, whole_mm2), point, apart_mm2(place, point))
+
+
+def range_on(foot: Foot) -> Range | None:
+    """Give where on a stretch a tram can be that has that fix, rounded outwards; none if it is not on it (G1, ours)."""
+    stretch, whole_mm2 = foot.stretch, foot.square_mm2
+    if not foot.is_beside or foot.most_mm2 < 0 or foot.least_mm2 > whole_mm2:
+        return None
+    return Range(
+        stretch.from_mm + part_of(stretch.grows_mm, larger(0, foot.least_mm2), whole_mm2),
+        stretch.from_mm + part_of(stretch.grows_mm, smaller(foot.most_mm2, whole_mm2), whole_mm2) + 1,
     )
-    return Matched(kilometrage_mm, point, apart_mm2(place, point))
 
 
-def is_near(matched: Matched, most_mm: int) -> bool:
-    """Tell whether a correction is no longer than allowed (G1)."""
-    return matched.correction_mm2 <= most_mm * most_mm
+def nearer(one: Matched | None, other: Matched, error_mm: int) -> Matched | None:
+    """Give the nearer of two places, the first of two as near; one that is farther than a fix errs is none (G1)."""
+    if other.correction_mm2 > error_mm * error_mm:
+        return one
+    return other if one is None or other.correction_mm2 < one.correction_mm2 else one
 
 
-def matched(line: tuple[Stretch, ...], place: Point, most_mm: int) -> Matched | None:
-    """Give the nearest place on the line, the first of several; none if it is too far away (G1, ours)."""
-    nearest: Matched | None = None
+def either(one: Range | None, other: Range | None) -> Range | None:
+    """Give the range that has both of two in it (G1)."""
+    if one is None or other is None:
+        return other if one is None else one
+    return Range(smaller(one.from_mm, other.from_mm), larger(one.to_mm, other.to_mm))
+
+
+def note_foot(limits: MatchLimits, found: Found, foot: Foot) -> Found:
+    """Take in what one more stretch of the line says of the fix; what is no stretch spoils the table (G1)."""
+    if not foot.is_sound:
+        return replace(found, is_sound=False)
+    return replace(
+        found,
+        nearest=nearer(found.nearest, projected(foot, found.place), limits.error_mm),
+        within=either(found.within, range_on(foot)),
+    )
+
+
+def place_mm(limits: MatchLimits, found: Found) -> int | None:
+    """Give the kilometrage of the nearest place, if it is near enough to wherever on the line the tram can be (G1)."""
+    if not found.is_sound or found.nearest is None or found.within is None:
+        return None
+    at_mm, within = found.nearest.kilometrage_mm, found.within
+    is_near = at_mm - within.from_mm <= limits.most_mm and within.to_mm - at_mm <= limits.most_mm
+    return at_mm if is_near else None
+
+
+def matched(limits: MatchLimits, line: tuple[Stretch, ...], place: Point) -> Found:
+    """Look at every stretch of a line for a fix (002, 3.1.1; G1)."""
+    found = nothing_found(place)
     for stretch in line:
-        found = projected(stretch, place)
-        if is_near(found, most_mm) and (nearest is None or found.correction_mm2 < nearest.correction_mm2):
-            nearest = found
-    return nearest
+        found = note_foot(limits, found, foot_on(limits, stretch, place))
+    return found

@@ -48,7 +48,6 @@ NOT_STEPS = frozenset(
         "kernel.tags",
         "kernel.telegram",
         "kernel.tram.frames",
-        "kernel.tram.map_matching",
         "models.world.formations",
         "models.world.premises",
         "models.world.start",
