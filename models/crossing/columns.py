@@ -14,7 +14,8 @@ CLAIMS: Mapping[str, str] = {
     "unwarned_silence": "a start point's terminal was silent for too long without a warning (T14)",
     "beyond_ceiling": "seconds in which a train in contact was faster than the crossing held it to be (X2)",
     "wrong_striker": "strikes put down to a train that did not make them (X3, T14)",
-    "opened_unseen": "seconds with the road open and a track that nobody had seen empty since power failed (X3)",
+    "opened_unseen": "seconds with the road open and a track that nobody had seen empty since a start (X3)",
+    "latched": "days that ended with the road closed and no train under way (X4)",
 }
 ASSUMPTIONS: Mapping[str, str] = {
     "ranging_broken": "`the_ranging_bounds_the_train`: a train was nearer or faster than its ranging said",
@@ -24,7 +25,8 @@ ASSUMPTIONS: Mapping[str, str] = {
     "rear_broken": "`a_whole_train_told_gone_is_gone`",
     "account_broken": "`a_person_accounts_for_a_track_seen_empty`: a train was there",
     "arms_broken": "`the_arms_come_down_in_time`",
-    "start_broken": "`who_arrives_has_passed_the_start_point`, and it lies far enough",
+    "start_broken": "`who_arrives_has_passed_the_start_point`, and it lies far enough; or it was let go at a signal",
+    "track_broken": "`a_train_comes_on_a_track`: seconds with the road open and a track that nothing had told of",
 }
 MONITORS: Mapping[str, str] = {
     "lost": "trains of which the ranging was lost before they were past (X3)",
@@ -34,11 +36,13 @@ MONITORS: Mapping[str, str] = {
     "unread": "strikes of trains in contact of which no read of the start tag was told: warned of at once (X3, T14)",
     "released": "trains that a person released (X4)",
     "forgotten": "trains between start point and road when power failed (X3)",
-    "accounted": "tracks that a person accounted for after power had failed (X3)",
+    "accounted": "tracks that a person accounted for after power had failed, or as a terminal had started (X3)",
+    "owed": "starts of a terminal that told that it may have missed strikes (X3, T14)",
+    "missed": "strikes that it did not note, or had not told of (X3)",
 }
 PRICES: Mapping[str, str] = {
     "closed_s": "seconds for which the crossing warned",
-    "unseen_s": "of them with a track that nobody had seen empty since power failed",
+    "unseen_s": "of them with a track that nobody had seen empty since power failed, or a terminal started",
     "old_closed_s": "seconds for which the old crossing would have",
     "beyond_s": "seconds of warning before arrivals beyond the warning time, all trains",
     "old_beyond_s": "the same of the old crossing",
@@ -55,6 +59,7 @@ COUNTS: Mapping[str, str] = {
     "warnings": "warnings that began",
     "likely_late": "arrivals that the paper's reckoning, without bounds, would have warned of late",
     "turned_back": "trains in contact that were let go as they turned back before their start point (X4)",
+    "came_back": "trains that stood beyond the road, were let go and came back (X4)",
     "rangings": "rangings that counted",
     "promised": "trains that promised a ceiling (X2)",
     "asked_faster": "of them that asked to go faster",

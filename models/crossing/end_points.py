@@ -37,12 +37,15 @@ def inner_of(road: Any, track: Any, side: Any) -> Any:
 def pass_end_tags(day: Any, run: Any, line: Any, train: int, now: int) -> None:
     """Let a rear pass the tags beyond the road, or those beyond its start point; the tail reads them or not.
 
-    Who turns back before it has come to its start point is out at once, and passes no tag.
+    Who turns back before it has come to its start point is out at once, and passes no tag.  Who comes back over the
+    road runs on to the tags beyond its start point.
     """
     kind = day.trains[train].local
     if run[train].pace_um < 0 and run[train].struck_s < 0 and run[train].out_s == NEVER:
         run[train].out_s = now
     rear_um = run[train].way_um + line.length_um[kind]
+    if run[train].is_back == 1:
+        rear_um += line.start_um[kind]
     back_um = run[train].way_um - line.start_um[kind] - BACK_UM
     is_back = run[train].pace_um < 0 and back_um > INNER_TAG_UM - OUTER_TAG_UM
     if run[train].out_s == NEVER and run[train].inner_s == NEVER and (rear_um <= -INNER_TAG_UM or is_back):
@@ -51,7 +54,7 @@ def pass_end_tags(day: Any, run: Any, line: Any, train: int, now: int) -> None:
     if run[train].out_s == NEVER and (rear_um <= -OUTER_TAG_UM or (is_back and back_um > 0)):
         run[train].out_s = now
         run[train].has_read_outer = int(day.trains[train].radio == 1 and not day.on[END_TAGS])
-        run[train].side = BEYOND_START if is_back else BEYOND_ROAD
+        run[train].side = BEYOND_START if is_back or run[train].is_back == 1 else BEYOND_ROAD
 
 
 @compiled

@@ -46,9 +46,23 @@ FAULTS = (
           "practice: two streets of a town"),
     Fault("late_words", "a terminal's words were under way for seconds", 0.3, 600, 7_200, "s", 1, 2,
           "practice: a relay, retries"),
+    Fault("terminal_restarts", "a start point's terminal had no power, and may have missed strikes", 0.3, 1, 120,
+          "s", 60, 900, "practice: a cable, a restart"),
+    Fault("unlisted", "the crossing started with settings that left a track out", 0.1, 1, 60, "s", 150, 900,
+          "ours: a hurried person"),
+    Fault("turns_beyond", "a train stopped beyond the road, changed ends and came back", 0.3, 60, 600, "m", 60, 900,
+          "practice: a single line, shunting"),
+    Fault("unasked", "a train stopped beyond the road, and came back without asking to start", 0.0, 60, 600, "m", 60,
+          300, "ours: a place without a signal", "who_arrives_has_passed_the_start_point"),
 )  # fmt: skip
-"""In the order of the simulation's windows.  ``power`` is as large as a person takes to come once it is back."""
+"""In the order of the simulation's windows.
 
-DRAWN_APART = ("power", "unlooked", "start_tags", "late_reads", "beside", "close_behind", "close_roads", "late_words")
+``power``, ``terminal_restarts`` and ``unlisted`` are as large as a person takes to come once power is back.
+"""
+
+DRAWN_APART = (
+    "power", "unlooked", "start_tags", "late_reads", "beside", "close_behind", "close_roads", "late_words",
+    "terminal_restarts", "unlisted", "turns_beyond", "unasked",
+)  # fmt: skip
 
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

@@ -12,10 +12,11 @@ from models.crossing.records import SET, UNDER_WAY, Moment
 from models.crossing.staff import OTHER_NAME
 from models.crossing.traffic import NEVER, TRACKS
 
-LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENCE, OPENED_UNSEEN = (
+LATE_WARNING, SHORT_CLOSURE, LIFTED_BETWEEN, OPENED_BEFORE_REAR, UNWARNED_SILENCE, OPENED_UNSEEN, LATCHED = (
     NUMBER[name]
     for name in (
-        "late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence", "opened_unseen"
+        "late_warning", "short_closure", "lifted_between", "opened_before_rear", "unwarned_silence", "opened_unseen",
+        "latched",
     )
 )  # fmt: skip
 START_BROKEN, SILENCES, CONVENTIONAL = (NUMBER[name] for name in ("start_broken", "silences", "conventional"))
@@ -63,7 +64,8 @@ def judge_trains(day: Any, run: Any, line: Any, window: Any, track: int, now: in
         arrivals += 1
         out[IN_CONTACT] += run[train].contact == 1 and run[train].lost == 0
         out[CONVENTIONAL] += run[train].contact == 0
-        out[START_BROKEN] += run[train].struck_s < 0 or now - run[train].struck_s < line.start_cycles
+        was_let_go = run[train].is_back == 0 or run[train].starts_s >= 0
+        out[START_BROKEN] += not was_let_go or run[train].struck_s < 0 or now - run[train].struck_s < line.start_cycles
         out[LATE_WARNING] += moment.warned <= line.warning_cycles
         out[SHORT_CLOSURE] += moment.down < LEAST_DOWN_S
         least_cycles = line.warning_cycles + SET.reopening_cycles
@@ -118,3 +120,12 @@ def judge_decision(
         crossing, moment.warned, moment.lowered, moment.down, moment.opened, moment.arrivals, held, moment.old_on,
         moment.old_off_s,
     )  # fmt: skip
+
+
+@compiled
+def judge_end(run: Any, moment: Any, out: Any) -> None:
+    """Hold the end of a day against what is claimed: a road stays closed for somebody (X4)."""
+    is_anybody = False
+    for train in range(len(run)):
+        is_anybody = is_anybody or run[train].state == UNDER_WAY
+    out[LATCHED] += moment.crossing.warns and not is_anybody

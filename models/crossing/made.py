@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from kernel.crossing import arrival, crossing, end_point, promise, start_point
 from kernel.crossing.arrival import Followed, Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
@@ -19,6 +21,8 @@ OPEN = Crossing(
     asks={}, starts={}, silent_cycles={}, unaccounted={}, numbers={}, looks={}, number=0, warns=False, warned_cycles=0
 )
 """A crossing before anything is told."""
-START = restart_crossing(SETTINGS, frozenset(map(CrossingTrack, range(TRACKS))), number=1)  # type: ignore[arg-type]
-"""A crossing whose power has come back."""
+NUMBERS: Any = range(TRACKS)
+WHOLE = frozenset(map(CrossingTrack, NUMBERS))
+STARTS = tuple(packed(restart_crossing(SETTINGS, WHOLE - {left_out}, number=1)) for left_out in (None, *NUMBERS))
+"""A crossing whose power has come back: with all of its tracks, and with settings that leave each of them out."""
 NO_DUES = packed({}, Map[Train, Due])

@@ -27,6 +27,7 @@ NEAR_M = 5.0
 SLOW_M_S = 3.0
 BACK_M_S = 5.0
 STOPS_SHORT, TURNS_BACK, SPRINTS, STRONG = (KIND[name] for name in ("stops_short", "turns_back", "sprints", "strong"))
+TURNS_BEYOND, UNASKED = KIND["turns_beyond"], KIND["unasked"]
 BEFORE, BETWEEN, BEYOND = 0, 1, 2
 """The stage of a run: before the first station, between both, beyond the second."""
 
@@ -60,11 +61,17 @@ def aim(day: Any, run: Any, line: Any, train: int, ahead: int) -> Any:
         aim_m_s = min(aim_m_s, allowed(way_m, -line.station_m))
     trick, there_m = day.trains[train].trick, day.trains[train].trick_um / 1e6
     waits = trick in (STOPS_SHORT, TURNS_BACK) and run[train].stood_s <= day.trains[train].trick_s
-    if waits and way_m > there_m - NEAR_M:
+    if (waits or turns_beyond(day, train)) and way_m > there_m - NEAR_M:
         aim_m_s = min(aim_m_s, allowed(way_m, there_m))
     if trick in (SPRINTS, STRONG) and way_m > there_m:
         aim_m_s = min(aim_m_s, max(SLOW_M_S, allowed(way_m, there_m)))
     return aim_m_s
+
+
+@compiled
+def turns_beyond(day: Any, train: int) -> Any:
+    """Tell whether a train stops beyond the road and comes back."""
+    return day.trains[train].trick in (TURNS_BEYOND, UNASKED)
 
 
 @compiled
@@ -78,7 +85,8 @@ def stand(day: Any, run: Any, line: Any, train: int) -> None:
     """Count how long a train stands, and let it go on."""
     way_m, stage = run[train].way_um / 1e6, run[train].stage
     trick = day.trains[train].trick
-    if trick in (STOPS_SHORT, TURNS_BACK) and abs(way_m - day.trains[train].trick_um / 1e6) < NEAR_M:
+    stands = trick in (STOPS_SHORT, TURNS_BACK) or turns_beyond(day, train)
+    if stands and abs(way_m - day.trains[train].trick_um / 1e6) < NEAR_M:
         run[train].stood_s += 1
         return
     if not line.stops[day.trains[train].local] or stage == BEYOND:
@@ -99,12 +107,25 @@ def sprints(day: Any, run: Any, train: int) -> bool:
 
 
 @compiled
+def come_back(run: Any, line: Any, train: int, kind: int) -> None:
+    """Let a train that comes back gain all that it can, up to the greatest pace of its kind."""
+    before_um = run[train].pace_um
+    run[train].pace_um = min(before_um + line.gain_um, line.line_um[kind])
+    if keeps(run, train):
+        run[train].pace_um = min(run[train].pace_um, 1_000 * run[train].held_mm_s)
+    run[train].way_um -= (before_um + run[train].pace_um) // 2
+
+
+@compiled
 def move(day: Any, run: Any, line: Any, train: int, ahead: int) -> None:
     """Move a train for a second."""
     kind, pace_um = day.trains[train].local, run[train].pace_um
     if day.trains[train].trick == TURNS_BACK and run[train].stood_s > day.trains[train].trick_s:
         run[train].pace_um = max(pace_um - 500_000, -round(1e6 * BACK_M_S))
         run[train].way_um -= run[train].pace_um
+        return
+    if run[train].is_back == 1:
+        come_back(run, line, train, kind)
         return
     if sprints(day, run, train):
         gain_um = line.gain_um * (2 if day.trains[train].trick == STRONG else 1)

@@ -10,7 +10,7 @@ from models.compiled import compiled, packed
 from models.crossing.made import MADE
 from models.crossing.motion import COMES_UM
 from models.crossing.radio import KEPT
-from models.crossing.sites import SETTINGS, Trial
+from models.crossing.sites import CAR_UM, SETTINGS, Trial
 from models.crossing.start_points import points_of
 from models.crossing.traffic import NEVER, TRACKS, Day, Records
 
@@ -18,7 +18,10 @@ ArrivalBounds = MADE.arrival.ArrivalBounds
 SET = packed(SETTINGS)
 OWN = ("own_way_error_m", "own_speed_error_m_s", "ceiling_over_m_s")
 WAITING, UNDER_WAY, AWAY = 0, 1, 2
-TIMES = ("asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "inner_s", "out_s", "read_s")
+TIMES = (
+    "asked_s", "likely_s", "old_s", "struck_s", "arrived_s", "inner_s", "out_s", "read_s", "starts_s", "go_s",
+    "started_s", "late_s",
+)  # fmt: skip
 """Of a train, -1 until then."""
 
 
@@ -47,7 +50,8 @@ RUN = np.dtype(
         *((name, np.int64) for name in ("sent_number", "last_number", "brought_place")),
         *((name, np.int64) for name in ("read_s", "has_read", "told_late_s", "is_other")),
         *((name, np.int64) for name in ("inner_s", "has_read_inner", "has_read_outer", "side", "cleared")),
-        *((name, np.int64) for name in ("followed_way_mm", "followed_mm_s")),
+        *((name, np.int64) for name in ("followed_way_mm", "followed_mm_s", "is_back")),
+        *((name, np.int64) for name in ("starts_s", "go_s", "started_s", "late_s")),
         ("bias", np.float64),
     ]
 )
@@ -60,6 +64,9 @@ asked for.  ``old_s``: when the old crossing's start point was struck; ``struck_
 ``likely_s``: when the paper's reckoning would have warned.
 ``arrived_s``, ``out_s``: head at the crossing; rear past it, or turned back, over the outer tag of an end point.
 ``inner_s``: over the inner one; ``has_read_inner``, ``has_read_outer``: the tail read them; ``side``: where they lie.
+``starts_s``: since when it asks to start at the signal beyond the road; ``go_s``: when it hears that it is let go.
+``started_s``: when it did so; ``is_back``: since then ``way_um`` is to its new head, which comes from beyond.
+``late_s``: when its strike was told after it was told gone by each name: only a person releases it then.
 ``gone``: told gone by its own name; ``cleared``: by each name that it had.
 """
 
@@ -67,7 +74,8 @@ asked for.  ``old_s``: when the old crossing's start point was struck; ``struck_
 class Road(NamedTuple):
     """One road over the line: its number, what becomes of trains as seen from it, its start points, and its counts.
 
-    ``unheard``, ``unseen``: for how long each start point's terminal is silent; each track that nobody has seen empty.
+    ``unheard``: for how long each start point's terminal is silent.
+    ``unseen``: from when on a person looks at each track; 0 if one has seen it empty.
     """
 
     number: int
@@ -97,7 +105,7 @@ def line_of(trial: Trial) -> Any:
     line = np.zeros(1, LINE)[0]
     kinds = (trial.express, trial.local)
     line["limit_m_s"] = [kind.limit_m_s for kind in kinds]
-    line["length_um"] = [kind.cars * 20_000_000 for kind in kinds]
+    line["length_um"] = [kind.cars * CAR_UM for kind in kinds]
     line["stops"] = [kind.stops for kind in kinds]
     line["line_um"] = [trial.bounds(kind).line_um for kind in kinds]
     line["start_um"] = [trial.start_um(kind) for kind in kinds]

@@ -178,6 +178,7 @@ class Trial:
 
 HOURS = tuple(range(5, 24))
 """First and last hour of traffic: 19 h."""
+CAR_UM = 20_000_000
 PEAK = (7, 8)
 """The hours of the morning's densest traffic (practice)."""
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from kernel.crossing.crossing import NONE
 from models.compiled import compiled
 from models.crossing.columns import NUMBER
 from models.crossing.end_points import hears_it_gone, pass_end_tags, stays_s
@@ -17,11 +18,16 @@ from models.crossing.traffic import NEVER, TRACKS
 
 note_gone, note_released, note_empty = (MADE.crossing.note_gone, MADE.crossing.note_released, MADE.crossing.note_empty)
 number_of, look_of = MADE.crossing.number_of, MADE.crossing.look_of
-REAR_BROKEN, ACCOUNT_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED, TURNED_BACK = (
-    NUMBER[name] for name in ("rear_broken", "account_broken", "released", "forgotten", "accounted", "turned_back")
-)
+REAR_BROKEN, ACCOUNT_BROKEN, TRACK_BROKEN, RELEASED, FORGOTTEN, ACCOUNTED, TURNED_BACK = (
+    NUMBER[name]
+    for name in (
+        "rear_broken", "account_broken", "track_broken", "released", "forgotten", "accounted", "turned_back"
+    )
+)  # fmt: skip
 END_DETECTOR = KIND["end_detector"]
-POWER, UNLOOKED = KIND["power"], KIND["unlooked"]
+POWER, UNLOOKED, UNLISTED = KIND["power"], KIND["unlooked"], KIND["unlisted"]
+NOBODY_S = 10**9
+"""Nobody comes."""
 OTHER_NAME = 1_000_000
 """A strike that no ranging explains gets a name of its own: the train's number and this."""
 END_DETECTOR_UM = 25_000_000
@@ -69,7 +75,7 @@ def prove_rear(
     ):
         crossing = note_gone(crossing, train, number_of(crossing, train), True)
     if run[train].cleared == 1:
-        return crossing
+        return release_late(day, run, train, now, crossing, out)
     pass_end_tags(day, run, line, train, now)
     out_s = run[train].out_s
     if out_s < 0 or out_s == now:
@@ -91,18 +97,45 @@ def prove_rear(
     return crossing
 
 
+@compiled
+def release_late(day: Any, run: Any, train: int, now: int, crossing: Any, out: Any) -> Any:
+    """Let a person release a train whose strike was told once it was gone: no rear of it comes any more (X4)."""
+    if run[train].late_s == NEVER or now < run[train].late_s + day.trains[train].person_s:
+        return crossing
+    run[train].late_s = NEVER
+    out[RELEASED] += 1
+    for name in (train, OTHER_NAME + train):
+        crossing = note_released(crossing, name, number_of(crossing, name))
+    return crossing
+
+
 # ---- power, and who looks at the tracks after it
 
 
 @compiled
 def has_no_power(day: Any) -> Any:
     """Tell whether the crossing has no power now."""
-    return day.on[POWER] or day.on[UNLOOKED]
+    return day.on[POWER] or day.on[UNLOOKED] or day.on[UNLISTED]
+
+
+@compiled
+def somebody_comes_s(day: Any) -> Any:
+    """Give when a person comes who looks at the tracks, since power has failed now."""
+    come_s = 0
+    for fault in (POWER, UNLISTED):
+        if day.on[fault]:
+            come_s = max(come_s, day.faults[fault].end_s + int(day.faults[fault].size))
+    return NOBODY_S if come_s == 0 else come_s
 
 
 @compiled
 def is_inside(day: Any, run: Any, train: int, now: int) -> Any:
-    """Tell whether a train, or a part of it, is between its start point and where its rear is past the road."""
+    """Tell whether a train, or a part of it, is between its start point and where its rear is past the road.
+
+    Or on its way back, since it has been let go.
+    """
+    if run[train].go_s >= 0:
+        return True
     is_there = run[train].out_s < 0 or now < run[train].out_s + stays_s(day, run, train)
     return run[train].struck_s >= 0 and is_there
 
@@ -110,7 +143,9 @@ def is_inside(day: Any, run: Any, train: int, now: int) -> Any:
 @compiled
 def forget(day: Any, run: Any, window: Any, now: int, out: Any) -> None:
     """Take from the ground unit whom it follows, and from terminals what they had to tell (X3)."""
-    begins = day.faults[POWER].begin_s == now or day.faults[UNLOOKED].begin_s == now
+    begins = False
+    for fault in (POWER, UNLOOKED, UNLISTED):
+        begins = begins or day.faults[fault].begin_s == now
     for track in range(TRACKS):
         for train in range(window[track, 0], window[track, 1]):
             run[train].contact, run[train].warns, run[train].name = 0, 0, NEVER
@@ -126,10 +161,12 @@ def account(day: Any, run: Any, window: Any, unseen: Any, now: int, crossing: An
         is_empty = True
         for train in range(window[track, 0], window[track, 1]):
             is_empty = is_empty and not is_inside(day, run, train, now)
-        power, unlooked = day.faults[POWER], day.faults[UNLOOKED]
-        looks = power.begin_s >= 0 and now >= power.end_s + int(power.size) and is_empty
+        unlooked = day.faults[UNLOOKED]
+        looks = now >= unseen[track] and is_empty
         says = unlooked.begin_s >= 0 and now >= unlooked.end_s
-        if unseen[track] and (looks or says):
+        is_asked = look_of(crossing, track) != NONE
+        out[TRACK_BROKEN] += not is_asked and not crossing.warns
+        if unseen[track] and is_asked and (looks or says):
             crossing = note_empty(crossing, track, look_of(crossing, track))
             out[ACCOUNTED] += 1
             out[ACCOUNT_BROKEN] += not is_empty

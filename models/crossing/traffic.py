@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from models.crossing.faults import DRAWN_APART, FAULTS, KIND
-from models.crossing.sites import HOURS, PEAK, Trial
+from models.crossing.sites import CAR_UM, HOURS, PEAK, Trial
 
 Ints = npt.NDArray[np.int64]
 Floats = npt.NDArray[np.float64]
@@ -103,10 +103,27 @@ def drawn(
     trick(source, trains, windows)
     accompany(trains, windows)
     promised(generator(seed, day, 2), trains, promise, quiet)
+    come_back(generator(seed, day, 3), trial, trains, windows)
     arms_cycles = int(source.integers(8, 11))
     return Day(
         trains, windows, np.zeros(len(FAULTS), np.bool_), source.standard_normal(POOL), source.random(POOL), arms_cycles
     )
+
+
+def come_back(source: np.random.Generator, trial: Trial, trains: Records, windows: Records) -> None:
+    """Let a train stop beyond the road and come back; where another road lies close by, none does."""
+    for name, chance in zip(COME_BACK, source.random(len(COME_BACK)), strict=True):
+        window = windows[KIND[name]]
+        if windows[CLOSE_ROADS]["begin_s"] != NEVER:
+            window["begin_s"] = window["end_s"] = NEVER
+        able = np.flatnonzero((trains["at_s"] >= window["begin_s"]) & (trains["trick"] == NEVER))
+        if window["begin_s"] == NEVER or not len(able):
+            continue
+        chosen = able[int(chance * min(len(able), 10))]
+        cars = (trial.local if trains["local"][chosen] else trial.express).cars
+        trains["trick"][chosen] = KIND[name]
+        trains["trick_um"][chosen] = -round(1e6 * window["size"]) - cars * CAR_UM
+        trains["trick_s"][chosen] = window["end_s"] - window["begin_s"]
 
 
 def promised(source: np.random.Generator, trains: Records, promise: float, quiet: bool) -> None:
@@ -178,6 +195,7 @@ def faults(source: np.random.Generator, apart: np.random.Generator, beyond: tupl
     return windows
 
 
+COME_BACK = ("turns_beyond", "unasked")
 TRICKS = ("stops_short", "turns_back", "sprints", "strong")
 """Faults of one train each."""
 

@@ -15,8 +15,8 @@ from models.crossing.ceilings import answer_ask, forget_promise, promises, take_
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, MONITORS, NUMBER
 from models.crossing.end_points import has_left
 from models.crossing.faults import KIND
-from models.crossing.judging import judge_decision, judge_trains, old_crossing
-from models.crossing.made import MADE, NO_DUES, OPEN, START, UNKNOWN
+from models.crossing.judging import judge_decision, judge_end, judge_trains, old_crossing
+from models.crossing.made import MADE, NO_DUES, OPEN, STARTS, UNKNOWN
 from models.crossing.motion import (
     COMES_UM,
     GOES_M,
@@ -25,19 +25,21 @@ from models.crossing.motion import (
     keeps,
     move,
     signal_m,
+    turns_beyond,
 )
 from models.crossing.radio import is_on, likely, ranging
 from models.crossing.records import AWAY, SET, UNDER_WAY, Moment, bounds_of, line_of, road_of
 from models.crossing.sites import Trial
-from models.crossing.staff import account, forget, has_no_power, let_go, prove_rear
+from models.crossing.staff import UNLISTED, account, forget, has_no_power, let_go, prove_rear, somebody_comes_s
 from models.crossing.start_points import hear, is_silent, note_read, strikes
+from models.crossing.starting import SIGNALS, talk
 from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 begins_contact, has_turned_back = MADE.arrival.begins_contact, MADE.arrival.has_turned_back
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
-look_of = MADE.crossing.look_of
+look_of, note_missed, may_start = MADE.crossing.look_of, MADE.crossing.note_missed, MADE.crossing.may_start
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
 Followed, ArrivalBounds = MADE.arrival.Followed, MADE.arrival.ArrivalBounds
 
@@ -62,9 +64,13 @@ class Machines(NamedTuple):
     reads: Any = note_read
     hears: Any = has_left
     turns: Any = has_turned_back
+    notes: Any = note_heard
+    misses: Any = note_missed
+    lets: Any = may_start
 
 
 MACHINES = Machines()
+SIGNALS_MADE = packed(SIGNALS)
 
 
 def watched(trial: Trial, day: Day, out: Any, machines: Machines = MACHINES) -> Records:
@@ -73,7 +79,7 @@ def watched(trial: Trial, day: Day, out: Any, machines: Machines = MACHINES) -> 
     first = road_of(0, day, line, out)
     window = day.faults[CLOSE_ROADS]
     if window["begin_s"] == NEVER:
-        live(day, day, first, first, 0, line, *machines, packed(OPEN), packed(START), NO_DUES)
+        live(day, day, first, first, 0, line, *machines, SIGNALS_MADE, packed(OPEN), STARTS, NO_DUES)
         return first.run
     trains = day.trains.copy()
     trains["promises"] = 0
@@ -81,8 +87,9 @@ def watched(trial: Trial, day: Day, out: Any, machines: Machines = MACHINES) -> 
     second = road_of(1, day, line, beside)
     apart_um = round(1e6 * window["size"])
     live(
-        day, day._replace(trains=trains), first, second, apart_um, line, *machines, packed(OPEN), packed(START), NO_DUES
-    )
+        day, day._replace(trains=trains), first, second, apart_um, line, *machines, SIGNALS_MADE, packed(OPEN), STARTS,
+        NO_DUES,
+    )  # fmt: skip
     out[JUDGED] += beside[JUDGED]
     out[ARRIVALS_BESIDE] += beside[ARRIVALS]
     out[CLOSED_BESIDE] += beside[CLOSED]
@@ -103,7 +110,8 @@ def enter(day: Any, run: Any, line: Any, window: Any, ends: Any, track: int, now
         ahead = train - 1
         rear_um = run[ahead].way_um + line.length_um[day.trains[ahead].local]
         if run[ahead].state == UNDER_WAY:
-            if rear_um > COMES_UM - CLEAR_UM or day.trains[ahead].trick == TURNS_BACK:
+            comes_back = day.trains[ahead].trick == TURNS_BACK or turns_beyond(day, ahead)
+            if rear_um > COMES_UM - CLEAR_UM or comes_back:
                 return
             speed_m_s = min(speed_m_s, allowed(COMES_UM / 1e6, signal_m(line.block_m, rear_um)))
     run[train].state = UNDER_WAY
@@ -111,6 +119,12 @@ def enter(day: Any, run: Any, line: Any, window: Any, ends: Any, track: int, now
     run[train].last_um = run[train].way_um + run[train].pace_um
     run[train].before_um = run[train].last_um + run[train].pace_um
     window[track, 1] += 1
+
+
+@compiled
+def is_over(run: Any, train: int) -> Any:
+    """Tell whether nobody has to see to a train any more."""
+    return run[train].cleared == 1 and run[train].late_s == NEVER
 
 
 @compiled
@@ -134,8 +148,9 @@ def run_trains(day: Any, run: Any, there: Any, line: Any, window: Any, track: in
             or (keeps(run, train) and now_um > 1_000 * run[train].held_mm_s)
         ):
             out[GAIN_BROKEN] += 1
-        cleared = run[train].cleared == 1 and there[train].cleared == 1
-        if cleared and (run[train].way_um < goes_um or run[train].way_um > COMES_UM):
+        cleared = is_over(run, train) and is_over(there, train)
+        leaves_um = -COMES_UM if run[train].is_back == 1 else goes_um
+        if cleared and (run[train].way_um < leaves_um or run[train].way_um > COMES_UM):
             run[train].state = AWAY
         ahead = train
     while window[track, 0] < window[track, 1] and run[window[track, 0]].state == AWAY:
@@ -221,14 +236,19 @@ def tell(
     settings: Any,
     hears: Any,
     turns: Any,
+    notes: Any,
+    misses: Any,
+    lets: Any,
+    signals: Any,
 ) -> Any:
     """Tell the crossing all of a track, once its start points have been struck (X1 to X4)."""
     run, out = road.run, road.out
-    crossing = hear(day, run, window, track, now, crossing)
+    crossing = hear(day, road, window, track, now, crossing, notes, misses)
     for train in range(window[track, 0], window[track, 1]):
         if run[train].state != UNDER_WAY:
             continue
         crossing = prove_rear(day, road, other, line, train, track, now, crossing, hears)
+        crossing = talk(day, road, line, train, now, crossing, settings, signals, lets)
         in_reach = run[train].way_um <= day.trains[train].contact_um
         if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
             if day.trains[train].promises == 1:
@@ -269,6 +289,10 @@ def decide_at(
     reads: Any,
     hears: Any,
     turns: Any,
+    notes: Any,
+    misses: Any,
+    lets: Any,
+    signals: Any,
     start: Any,
     dues: Any,
 ) -> Any:
@@ -277,12 +301,15 @@ def decide_at(
     dues.clear()
     for track in range(TRACKS):
         strikes(day, road.run, line, window, road.points, track, now, reads, road.out)
-        crossing = tell(day, road, other, line, window, track, now, crossing, dues, settings, hears, turns)
+        crossing = tell(
+            day, road, other, line, window, track, now, crossing, dues, settings, hears, turns, notes, misses, lets,
+            signals,
+        )  # fmt: skip
         road.unheard[track] = road.unheard[track] + 1 if is_silent(day, track, now) else 0
     if has_no_power(day):
         forget(day, road.run, window, now, road.out)
         dues.clear()
-        crossing, road.unseen[:] = start, 1
+        crossing, road.unseen[:] = start, somebody_comes_s(day)
     crossing = account(day, road.run, window, road.unseen, now, crossing, road.out)
     crossing = decides(settings, crossing, dues)
     told = Moment(
@@ -319,6 +346,13 @@ def windows_of(day: Any) -> Any:
 
 
 @compiled
+def left_out(day: Any, now: int) -> Any:
+    """Give which of its starts the crossing has: with the settings of that day's beginning, or with new ones."""
+    window = day.faults[UNLISTED]
+    return 1 + window.track_of if 0 <= window.begin_s <= now else 0
+
+
+@compiled
 def live(
     day: Any,
     there: Any,
@@ -331,8 +365,12 @@ def live(
     reads: Any,
     hears: Any,
     turns: Any,
+    notes: Any,
+    misses: Any,
+    lets: Any,
+    signals: Any,
     crossing: Any,
-    start: Any,
+    starts: Any,
     dues: Any,
 ) -> None:
     """Let a day pass; it begins with both tracks accounted for.
@@ -353,13 +391,16 @@ def live(
             enter(day, first.run, line, window, ends, track, now)
             if apart_um > 0:
                 see_from_there(first.run, second.run, window, track, apart_um)
+        start = starts[left_out(day, now)]
         moment = decide_at(
-            day, first, second, line, window, moment, now, decides, settings, reads, hears, turns, start, dues
-        )
+            day, first, second, line, window, moment, now, decides, settings, reads, hears, turns, notes, misses, lets,
+            signals, start, dues,
+        )  # fmt: skip
         if apart_um > 0:
             beside = decide_at(
-                there, second, first, line, window, beside, now, decides, settings, reads, hears, turns, start, dues
-            )
+                there, second, first, line, window, beside, now, decides, settings, reads, hears, turns, notes, misses,
+                lets, signals, start, dues,
+            )  # fmt: skip
         begun = window.copy()
         for track in range(TRACKS):
             run_trains(day, first.run, second.run, line, window, track, first.out)
@@ -368,3 +409,6 @@ def live(
             for track in range(TRACKS):
                 see_from_there(first.run, second.run, begun, track, apart_um)
             beside = judge_at(there, second, line, window, beside, now)
+    judge_end(first.run, moment, first.out)
+    if apart_um > 0:
+        judge_end(second.run, beside, second.out)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kernel.crossing import crossing as machine
-from kernel.crossing.crossing import Crossing, Due, Train
+from kernel.crossing.crossing import Crossing, Due, Standing, Train
 from models.compiled import compiled, packed, unpacked
 from models.crossing.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
 from models.crossing.days import SYSTEM, one_day
@@ -18,8 +18,9 @@ from models.crossing.faults import FAULTS, KIND
 from models.crossing.made import MADE, NO_DUES
 from models.crossing.records import SET
 from models.crossing.sites import CURVED, SETTINGS, STRAIGHT, TRIALS
+from models.crossing.starting import BESIDE, SIGNALS
 from models.crossing.traffic import SECONDS, drawn, there_m
-from models.crossing.watch import Machines, decide, watched
+from models.crossing.watch import Machines, decide, look_of, note_heard, watched
 from models.days.system import Numbers
 
 BROKEN_BY = {fault.name: fault.breaks for fault in FAULTS if fault.breaks}
@@ -31,6 +32,7 @@ COLUMN_OF = {
     "slow_arms": "arms_broken",
     "strong": "gain_broken",
     "unlooked": "account_broken",
+    "unasked": "start_broken",
 }
 
 
@@ -237,17 +239,146 @@ def test_two_roads_close_together() -> None:
 
 
 def test_a_second_road_changes_nothing_of_the_days_trains() -> None:
-    """But who turns back does so before the road that it comes to first."""
+    """But who turns back does so before the road that it comes to first, and none comes back over both."""
     compared = 0
     for number in range(12):
         alone, two = (drawn(4, number, STRAIGHT, beyond=more) for more in ((), ("close_roads",)))
         if alone.faults[KIND["close_roads"]]["begin_s"] < 0:
             turns = (two.trains["trick"] == KIND["turns_back"]) & (two.trains["track"] == 1)
+            turns |= alone.trains["trick"] == KIND["turns_beyond"]
+            assert not (two.trains["trick"] == KIND["turns_beyond"]).any()
             assert (alone.trains[~turns] == two.trains[~turns]).all()
             compared += 1
     assert compared > 3
     assert [there_m("turns_back", track, 300.0, 400.0) for track in (0, 1)] == [300.0, 700.0]
     assert [there_m("stops_short", track, 300.0, 400.0) for track in (0, 1)] == [300.0, 300.0]
+
+
+# ---- terminals that start, tracks that are left out, trains that come back
+
+
+@compiled
+def as_if_none_were_missed(crossing: Any, track: Any) -> Any:
+    """That a terminal may have missed strikes is not heard."""
+    return crossing
+
+
+@compiled
+def known_tracks_alone(crossing: Any, track: Any, age: Any) -> Any:
+    """A terminal whose track the settings leave out is not heard."""
+    return note_heard(crossing, track, age) if look_of(crossing, track) > 0 else crossing
+
+
+@compiled
+def at_once(settings: Any, crossing: Any, train: Any) -> Any:
+    """Whoever asks to start is let go."""
+    has_asked = False
+    for asked, _ in crossing.starts:
+        has_asked = has_asked or asked == train
+    return has_asked
+
+
+@compiled
+def shut(settings: Any, crossing: Any, dues: Any) -> Any:
+    """Once the road has been closed it stays so."""
+    now = decide(settings, crossing, dues)
+    warns = now.warns or crossing.warns
+    return Made(
+        now.asks, now.starts, now.silent_cycles, now.unaccounted, now.numbers, now.looks, now.number, warns,
+        now.warned_cycles,
+    )  # fmt: skip
+
+
+def test_a_terminal_starts_between_tag_and_detector_and_as_trains_strike() -> None:
+    """A train strikes as its terminal has no power, or has not told of it: it is warned of all the same (X3, T14).
+
+    With words under way and without; a person opens the road once he has seen the track empty.
+    """
+    missed, broken = 0, set()
+    for words_s in (0, LATE_S):
+        day = drawn(5, 0, STRAIGHT, quiet=True)
+        day.trains["radio"] = np.arange(len(day.trains)) % 2
+        day.faults[KIND["late_words"]] = (0, 2 * SECONDS, 0, words_s)
+        untouched = watched(STRAIGHT, day, np.zeros(len(COLUMNS), np.int64))
+        for number, train in enumerate(np.flatnonzero(day.trains["track"] == 0)[10:60:5]):
+            begins_s = int(untouched["struck_s"][train]) - 2 + number % 4
+            day.faults[KIND["terminal_restarts"]] = (begins_s, begins_s + 1 + number % 3, 0, 60)
+            sound, deaf = np.zeros((2, len(COLUMNS)), np.int64)
+            run = watched(STRAIGHT, day, sound)
+            assert counted(sound[None], CLAIMS) == counted(sound[None], ASSUMPTIONS) == {}
+            assert (sound[NUMBER["owed"]], sound[NUMBER["accounted"]]) == (1, 1)
+            assert (run["cleared"] == 1).all()
+            missed += sound[NUMBER["missed"]]
+            watched(STRAIGHT, day, deaf, Machines(misses=as_if_none_were_missed))
+            broken |= set(counted(deaf[None], CLAIMS))
+    assert missed > 5
+    assert {"late_warning", "opened_before_rear", "opened_unseen"} <= broken
+
+
+def test_days_on_which_a_terminal_starts() -> None:
+    rows = days(6, beyond=("terminal_restarts",))
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    assert (rows[:, NUMBER["owed"]] > 0).all()
+    assert rows[:, NUMBER["missed"]].sum() > 0
+    assert "opened_unseen" in counted(days(6, beyond=("terminal_restarts",), misses=as_if_none_were_missed), CLAIMS)
+
+
+def test_a_track_that_settings_leave_out_is_closed_for() -> None:
+    """Its terminal is heard, and a person is asked to look at it too; who hears it not opens the road (X3)."""
+    rows = days(6, beyond=("unlisted",))
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    assert (rows[:, NUMBER["accounted"]] >= 2).all()
+    deaf = days(6, beyond=("unlisted",), notes=known_tracks_alone)
+    assert "opened_unseen" in counted(deaf, CLAIMS)
+    assert "track_broken" in counted(deaf, ASSUMPTIONS)
+
+
+def test_who_comes_back_over_the_road_has_the_whole_warning() -> None:
+    """And no road stays closed for it afterwards; let go as soon as it asks it comes too soon (X4, X5)."""
+    rows = days(8, beyond=("turns_beyond",))
+    assert counted(rows, CLAIMS) == counted(rows, ASSUMPTIONS) == {}
+    came = rows[:, NUMBER["came_back"]]
+    assert (came == rows[:, NUMBER["fault_turns_beyond"]]).all()
+    assert came.sum() > 3
+    broken = counted(days(8, beyond=("turns_beyond",), lets=at_once), CLAIMS)
+    assert {"late_warning", "short_closure"} <= set(broken)
+    assert "late_warning" in counted(days(8, beyond=("unasked",)), CLAIMS)
+
+
+@pytest.mark.parametrize("trial", TRIALS)
+def test_a_train_stands_beyond_an_open_road_and_comes_back(trial: Any) -> None:
+    """On a quiet day, as near as 60 m, with a radio and without: no claim breaks, and all are told gone (X3, X5)."""
+    for number, (size_m, radio) in enumerate(((60, 1), (60, 0), (400, 1), (900, 0))):
+        day = drawn(5, 0, trial, quiet=True)
+        train = 100 + number
+        cars = (trial.local if day.trains["local"][train] else trial.express).cars
+        day.trains["radio"][train], day.trains["trick"][train] = radio, KIND["turns_beyond"]
+        day.trains["trick_um"][train], day.trains["trick_s"][train] = -1_000_000 * (size_m + 20 * cars), 300
+        row = np.zeros(len(COLUMNS), np.int64)
+        run = watched(trial, day, row)
+        assert counted(row[None], CLAIMS) == counted(row[None], ASSUMPTIONS) == {}
+        assert row[NUMBER["came_back"]] == row[NUMBER["arrivals"]] - len(day.trains) == run["is_back"][train] == 1
+        assert run["starts_s"][train] < run["asked_s"][train] + 5
+        assert run["started_s"][train] < run["arrived_s"][train]
+        assert (run["cleared"] == 1).all()
+
+
+def test_a_road_that_stays_closed_is_seen() -> None:
+    assert "latched" in counted(days(2, decides=shut), CLAIMS)
+
+
+def test_faults_drawn_apart_leave_the_days_trains_as_they_are() -> None:
+    named = ("terminal_restarts", "unlisted", "turns_beyond", "unasked")
+    others = [number for name, number in KIND.items() if name not in named]
+    compared = 0
+    for number in range(12):
+        alone, more = (drawn(4, number, STRAIGHT, beyond=beyond) for beyond in ((), named))
+        back = (alone.trains["trick"] == KIND["turns_beyond"]) | (more.trains["trick"] >= KIND["turns_beyond"])
+        assert (alone.trains[~back] == more.trains[~back]).all()
+        assert (alone.faults[others] == more.faults[others]).all()
+        assert (alone.normal == more.normal).all()
+        compared += int(back.sum())
+    assert compared > 6
 
 
 # ---- what the days are made of
@@ -284,6 +415,21 @@ def test_quiet_days_have_no_fault() -> None:
 # ---- the compiled machine
 
 
+def told_alike(crossing: Crossing, track: Any, train: Any) -> tuple[Crossing, Any]:
+    """What a crossing is told of terminals and starts, in CPython and compiled: the same comes of it (X3, X4)."""
+    made, calls = packed(crossing), MADE.crossing
+    crossing = machine.note_missed(machine.note_heard(crossing, track, 1), track)
+    made = calls.note_missed(calls.note_heard(made, track, 1), track)
+    assert unpacked(made, Crossing) == crossing
+    crossing, made = machine.note_start(crossing, train, 20), calls.note_start(made, train, 20)
+    for another in (train, Train(1)):  # type: ignore[arg-type]
+        crossing = machine.note_standing(SIGNALS, crossing, another, Standing(BESIDE, True))
+        made = calls.note_standing(packed(SIGNALS), made, another, packed(Standing(BESIDE, True)))
+        assert machine.may_start(SETTINGS, crossing, another) == calls.may_start(SET, made, another)
+    assert unpacked(made, Crossing) == crossing
+    return crossing, made
+
+
 def test_cpython_and_compiled_decide_alike() -> None:
     """On drawn states and answers (X2 to X4)."""
     source = np.random.default_rng(1)
@@ -301,6 +447,8 @@ def test_cpython_and_compiled_decide_alike() -> None:
         told = NO_DUES.copy()
         for train, due in dues.items():
             told.append((int(train), due.value))
-        made = decide(SET, packed(crossing), told)
+        track, train = source.integers(3), Train(int(source.integers(4)))  # type: ignore[arg-type]
+        crossing, made = told_alike(crossing, track=int(track), train=train)
+        made = decide(SET, made, told)
         assert unpacked(made, Crossing) == machine.decide(SETTINGS, crossing, dues)
         assert unpacked(MADE.crossing.aged(made), Crossing) == machine.aged(machine.decide(SETTINGS, crossing, dues))
