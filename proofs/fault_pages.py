@@ -31,8 +31,8 @@ WHERE: Sequence[tuple[str, str, str]] = (
 
 INTRODUCTION = (
     "*Within* the declared ranges no claim may be broken. *Beyond* one of them an assumption of the proofs is:"
-    " `heisoku ride --beyond NAME` and `heisoku days alarm --beyond NAME` count the claims that break, the"
-    " assumptions that did not hold, and which monitor on board noticed. What they found is told in"
+    " `heisoku ride --beyond NAME` and `heisoku days alarm --beyond NAME` (or `crossing`, or `tram`) count the claims"
+    " that break, the assumptions that did not hold, and which monitor noticed. What they found of rides is told in"
     " [the world of physics](physics.md)."
 )
 
@@ -69,9 +69,16 @@ def page() -> str:
             "## Days of the trams (`heisoku days tram`)",
             "",
             *table(
-                ("name", "what", "chance a day", "size", "from"),
+                ("name", "what", "chance a day", "size", "breaks", "from"),
                 (
-                    (name, fault.says, f"{fault.chance:g}", size(fault.least, fault.most, fault.unit), fault.why)
+                    (
+                        name,
+                        fault.says,
+                        f"{fault.chance:g}",
+                        size(fault.least, fault.most, fault.unit),
+                        f"`{fault.breaks}`" if fault.breaks else "",
+                        fault.why,
+                    )
                     for name, fault in tram.FAULTS.items()
                 ),
             ),

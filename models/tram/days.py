@@ -57,6 +57,7 @@ from models.tram.telling import ask, see
 from models.tram.turning import (
     AWAITED_S,
     NO_RUN,
+    ask_anew,
     begin_runs,
     come,
     destination,
@@ -69,6 +70,7 @@ from models.tram.watching import watch
 END_S = CLOSE_S + 2 * 3_600
 """By then the last tram has long left the way; the simulation ends with it."""
 DEPOT_EACH_S = 1_800
+ASKED_ANEW_EACH_S = 1_800
 LATEST_BEGUN_S = 400
 """So late a run begins at most that is late at the terminus; ours."""
 ELSEWHERE_S, ELSEWHERE_EACH_S = 60, 30
@@ -188,6 +190,7 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
     """Run a day from the first tram to the last; ``back``, ``there``: the other way, if trams come back on it."""
     from_depot, depot_s = day.from_depot, day.where.depot_s
     restart_s, restarts = day.where.restart_s, day.restarts
+    asked_anew, anew_s = day.asked_anew, day.where.anew_s
     come_back = day.turns_s > 0 or day.away_s > 0
     restart_everything(day, traffic, there, FIRST_S)
     for now_s in range(FIRST_S, END_S + COMES_BACK_S if come_back else END_S):
@@ -202,6 +205,9 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
         if from_depot > 0 and now_s >= depot_s and come_from_the_depot(day, traffic, there, now_s, rng):
             from_depot -= 1
             depot_s = now_s + DEPOT_EACH_S
+        if asked_anew > 0 and now_s >= anew_s and ask_anew(day, traffic, 1_000 * now_s):
+            asked_anew -= 1
+            anew_s = now_s + ASKED_ANEW_EACH_S
         are_away = traffic.size[0] == 0 and there.size[0] == 0
         if are_away and traffic.size[1] >= len(day.begins_s) and none_to_come(traffic) and none_to_come(there):
             return
@@ -213,10 +219,11 @@ def one_day(
     limits: DispatchLimits = LIMITS,
     present: frozenset[str] | None = None,
     plant: int = NO_PLANT,
+    beyond: tuple[str, ...] = (),
 ) -> tuple[Numbers, Given, Whole]:
-    """Simulate a day: its row, what it was given, and when each run left each stop."""
+    """Simulate a day: its row, what it was given, and when each run left each stop; ``beyond``: faults besides."""
     chance, apart = np.random.default_rng((seed, number)), np.random.default_rng((seed, number, 2))
-    day, drawn = given(chance, apart, limits, present, plant)
+    day, drawn = given(chance, apart, limits, present, plant, frozenset(beyond))
     back = other_way(day, apart)
     traffic = begun(TRAMS, STOPS, len(day.begins_s), len(tally.COLUMNS), OPEN_S)
     there = begun(TRAMS, STOPS, 0, len(tally.COLUMNS), OPEN_S)._replace(row=traffic.row)
@@ -235,6 +242,7 @@ SYSTEM = System(
     prices=tally.PRICES,
     counts=tally.COUNTS,
     hours=HOURS,
-    one_day=lambda seed, number: one_day(seed, number)[0],
+    one_day=lambda seed, number, beyond=(): one_day(seed, number, beyond=beyond)[0],
+    beyond={name: fault.breaks for name, fault in FAULTS.items() if fault.breaks},
 )
 """A tram line, one way or both, with a centre, stations and units (G2 to G6)."""

@@ -14,7 +14,16 @@ import numpy as np
 from kernel.tram import dispatching
 from models.compiled import packed
 from models.tram import tally
-from models.tram.given import ANY_WORD_ENDS, LIMITS, NEVER_PRESENT, NEVER_STALE, NOT_ADDRESSED, Given
+from models.tram.given import (
+    ANY_WORD_ENDS,
+    IGNORES_CONTRADICTION,
+    LIMITS,
+    NEVER_PRESENT,
+    NEVER_STALE,
+    NOT_ADDRESSED,
+    TAKES_THE_FUTURE,
+    Given,
+)
 from models.tram.machines import MADE, compiled
 from models.tram.radio import CYCLE_S, SLOTS
 from models.tram.state import (
@@ -70,7 +79,7 @@ is_beyond_its_destination = MADE.dispatching.is_beyond_its_destination
 coming, is_before_who_comes = MADE.dispatching.coming, MADE.dispatching.is_before_who_comes
 was_beyond, is_cleared, is_off = MADE.dispatching.was_beyond, MADE.dispatching.is_cleared, MADE.dispatching.is_off
 decided, ordered, is_ahead = MADE.dispatching.decided, MADE.dispatching.ordered, MADE.dispatching.is_ahead
-taken = MADE.display.taken
+taken, Display = MADE.display.taken, MADE.display.Display
 NOTHING_CLEARED = dispatching.NOTHING_CLEARED
 REQUEST_MS = SLOTS.request_ms
 NEVER_STALE_LIMITS = packed(replace(LIMITS, fresh_ms=10**9))
@@ -151,6 +160,7 @@ def hear_report(traffic: Traffic, tram: int, report: Any, now_ms: int) -> None:
     for other in range(len(traffic.trams)):
         ahead = traffic.trams[other]
         if ahead[K_IS] == 1 and was_beyond(known_of(ahead), report):
+            traffic.row[tally.CONTRADICTED] += traffic.shown[other, tram] == 0 and traffic.shown[tram, other] == 1
             traffic.shown[other, tram] = 1
     if body[K_CLEARS] == 1:
         traffic.known[1] = max(traffic.known[1], mark(report.stop, report.left))
@@ -185,6 +195,16 @@ def view_of(limits: Any, traffic: Traffic, tram: int, own: Any, now_ms: int) -> 
 
 
 @compiled
+def is_clear_whoever_contradicts(traffic: Traffic, tram: int, own: Any) -> bool:
+    """As :func:`kernel.tram.centre.is_clear`, but two trams that were shown in either order are each behind."""
+    clear = bool(is_cleared(own, traffic.known[1]))
+    for other in range(len(traffic.trams)):
+        if other != tram and traffic.trams[other, K_IS] == 1 and traffic.shown[tram, other] == 0:
+            clear = clear and has_passed(own, known_of(traffic.trams[other]))
+    return clear
+
+
+@compiled
 def decide(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.Generator) -> None:
     """Let the centre make an order for a tram that has told, and send it with the station's next request."""
     body = traffic.trams[tram]
@@ -194,6 +214,9 @@ def decide(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.
     view = view_of(day.limits, traffic, tram, own, now_ms)
     if day.plant == NEVER_PRESENT:
         view = View(True, False, view.ahead_is_far, view.ahead_is_near, view.behind_is_far)
+    elif day.plant == IGNORES_CONTRADICTION:
+        clear = is_clear_whoever_contradicts(traffic, tram, own)
+        view = View(clear, view.is_present, view.ahead_is_far, view.ahead_is_near, view.behind_is_far)
     hand = HOLD + int(LIFT * rng.random()) if rng.random() < day.by_hand else 0
     limits = NEVER_STALE_LIMITS if day.plant == NEVER_STALE else day.limits
     order = decided(limits, now_ms, own, view, hand)
@@ -204,11 +227,12 @@ def decide(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.
     asks_s += (own.stop - asks_s) % CYCLE_S
     due_ms = 1_000 * asks_s + REQUEST_MS + slower_ms(day, now_ms // 1_000)
     holds, recovers = 1 if order.holds else 0, 1 if order.recovers else 0
-    send(traffic.orders[tram], traffic.due_ms[1], tram, due_ms, (tram, order.stop, holds, recovers, order.made_ms, 0))
+    made_ms = order.made_ms + (day.ahead_ms if order.stop == day.where.ahead_station else 0)
+    send(traffic.orders[tram], traffic.due_ms[1], tram, due_ms, (tram, order.stop, holds, recovers, made_ms, 0))
     if rng.random() < day.repeats:
         to = int(len(traffic.trams) * rng.random()) if rng.random() < 0.5 else tram
         stray_ms = due_ms + int(1_000 * LATEST_S * rng.random())
-        send(traffic.orders[to], traffic.due_ms[1], to, stray_ms, (tram, order.stop, holds, recovers, order.made_ms, 1))
+        send(traffic.orders[to], traffic.due_ms[1], to, stray_ms, (tram, order.stop, holds, recovers, made_ms, 1))
 
 
 # ---- what arrives
@@ -260,6 +284,15 @@ def deliver_reports(
 
 
 @compiled
+def taken_now(day: Given, display: Any, order: Any) -> Any:
+    """As :func:`kernel.tram.display.taken`; with a fault planted one of the future is taken too."""
+    is_newer = order.made_ms > max(display.now_ms, display.made_ms)
+    if day.plant == TAKES_THE_FUTURE and display.stands and order.stop == display.stop and is_newer:
+        return Display(display.now_ms, True, display.stop, True, order.holds, order.recovers, order.made_ms)
+    return taken(day.limits, display, order)
+
+
+@compiled
 def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int, rng: np.random.Generator) -> None:
     """Let a tram hear an order, for it or for another one; as :func:`kernel.tram.centre.received`."""
     if traffic.trams[tram, ON] == 0 or is_lost(day, tram, message[O_STOP], now_s, rng):
@@ -267,7 +300,9 @@ def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int
     before = display_of(traffic.trams[tram])
     order = Order(message[O_STOP], message[O_HOLDS] == 1, message[O_RECOVERS] == 1, message[O_MADE])
     if message[O_TRAM] == tram or day.plant == NOT_ADDRESSED:
-        after = taken(day.limits, before, order)
+        after = taken_now(day, before, order)
+        is_of_the_future = message[O_TRAM] == tram and order.made_ms > before.now_ms
+        traffic.row[tally.OF_THE_FUTURE] += is_of_the_future and after.made_ms == before.made_ms
         traffic.row[tally.WRONG_TRAM] += message[O_TRAM] != tram and after.made_ms != before.made_ms
         keep_display(traffic.trams[tram], after)
 

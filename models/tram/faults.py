@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,7 +15,10 @@ NEVER_S = 10**7
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that goes wrong on some days: what, how long or how much (from, to, unit), and why so."""
+    """One thing that goes wrong on some days: what, how long or how much (from, to, unit), and why so.
+
+    ``breaks``: the assumption that it breaks; such a fault comes only where it is asked for.
+    """
 
     says: str
     least: float
@@ -22,6 +26,7 @@ class Fault:
     unit: str
     chance: float
     why: str
+    breaks: str = ""
 
 
 FAULTS = {
@@ -58,25 +63,55 @@ FAULTS = {
     "junction": Fault(
         "trams of the other line come back so much later, and join at the junction", 10, 40, "min", 0.5, "practice"
     ),
+    "order_from_the_future": Fault(
+        "one station's clock is so far ahead, and it writes orders by that", 20, 3_600, "s", 0.2, "ours: a restart"
+    ),
+    "asked_anew": Fault(
+        "so often the dispatcher asks to take up a tram that is on the way", 1, 9, "1", 0.3, "practice: a wrong number"
+    ),
+    "number_of_another": Fault(
+        "one tram tells the number of the second one behind it for some time",
+        600,
+        7_200,
+        "s",
+        0.0,
+        "practice: a wrong setting",
+        "a_report_tells_where_it_is",
+    ),
 }
 """By name, in the order in which they are drawn."""
 DRAWN_APART = ("both_ways", "junction")
 """What else is drawn of a day is the same with these and without."""
+DRAWN_ALONE = ("order_from_the_future", "asked_anew", "number_of_another")
+"""And so it is with each of these, where it is too: further ones stand at the end."""
 
 FRAMES_LOST = (0.0, 0.1)
 """From, to: the share of frames lost at any station, of each day.  Practice: low-power radio with line of sight."""
 
 
+def alone(apart: np.random.Generator) -> dict[str, np.random.Generator]:
+    """Give a source of its own to each fault that is drawn alone; it takes nothing from ``apart``."""
+    return dict(zip(DRAWN_ALONE, apart.spawn(len(DRAWN_ALONE)), strict=True))
+
+
 def draw(
-    chance: np.random.Generator, apart: np.random.Generator, present: frozenset[str] | None = None
+    chance: np.random.Generator,
+    apart: np.random.Generator,
+    own: Mapping[str, np.random.Generator],
+    present: frozenset[str] | None = None,
+    beyond: frozenset[str] = frozenset(),
 ) -> dict[str, float]:
-    """Draw a day's faults; 0 is none.  ``present``: those that the day has instead, whatever the chance."""
+    """Draw a day's faults; 0 is none.  ``present``: those that the day has instead, whatever the chance.
+
+    ``own``: as :func:`alone` gives it.  ``beyond``: those that the day has besides.
+    """
     drawn = {}
     for name, fault in FAULTS.items():
-        source = apart if name in DRAWN_APART else chance
+        source = own.get(name, apart if name in DRAWN_APART else chance)
         has = bool(source.random() < fault.chance)
         value = float(source.uniform(fault.least, fault.most))
-        drawn[name] = value if (has if present is None else name in present) else 0.0
+        is_there = name in beyond or (has if present is None else name in present)
+        drawn[name] = value if is_there else 0.0
     return drawn
 
 
@@ -98,16 +133,20 @@ class Where(NamedTuple):
     destination_tram: int
     frames_lost: float
     restart_s: int
+    ahead_station: int
+    anew_s: int
+    number_tram: int
+    number_s: int
 
 
-def place(chance: np.random.Generator, line_mm: int) -> Where:
-    """Draw where and when."""
+def place(chance: np.random.Generator, own: Mapping[str, np.random.Generator], line_mm: int) -> Where:
+    """Draw where and when; ``own``: as :func:`alone` gives it."""
 
-    def second() -> int:
-        return int(chance.integers(OPEN_S, CLOSE_S))
+    def second(source: np.random.Generator = chance) -> int:
+        return int(source.integers(OPEN_S, CLOSE_S))
 
-    def tram() -> int:
-        return int(chance.integers(0, TRAMS // 2))
+    def tram(source: np.random.Generator = chance) -> int:
+        return int(source.integers(0, TRAMS // 2))
 
     return Where(
         canyon_mm=int(chance.integers(0, line_mm)),
@@ -125,4 +164,8 @@ def place(chance: np.random.Generator, line_mm: int) -> Where:
         destination_tram=tram(),
         frames_lost=float(chance.uniform(*FRAMES_LOST)),
         restart_s=second(),
+        ahead_station=int(own["order_from_the_future"].integers(0, STOPS - 1)),
+        anew_s=second(own["asked_anew"]),
+        number_tram=tram(own["number_of_another"]),
+        number_s=second(own["number_of_another"]),
     )

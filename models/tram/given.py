@@ -43,9 +43,12 @@ SPEED_ERROR_MM_S = 100
 """Declared: ours, typical of tachometers at walking pace."""
 
 NO_PLANT, NOT_ADDRESSED, NEVER_PRESENT, NEVER_STALE, NEVER_LOST, GPS_BEYOND, ANY_WORD_ENDS, JOINS_UNASKED = range(8)
+TAKES_THE_FUTURE, TAKES_UP_ANEW, IGNORES_CONTRADICTION = range(8, 11)
 """Faults that tests plant: an order is taken by any tram; every way is clear; no report is too old; a unit goes on
 where it has no place; GPS errs beyond its bound, and says that it does not; whatever is told of the other way ends a
-run, however old it is; a tram joins at the junction without asking whether one behind may run faster to there."""
+run, however old it is; a tram joins at the junction without asking whether one behind may run faster to there; a
+display takes an order of the future; a tram that is on the way is taken up anew; of two trams that reports have shown
+in either order each is taken for the one behind."""
 
 
 class Given(NamedTuple):
@@ -77,6 +80,9 @@ class Given(NamedTuple):
     away_s: int
     is_back: bool
     patience_s: int
+    ahead_ms: int
+    asked_anew: int
+    number_told_s: int
     plant: int
 
 
@@ -90,6 +96,7 @@ def other_way(day: Given, chance: np.random.Generator) -> Given:
     where = day.where._replace(
         canyon_mm=int(day.stops_mm[-1]) - day.where.canyon_mm - day.canyon_mm,
         station=line.STOPS - 1 - day.where.station,
+        ahead_station=line.STOPS - 1 - day.where.ahead_station,
     )
     return day._replace(
         stops_mm=back.stops_mm,
@@ -101,6 +108,7 @@ def other_way(day: Given, chance: np.random.Generator) -> Given:
         broken_s=0,
         from_depot=0,
         restarts=0,
+        asked_anew=0,
         is_back=True,
     )
 
@@ -111,15 +119,17 @@ def given(
     limits: DispatchLimits = LIMITS,
     present: frozenset[str] | None = None,
     plant: int = NO_PLANT,
+    beyond: frozenset[str] = frozenset(),
 ) -> tuple[Given, dict[str, float]]:
     """Draw a day and its faults; what is drawn does not depend on the limits.
 
-    ``apart``: draws what a day has beside, which changes nothing else of it.
+    ``apart``: draws what a day has beside, which changes nothing else of it.  ``beyond``: faults that it has besides.
     """
     day = line.draw(chance)
-    drawn = faults.draw(chance, apart, present)
+    own = faults.alone(apart)
+    drawn = faults.draw(chance, apart, own, present, beyond)
     assert list(drawn) == list(FAULTS)
-    where = faults.place(chance, int(day.stops_mm[-1]))
+    where = faults.place(chance, own, int(day.stops_mm[-1]))
     return Given(
         stops_mm=day.stops_mm,
         boards_a_second=day.boards_a_second,
@@ -147,5 +157,8 @@ def given(
         away_s=round(60 * drawn["junction"]),
         is_back=False,
         patience_s=PATIENCE_S if drawn["both_ways"] + drawn["junction"] > 0 else line.CLOSE_S,
+        ahead_ms=round(1_000 * drawn["order_from_the_future"]),
+        asked_anew=round(drawn["asked_anew"]),
+        number_told_s=round(drawn["number_of_another"]),
         plant=plant,
     ), drawn

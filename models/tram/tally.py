@@ -12,7 +12,7 @@ CLAIMS: Mapping[str, str] = {
     "order_by_guess": "orders to a tram that had not told within 11 s that it stands there (G6)",
     "hold_and_recovery": "seconds in which a driver was shown both (G4)",
     "recovery_beyond": "seconds in which a recovery lasted beyond the next stop (G5)",
-    "order_stale": "seconds in which a standing tram was shown an order older than it may be (G6)",
+    "order_stale": "seconds in which a standing tram was shown an order older than it may be, or of the future (G6)",
     "wrong_tram": "orders taken by another tram than they were for (G6)",
     "order_turned": "seconds in which reports had shown two trams in another order than that on the track (G2)",
     "reached_too_soon": "seconds in which a unit had reached, or left, a stop that the tram had not (G2)",
@@ -38,6 +38,9 @@ MONITORS: Mapping[str, str] = {
     "not_known_s": "seconds of trams on the way that the centre did not know, after it had started anew",
     "beyond_destination": "reports from beyond the stop where the tram was to leave: a wrong setting",
     "given_up": "trams that waited half an hour to come back, were not confirmed, and went to the depot",
+    "of_the_future": "orders that a tram did not take, as they were of the future by its clock",
+    "not_taken_up_anew": "requests to take up a tram that was on the way, refused",
+    "contradicted": "pairs of trams that reports had shown in either order: neither recovers behind the other",
 }
 PRICES: Mapping[str, str] = {
     "held_s": "seconds for which trams were held when they could have departed",
@@ -66,7 +69,8 @@ REACHED_TOO_SOON, WANDERED = map(COLUMNS.index, list(CLAIMS)[8:])
 PLACE_BROKEN, SPEED_BROKEN, OVERTAKEN, UNANNOUNCED = map(COLUMNS.index, list(ASSUMPTIONS)[:4])
 TAKEN_OFF_THERE, CLOCK_BROKEN, REPORT_BROKEN = map(COLUMNS.index, list(ASSUMPTIONS)[4:])
 REPORTS_REFUSED, UNHEARD, PLACE_LOST, ORDERS_LAPSED, NOT_TAKEN_UP = map(COLUMNS.index, list(MONITORS)[:5])
-CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION, GIVEN_UP = map(COLUMNS.index, list(MONITORS)[5:])
+CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION, GIVEN_UP = map(COLUMNS.index, list(MONITORS)[5:10])
+OF_THE_FUTURE, NOT_TAKEN_UP_ANEW, CONTRADICTED = map(COLUMNS.index, list(MONITORS)[10:])
 HELD_S, NEEDLESS_S, RECOVERIES_DUE, RECOVERIES_NOT_GIVEN, RECOVERY_S = map(COLUMNS.index, PRICES)
 RUNS, DEPARTURES, ORDERS, ORDERS_TO_HOLD, ORDERS_TO_RECOVER = map(COLUMNS.index, list(COUNTS)[:5])
 FRAMES, TRAM_S, STOOD_S, TURNED, JOINED = map(COLUMNS.index, list(COUNTS)[5:])

@@ -140,9 +140,15 @@ def keep_display(body: Any, display: Any) -> None:
 
 
 @compiled
+def contradicts(traffic: Traffic, tram: int, other: int) -> bool:
+    """As :func:`kernel.tram.centre.contradicts`."""
+    return bool(traffic.shown[tram, other] == 1 and traffic.shown[other, tram] == 1)
+
+
+@compiled
 def is_behind(traffic: Traffic, tram: int, other: int) -> bool:
     """As :func:`kernel.tram.centre.is_behind`."""
-    return bool(traffic.shown[tram, other] == 1 and traffic.shown[other, tram] == 0)
+    return bool(traffic.shown[tram, other] == 1 and not contradicts(traffic, tram, other))
 
 
 # ---- on board
@@ -264,6 +270,17 @@ def ask(day: Given, traffic: Traffic, stop: int, now_s: int, rng: np.random.Gene
 
 
 @compiled
+def number_told(day: Given, traffic: Traffic, tram: int, now_s: int) -> int:
+    """The number that a tram tells: its own, or by a wrong setting that of the second tram behind it."""
+    where = day.where
+    if tram == where.number_tram and where.number_s <= now_s < where.number_s + day.number_told_s:
+        for place in range(traffic.size[0] - 2):
+            if traffic.line[place] == tram:
+                return int(traffic.line[place + 2])
+    return tram
+
+
+@compiled
 def ask_one(
     day: Given, traffic: Traffic, tram: int, stop: int, slot: int, now_s: int, rng: np.random.Generator
 ) -> None:
@@ -280,11 +297,13 @@ def ask_one(
         leaves_at = day.wrong_destination if shown else body[LEAVES]
         due_ms = made_ms + at_ms + 1_500 + int(rng.random() * 2_000) + slower_ms(day, now_s)
         message = (body[U_STOP], body[U_LEFT], body[U_STANDS], leaves_at, made_ms, 0)
-        send(traffic.reports[tram], traffic.due_ms[0], tram, due_ms, message)
-        is_beyond = mark(body[U_STOP], body[U_LEFT] == 1) > true_mark(day, body)
+        number = number_told(day, traffic, tram, now_s)
+        send(traffic.reports[number], traffic.due_ms[0], number, due_ms, message)
+        is_beyond = mark(body[U_STOP], body[U_LEFT] == 1) > true_mark(day, traffic.trams[number])
         traffic.row[tally.REPORT_BROKEN] += is_beyond
         if rng.random() < day.repeats:
-            send(traffic.reports[tram], traffic.due_ms[0], tram, due_ms + int(1_000 * LATEST_S * rng.random()), message)
+            again_ms = due_ms + int(1_000 * LATEST_S * rng.random())
+            send(traffic.reports[number], traffic.due_ms[0], number, again_ms, message)
     ended = note_cycle(heard)
     traffic.row[tally.UNHEARD] += body[DWELL_S] != FREE and not is_heard(ended)
     body[H_KNOWN], body[H_AGE], body[H_ANSWERED] = ended.is_known, ended.age_ms, ended.in_this_cycle

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from models.tram import tally
-from models.tram.deciding import confirm, hear_elsewhere, take_off_by_hand
-from models.tram.given import JOINS_UNASKED, Given
+from models.tram.deciding import confirm, forget, hear_elsewhere, take_off_by_hand
+from models.tram.given import JOINS_UNASKED, TAKES_UP_ANEW, Given
 from models.tram.line import AT_STOP_MM, BRANCH, JOINS, STOPS, TAKEN_UP_S
 from models.tram.machines import MADE, compiled
 from models.tram.moving import CLEAR_MM, is_free_at, place_beyond, put_on, serve
@@ -57,6 +57,19 @@ def none_to_come(traffic: Traffic) -> bool:
     for tram in range(len(traffic.trams)):
         awaited += traffic.trams[tram, COMES_AT] != FREE
     return awaited == 0
+
+
+@compiled
+def ask_anew(day: Given, traffic: Traffic, now_ms: int) -> bool:
+    """Ask to confirm one for the first stop that is on the way, in the middle of all; whether there was one (G5)."""
+    if traffic.size[0] < 3:
+        return False
+    tram = traffic.line[traffic.size[0] // 2]
+    if day.plant == TAKES_UP_ANEW:
+        forget(traffic, tram, now_ms)
+    is_anew = confirm(traffic, tram, 0, destination(day, traffic, tram), now_ms)
+    traffic.row[tally.NOT_TAKEN_UP_ANEW] += not is_anew
+    return True
 
 
 # ---- onto a way

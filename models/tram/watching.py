@@ -97,7 +97,8 @@ def watch_orders(day: Given, traffic: Traffic, tram: int, now_ms: int) -> None:
     row, body = traffic.row, traffic.trams[tram]
     holds, recovers, stop = body[D_HOLDS] == 1, body[D_RECOVERS] == 1, body[D_STOP]
     row[tally.HOLD_AND_RECOVERY] += holds and recovers
-    row[tally.ORDER_STALE] += body[D_STANDS] == 1 and (holds or recovers) and now_ms - body[D_MADE] > ORDER_MS
+    counts = 0 <= now_ms - body[D_MADE] <= ORDER_MS
+    row[tally.ORDER_STALE] += body[D_STANDS] == 1 and (holds or recovers) and not counts
     if recovers:
         row[tally.RECOVERY_S] += body[DWELL_S] == FREE
         row[tally.RECOVERY_OCCUPIED] += is_occupied(day, traffic, tram, stop)

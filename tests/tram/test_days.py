@@ -27,7 +27,7 @@ from models.tram.deciding import (
     take_off_by_hand,
     view_of,
 )
-from models.tram.faults import FAULTS
+from models.tram.faults import DRAWN_ALONE, FAULTS
 from models.tram.given import LIMITS
 from models.tram.machines import MADE
 from models.tram.state import K_ELSEWHERE, K_IS, NEVER_MS, Traffic, begun
@@ -35,6 +35,8 @@ from models.tram.telling import keep_known, known_of
 from tests.onboard.agree import agree_along_runs, agree_on_values, functions, states_of
 
 NONE = frozenset[str]()
+WITHIN = frozenset(name for name, fault in FAULTS.items() if not fault.breaks)
+"""The faults that break no assumption."""
 
 
 def column(rows: Any, name: str) -> int:
@@ -86,12 +88,66 @@ def test_faults_are_drawn_by_their_chance() -> None:
         (plan.NEVER_LOST, frozenset({"canyon", "gps_outage"}), "recovery_beyond"),
         (plan.GPS_BEYOND, NONE, "place_broken"),
         (plan.GPS_BEYOND, NONE, "reached_too_soon"),
+        (plan.TAKES_THE_FUTURE, frozenset({"order_from_the_future"}), "order_stale"),
+        (plan.TAKES_UP_ANEW, frozenset({"asked_anew"}), "order_turned"),
     ],
 )
 def test_what_is_planted_is_reported(plant: int, present: frozenset[str], broken: str) -> None:
     """A guard gone, or a fault beyond its range; without it nothing is."""
     assert sum(column(one_day(3, number, present=present, plant=plant)[0], broken) for number in range(4)) > 0
     assert sum(column(one_day(3, number, present=present)[0], broken) for number in range(4)) == 0
+
+
+# ---- ordinary days
+
+
+@pytest.mark.parametrize(
+    ("name", "noticed"),
+    [
+        ("order_from_the_future", "of_the_future"),
+        ("asked_anew", "not_taken_up_anew"),
+        ("wrong_destination", "beyond_destination"),
+        ("centre_restart", "not_known_s"),
+        ("late_at_terminus", "confirmed_anew"),
+    ],
+)
+def test_what_an_ordinary_day_brings_is_noticed_and_breaks_no_claim(name: str, noticed: str) -> None:
+    """Orders of the future are refused, trams on the way are not taken up anew, wrong settings are seen (G5, G6)."""
+    rows = np.array([one_day(3, number, present=frozenset({name}))[0] for number in range(4)])
+    without = np.array([one_day(3, number, present=NONE)[0] for number in range(4)])
+    assert column(rows, noticed) > column(without, noticed) == 0
+    for broken in (*SYSTEM.claims, *SYSTEM.assumptions):
+        assert column(rows, broken) == 0, broken
+
+
+def test_what_is_drawn_alone_changes_nothing_else_of_a_day() -> None:
+    """Nor what is drawn apart of it; where its own things are is the same with it and without."""
+    for number in range(3):
+        days, backs = [], []
+        for present in (NONE, *(frozenset({name}) for name in DRAWN_ALONE)):
+            apart = np.random.default_rng((number, 2))
+            days.append(plan.given(np.random.default_rng(number), apart, present=present)[0])
+            backs.append(plan.other_way(days[-1], apart))
+        assert {day.where for day in days} == {days[0].where}
+        assert min(days[1].ahead_ms, days[2].asked_anew, days[3].number_told_s) > 0
+        for each in (days, backs):
+            rest = [day._replace(ahead_ms=0, asked_anew=0, number_told_s=0) for day in each]
+            assert all(np.array_equal(one, first) for day in rest for one, first in zip(day, rest[0], strict=True))
+
+
+def test_reports_that_contradict_each_other_are_counted_and_forbid_recovery() -> None:
+    """A tram tells another one's number: that breaks an assumption, which is named; unheeded it is worse (G2, G6)."""
+    other = tuple(SYSTEM.beyond)
+    assert SYSTEM.beyond == {"number_of_another": "a_report_tells_where_it_is"}
+    heeded, unheeded = (
+        one_day(3, 72, present=NONE, plant=plant, beyond=other)[0]
+        for plant in (plan.NO_PLANT, plan.IGNORES_CONTRADICTION)
+    )
+    for row in (heeded, unheeded):
+        assert column(row, "contradicted") == 1
+        assert column(row, "report_broken") > 0
+    assert column(unheeded, "recovery_unknown") > column(heeded, "recovery_unknown")
+    assert column(one_day(3, 72, present=NONE)[0], "contradicted") == 0
 
 
 # ---- both directions, and a junction
@@ -111,7 +167,7 @@ def test_trams_turn_at_the_terminus_and_join_at_the_junction() -> None:
 
 
 def test_with_every_fault_at_once_both_ways_hold() -> None:
-    rows = np.array([one_day(3, number, present=frozenset(FAULTS))[0] for number in range(4)])
+    rows = np.array([one_day(3, number, present=WITHIN)[0] for number in range(4)])
     for name in (*SYSTEM.claims, *SYSTEM.assumptions):
         assert column(rows, name) == 0, name
     assert min(column(rows, "turned"), column(rows, "joined")) > 40
@@ -133,7 +189,9 @@ def test_a_guard_of_turning_or_joining_is_missed(plant: int, present: frozenset[
 
 def test_a_day_without_turning_is_what_it_was() -> None:
     """What is drawn of turning and joining changes nothing else of a day."""
-    days = [plan.given(np.random.default_rng(1), np.random.default_rng(apart), present=NONE) for apart in (2, 3)]
+    sources = [np.random.default_rng(2) for _ in range(2)]
+    sources[1].random(9)
+    days = [plan.given(np.random.default_rng(1), apart, present=NONE) for apart in sources]
     assert all(np.array_equal(one, other) for one, other in zip(days[0][0][:5], days[1][0][:5], strict=True))
     assert days[0][0].where == days[1][0].where
     assert days[0][1] == days[1][1]
