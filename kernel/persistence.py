@@ -67,6 +67,17 @@ CROSSING: Mapping[str, tuple[Memory, str]] = {
 }
 """The crossing: it warns, and its arms go down without waiting for the bell, until each track is accounted for."""
 
+TRAIN_IN_CONTACT: Mapping[str, tuple[Memory, str]] = {
+    "way_um": (Memory.LOST, "0"),
+    "short_um": (Memory.LOST, "0"),
+    "ceiling_um": (Memory.LOST, "bounds.line_um"),
+    "age_cycles": (Memory.LOST, "bounds.silence_cycles + 1"),
+    "told_way_mm": (Memory.LOST, "0"),
+    "told_speed_mm_s": (Memory.LOST, "0"),
+    "warns": (Memory.LOST, "False"),
+}
+"""What a crossing has of a train in contact: no ranging counts (`kernel.crossing.arrival.nothing_known`)."""
+
 PROMISE: Mapping[str, tuple[Memory, str]] = {
     "number": (Memory.LASTING, ""),
     "ceiling_mm_s": (Memory.LASTING, ""),
@@ -131,6 +142,13 @@ TRAM_ANSWER: Mapping[str, tuple[Memory, str]] = {
     "in_this_cycle": (Memory.LOST, "False"),
 }
 """What a station has of a tram: nothing was heard (`kernel.tram.cycle.nothing_heard`)."""
+
+TRAM_STOPPING: Mapping[str, tuple[Memory, str]] = {
+    "stop": (Memory.LOST, "stop"),
+    "left": (Memory.LOST, "False"),
+    "stands": (Memory.LOST, "False"),
+}
+"""Where a tram stands: at the first stop, or farther on (`kernel.tram.stopping.begun`)."""
 
 TRAM_DISPLAY: Mapping[str, tuple[Memory, str]] = {
     "now_ms": (Memory.LOST, "now_ms"),

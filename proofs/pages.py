@@ -15,6 +15,7 @@ from kernel.alarm.distance import TrainFix
 from kernel.alarm.tone import Handset
 from kernel.alarm.train_list import Server
 from kernel.centre import Centre
+from kernel.crossing.arrival import Followed
 from kernel.crossing.crossing import Crossing
 from kernel.crossing.promise import Promise
 from kernel.crossing.ranging_schedule import Schedule
@@ -26,6 +27,7 @@ from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
 from kernel.tram import display as tram_display
 from kernel.tram.cycle import Heard
+from kernel.tram.stopping import Stopping
 from kernel.unit import Unit
 from models.world import at_a_point, at_the_centre, nature, on_board, radio
 from proofs import assumptions, fault_pages, joints, promise, promises
@@ -71,6 +73,12 @@ CROSSING = (
     " person has seen each track empty. No life is counted: a train that waits at a starting signal asks anew, and one"
     " that was let go is under way, so that its track is not empty; a message that comes twice changes nothing."
 )
+TRAIN_IN_CONTACT = (
+    "Nothing survives: of no train is a ranging known, and whoever is in contact may be at the road, at the line's"
+    " greatest speed, until one that counts says otherwise. Until each track was seen empty the crossing warns anyway"
+    " (above). A spare ground unit starts in the same way, and an old ranging that is delivered once more counts by its"
+    " age alone."
+)
 PROMISE = (
     "All of it survives a restart of the train: it is written before it is told. The crossing forgets what it has"
     " noted, and holds the train to the line's speed until it is told anew. A spare unit that holds none is not let go"
@@ -105,6 +113,12 @@ START_POINT = (
 TRAM_ANSWER = (
     "Nothing survives but the slot, which is written: no tram is known before it has answered in that. A spare station"
     " starts in the same way."
+)
+TRAM_STOPPING = (
+    "Nothing survives. A unit that starts anew, or is swapped for a spare one, begins with the first stop of the way,"
+    " and by its fixes comes to one after the other; at the beginning of a run it is the stop where that begins. So it"
+    " tells of no stop that the tram has not come to, nor that it stands before a fix has shown that; what is behind"
+    " the place where the centre knows it is not taken."
 )
 TRAM_DISPLAY = (
     "Nothing survives: orders from before the start are older than `made_ms` and are not taken, once or again; nor are"
@@ -143,6 +157,7 @@ def persistence_page() -> str:
         ("The on-board unit", Unit, persistence.UNIT, "Without orders it has no authority, so it stands."),
         ("The point terminal", Terminal, persistence.TERMINAL, "The lock is mechanical; the lock id is lost."),
         ("The level crossing", Crossing, persistence.CROSSING, CROSSING),
+        ("What a crossing has of a train in contact", Followed, persistence.TRAIN_IN_CONTACT, TRAIN_IN_CONTACT),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("A tag reader on board", Reader, persistence.TAG_READER, TAG_READER),
         ("One end of a radio link", Link, persistence.LINK, LINK),
@@ -150,6 +165,7 @@ def persistence_page() -> str:
         ("The terminal of a start point", StartPoint, persistence.START_POINT, START_POINT),
         ("The trams' centre", tram_centre.Centre, persistence.TRAM_CENTRE, TRAM_CENTRE),
         ("What a tram station has heard", Heard, persistence.TRAM_ANSWER, TRAM_ANSWER),
+        ("Where a tram stands, by its unit", Stopping, persistence.TRAM_STOPPING, TRAM_STOPPING),
         ("The display on a tram", tram_display.Display, persistence.TRAM_DISPLAY, TRAM_DISPLAY),
         ("The unit that sends a train's place to the alarm", TrainFix, persistence.ALARM_UNIT, ALARM_UNIT),
         ("The display's server, which keeps the alarm's list", Server, persistence.ALARM_SERVER, ALARM_SERVER),

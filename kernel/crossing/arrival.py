@@ -85,6 +85,19 @@ class Followed:
     warns: bool
 
 
+def nothing_known(bounds: ArrivalBounds) -> Followed:
+    """Give what is known of a train before the first ranging that counts, or after a restart: it may be here (X3)."""
+    return Followed(
+        way_um=0,
+        short_um=0,
+        ceiling_um=bounds.line_um,
+        age_cycles=bounds.silence_cycles + 1,
+        told_way_mm=0,
+        told_speed_mm_s=0,
+        warns=False,
+    )
+
+
 def cannot_arrive(bounds: ArrivalBounds, followed: Followed, cycles: int) -> bool:
     """Tell whether a train that is no nearer and no faster than this does not arrive within so many cycles (X2).
 

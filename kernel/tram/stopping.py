@@ -39,11 +39,22 @@ class Fix:
 
 @dataclass(frozen=True)
 class Stopping:
-    """What the unit tells: the stop that it reached last, whether it has left it, whether it stands there (G2)."""
+    """What the unit tells (G2).
+
+    ``stop``: the stop that it reached last.  ``left``: it has left that one.  ``stands``: it stands there.
+    """
 
     stop: int
     left: bool
     stands: bool
+
+
+def begun(stop: int) -> Stopping:
+    """Give the state in which a run begins, or a unit starts anew: it has come to that stop, or is farther on (G2).
+
+    After a restart that is the first one of the way: the others it finds by its fixes, one after the other (ours).
+    """
+    return Stopping(stop=stop, left=False, stands=False)
 
 
 def is_slow(fix: Fix) -> bool:

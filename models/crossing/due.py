@@ -164,9 +164,7 @@ def acknowledge(site: Way, system: Answered, asked_um: int) -> Answered:
 
 def restart(site: Way, system: Answered) -> Answered:
     """The crossing restarts, and has forgotten rangings and ceiling; what was promised is kept all the same (X3)."""
-    silence_cycles, line_um = site.bounds.silence_cycles, site.bounds.line_um
-    known = Followed(0, 0, line_um, silence_cycles + 1, 0, 0, False)
-    return replace(system, brought=Brought(0, 0), followed=known)
+    return replace(system, brought=Brought(0, 0), followed=arrival.nothing_known(site.bounds))
 
 
 def answer(site: Way, system: Answered) -> Answered:

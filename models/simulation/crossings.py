@@ -13,7 +13,7 @@ from random import Random
 
 from kernel.crossing import arrival
 from kernel.crossing import crossing as machine
-from kernel.crossing.arrival import ArrivalBounds, Followed, Ranging
+from kernel.crossing.arrival import ArrivalBounds, Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due
 from kernel.crossing.crossing import Train as Known
 from kernel.link import Party
@@ -205,7 +205,7 @@ class Crossings:
                 known = arrival.follow(BOUNDS, state.followed[train], ranging)
             elif arrival.begins_contact(BOUNDS, ranging):
                 state.crossing = machine.note_contact(state.crossing, Known(train))
-                known = arrival.taken(BOUNDS, Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False), ranging)
+                known = arrival.taken(BOUNDS, arrival.nothing_known(BOUNDS), ranging)
             else:
                 continue
             dues[Known(train)] = machine.due(BOUNDS, known, SETTINGS.reopening_cycles)

@@ -80,6 +80,18 @@ def the_table_has_the_stops(system: Ride, here_mm: int, next_mm: int) -> bool:
     return here_mm == system.here_mm and next_mm == system.next_mm
 
 
+def it_begins_at_a_stop_that_it_has_come_to(site: Street, system: Ride, here_mm: int) -> bool:
+    """A unit begins at a stop that the tram is near, or beyond: that of its run, or the first of the way (G2)."""
+    return system.at_mm >= here_mm - site.limits.near_mm - site.error_mm
+
+
+def restart(site: Street, system: Ride, here: int, here_mm: int, next_mm: int) -> Ride:
+    """The unit starts anew, or a spare one takes its place, wherever the tram is (G2)."""
+    if not it_begins_at_a_stop_that_it_has_come_to(site, system, here_mm):
+        return system
+    return replace(system, here=here, here_mm=here_mm, next_mm=next_mm, stopping=machine.begun(here))
+
+
 def run_on(site: Street, system: Ride, way_mm: int) -> Ride:
     """The tram moves, or does not."""
     if not trams_do_not_run_backwards(way_mm):

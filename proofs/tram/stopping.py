@@ -7,6 +7,7 @@ from models.tram.stopping import (
     Ride,
     Street,
     near_a_stop_is_no_less_than_the_error,
+    restart,
     run_on,
     take_fix,
     the_place_is_held_for_twice_the_error,
@@ -92,7 +93,7 @@ SAFETY = (
 )
 INVARIANTS = (*SAFETY, it_began_to_stand_near_the_stop)
 PREMISES = (the_place_is_held_for_twice_the_error, near_a_stop_is_no_less_than_the_error)
-STEPS = (run_on, take_fix)
+STEPS = (run_on, take_fix, restart)
 
 THEORY = Theory(
     "stopping",

@@ -14,9 +14,10 @@ import pytest
 from kernel import link, persistence
 from kernel.alarm import tone, train_list
 from kernel.centre import Centre
+from kernel.crossing import arrival
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
-from kernel.tram import cycle
+from kernel.tram import cycle, stopping
 from kernel.tram import display as tram_display
 from kernel.unit import Unit
 from models.world import truth
@@ -95,8 +96,10 @@ def test_every_variable_that_a_restart_meets_is_described(state: type) -> None:
 
 STARTS: dict[str, Callable[..., Any]] = {
     "LINK": link.begin,
+    "TRAIN_IN_CONTACT": arrival.nothing_known,
     "TRAM_CENTRE": tram_centre.restarted,
     "TRAM_ANSWER": cycle.nothing_heard,
+    "TRAM_STOPPING": stopping.begun,
     "TRAM_DISPLAY": tram_display.begun,
     "ALARM_SERVER": train_list.started,
     "ALARM_HANDSET": tone.switched_on,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping
+from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping, begun
 from models.tram.stopping import Ride, Street, fell
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.stopping import THEORY
@@ -16,9 +16,13 @@ class Along(Play[Street, Ride]):
 
     def __init__(self, at_mm: int = 0) -> None:
         """Begin."""
-        super().__init__(
-            THEORY, SITE, Ride(at_mm, 0, 0, STOPS_MM[1], Stopping(0, False, False), at_mm, 0, at_mm, False, False)
-        )
+        super().__init__(THEORY, SITE, Ride(at_mm, 0, 0, STOPS_MM[1], begun(0), at_mm, 0, at_mm, False, False))
+
+    def restart(self, here: int) -> None:
+        """The unit starts anew, with a stop of the way."""
+        self.step("restart", here=here, here_mm=STOPS_MM[here], next_mm=STOPS_MM[here + 1])
+        assert self.system.stopping == Stopping(here, False, False)
+        assert (self.system.here, self.system.here_mm, self.system.next_mm) == (here, *STOPS_MM[here : here + 2])
 
     def run(self, to_mm: int) -> None:
         """Run on to a place."""
@@ -122,6 +126,29 @@ def what_is_lost_is_not_made_up() -> None:
     assert not along.system.wandered
 
 
+def a_unit_that_starts_anew_finds_its_stop_by_its_fixes() -> None:
+    """At the third stop it begins with the first, and takes itself to stand nowhere until it has found it (G2, G6)."""
+    along = Along()
+    along.run(800_000)
+    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    assert along.fix() == (2, False, True)
+    along.restart(0)
+    assert along.fix() == (0, False, False)
+    along.run(900_000)
+    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+    along.restart(2)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+    before = along.system
+    event = {"here": 3, "here_mm": 1_200_000, "next_mm": 1_600_000}
+    assert along.step("restart", **event) == before
+    along.run(1_200_000 - 20_000 - 15_001)
+    before = along.system
+    assert along.step("restart", **event) == before
+    along.run(1_200_000 - 20_000 - 15_000)
+    along.restart(3)
+
+
 def what_nature_does_not_do() -> None:
     """Run back, err by more than is written, or move the stops (G1, G2)."""
     along = Along()
@@ -156,5 +183,6 @@ WITNESSES = (
     a_stop_is_passed,
     at_a_signal_it_does_not_stand,
     what_is_lost_is_not_made_up,
+    a_unit_that_starts_anew_finds_its_stop_by_its_fixes,
     what_nature_does_not_do,
 )
