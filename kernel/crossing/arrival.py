@@ -85,6 +85,20 @@ class Followed:
     warns: bool
 
 
+def are_lawful(bounds: ArrivalBounds) -> bool:
+    """Tell whether trains may be held to these bounds; if not, the crossing is not put into service (X2).
+
+    They move and gain speed, cycles last, the warning time is not negative, and a ranging may be late.
+    """
+    return (
+        bounds.line_um > 0
+        and bounds.gain_um > 0
+        and bounds.cycle_ms > 0
+        and bounds.warning_cycles >= 0
+        and bounds.silence_cycles > 0
+    )
+
+
 def nothing_known(bounds: ArrivalBounds) -> Followed:
     """Give what is known of a train before the first ranging that counts, or after a restart: it may be here (X3)."""
     return Followed(

@@ -140,11 +140,15 @@ def are_lawful(settings: Settings) -> bool:
 
 
 def have_one_warning_time(bounds: ArrivalBounds, settings: Settings) -> bool:
-    """Tell whether rangings are reckoned in the crossing's own cycle and warning time (X2, X5).
+    """Tell whether rangings are reckoned by lawful bounds, in the crossing's own cycle and warning time (X2, X5).
 
     If not, the crossing is not put into service: what an answer secures would be shorter than the arms need.
     """
-    return bounds.cycle_ms == settings.cycle_ms and bounds.warning_cycles == settings.warning_cycles
+    return (
+        arrival.are_lawful(bounds)
+        and bounds.cycle_ms == settings.cycle_ms
+        and bounds.warning_cycles == settings.warning_cycles
+    )
 
 
 def due(bounds: ArrivalBounds, followed: Followed, reopening_cycles: int) -> Due:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.crossing.arrival import Followed, Ranging
+from kernel.crossing.arrival import Followed, Ranging, are_lawful
 from kernel.crossing.crossing import Settings, have_one_warning_time
 from models.crossing.arrival import Brought
 from models.crossing.due import Answered, Way
@@ -211,7 +211,18 @@ def another_warning_time_or_cycle_is_refused() -> None:
     assert have_one_warning_time(BOUNDS, SITE.settings)
 
 
+def bounds_that_mean_nothing_are_refused() -> None:
+    """Trains that do not move or gain, cycles of no time, a ranging that is never late enough to be lost (X2)."""
+    assert are_lawful(replace(BOUNDS, line_um=1, gain_um=1, cycle_ms=1, warning_cycles=0, silence_cycles=1))
+    for name, value in (("line_um", 0), ("gain_um", 0), ("cycle_ms", 0), ("warning_cycles", -1), ("silence_cycles", 0)):
+        bounds = replace(BOUNDS, **{name: value})
+        assert not are_lawful(bounds)
+        set_alike = replace(SITE.settings, cycle_ms=bounds.cycle_ms, warning_cycles=bounds.warning_cycles)
+        assert not have_one_warning_time(bounds, set_alike)
+
+
 WITNESSES = (
+    bounds_that_mean_nothing_are_refused,
     another_warning_time_or_cycle_is_refused,
     an_answer_secures_what_it_says_to_the_cycle,
     each_answer_takes_the_place_of_the_one_before,
