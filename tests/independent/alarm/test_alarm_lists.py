@@ -37,7 +37,7 @@ def test_the_worlds_have_what_is_to_be_tried() -> None:
     """Else the test above would show nothing: restarts, new numbers, and each tone."""
     lines = [Line(seed) for seed in FEW[:8]]
     assert sum(line.breaches() for line in lines) == 0
-    assert sum(line.restarts for line in lines) > 10
+    assert sum(line.office.restarts for line in lines) > 10
     assert sum(line.renumbered for line in lines) > 2
     assert {sounds for line in lines for sounds, _near, _knows in line.heard} == set(Tone)
 
