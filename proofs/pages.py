@@ -105,8 +105,9 @@ RANGING_SCHEDULE = (
 )
 START_POINT = (
     "Nothing survives: no read waits for its strike, and none that comes late counts before it is too old to be told."
-    " Who struck while it was without power was not noted, so it tells of one strike by a name that nobody has had;"
-    " the crossing warns until a person has released that name. Until it is heard its silence warns. A spare unit"
+    " Who struck while it was without power was not noted, so it tells that strikes may have been missed, each time that it"
+    " is heard, until the crossing has acknowledged that: its track warns until a person has seen it empty. Until it is"
+    " heard its silence warns. A spare unit"
     " starts in the same way. The terminal of an end point keeps nothing at all: each telegram of a tail is judged by"
     " itself, and one from before a start counts for no longer than any other."
 )

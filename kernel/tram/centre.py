@@ -150,19 +150,21 @@ def contradicts(centre: Centre, tram: Tram, other: Tram) -> bool:
     return (tram, other) in centre.shown and (other, tram) in centre.shown
 
 
-def is_behind(centre: Centre, tram: Tram, other: Tram) -> bool:
-    """Tell whether a tram is shown to run behind this one, and nothing contradicts that (002, 3.1.2; G2, G5)."""
-    return (tram, other) in centre.shown and not contradicts(centre, tram, other)
-
-
 # ---- the order for a tram
+
+
+def is_out_of_the_way(centre: Centre, tram: Tram, own: Known, other: Tram, known: Known) -> bool:
+    """Tell whether a tram has left the next stop, or is shown to run behind this one (002, 3.1.2; G2, G5).
+
+    Not if the two have been shown in either order: then what one of them tells of where it is may not be so.
+    """
+    return not contradicts(centre, tram, other) and (machine.has_passed(own, known) or (tram, other) in centre.shown)
 
 
 def is_clear(centre: Centre, tram: Tram, own: Known) -> bool:
     """Tell whether no tram may be before the next stop, or at it: not knowing counts as present (G5)."""
     return machine.is_cleared(own, centre.cleared) and all(
-        other == tram or machine.has_passed(own, known) or is_behind(centre, tram, other)
-        for other, known in centre.trams.items()
+        other == tram or is_out_of_the_way(centre, tram, own, other, known) for other, known in centre.trams.items()
     )
 
 

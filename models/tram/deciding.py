@@ -56,6 +56,7 @@ from models.tram.state import (
 )
 from models.tram.telling import (
     LATEST_S,
+    contradicts,
     display_of,
     is_behind,
     is_in_reach,
@@ -178,7 +179,8 @@ def view_of(limits: Any, traffic: Traffic, tram: int, own: Any, now_ms: int) -> 
             continue
         known = known_of(traffic.trams[other])
         if other != tram:
-            clear = clear and (has_passed(own, known) or is_behind(traffic, tram, other))
+            is_out = has_passed(own, known) or is_behind(traffic, tram, other)
+            clear = clear and is_out and not contradicts(traffic, tram, other)
             present = present or is_seen_in_the_way(limits, now_ms, own, known)
         left_ms = traffic.left_ms[other, own.stop]
         if left_ms != NEVER_MS and is_known_since(known, left_ms):

@@ -147,7 +147,7 @@ def contradicts(traffic: Traffic, tram: int, other: int) -> bool:
 
 @compiled
 def is_behind(traffic: Traffic, tram: int, other: int) -> bool:
-    """As :func:`kernel.tram.centre.is_behind`."""
+    """Tell whether the centre has a tram behind this one, and nothing that contradicts it."""
     return bool(traffic.shown[tram, other] == 1 and not contradicts(traffic, tram, other))
 
 

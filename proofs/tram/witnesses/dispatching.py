@@ -470,6 +470,10 @@ def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
         told = replace(centre, shown=frozenset(shown))
         assert dispatcher.is_clear(told, FIRST, known) == clear
         assert dispatcher.contradicts(told, FIRST, SECOND) == (len(shown) == 2)
+    far = replace(known, stop=known.stop + 2)
+    for shown, clear in (({(SECOND, FIRST)}, True), ({(FIRST, SECOND), (SECOND, FIRST)}, False)):
+        told = replace(centre, trams={FIRST: known, SECOND: far}, shown=frozenset(shown))
+        assert dispatcher.is_clear(told, FIRST, known) == clear
 
 
 WITNESSES = (
