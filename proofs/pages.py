@@ -71,7 +71,9 @@ TRAM_CENTRE = (
 CROSSING = (
     "Every train is forgotten, with its ceiling by the ground unit as well. The road is closed, arms down, until a"
     " person has seen each track empty. No life is counted: a train that waits at a starting signal asks anew, and one"
-    " that was let go is under way, so that its track is not empty; a message that comes twice changes nothing."
+    " that was let go is under way, so that its track is not empty; a message that comes twice changes nothing. The"
+    " number goes on, so that no word of a person from before the start counts; a spare goes on from a number that is"
+    " higher, once the other is cut off, or such a word would open the road."
 )
 TRAIN_IN_CONTACT = (
     "Nothing survives: of no train is a ranging known, and whoever is in contact may be at the road, at the line's"
@@ -105,11 +107,11 @@ RANGING_SCHEDULE = (
 )
 START_POINT = (
     "Nothing survives: no read waits for its strike, and none that comes late counts before it is too old to be told."
-    " Who struck while it was without power was not noted, so it tells that strikes may have been missed, each time that it"
-    " is heard, until the crossing has acknowledged that: its track warns until a person has seen it empty. Until it is"
-    " heard its silence warns. A spare unit"
-    " starts in the same way. The terminal of an end point keeps nothing at all: each telegram of a tail is judged by"
-    " itself, and one from before a start counts for no longer than any other."
+    " Who struck while it was without power was not noted, so it tells that strikes may have been missed, each time"
+    " that it is heard, until the crossing has acknowledged that: its track warns until a person has seen it empty."
+    " Until it is heard its silence warns. A spare unit starts in the same way. The terminal of an end point keeps"
+    " nothing at all: each telegram of a tail is judged by itself, and one from before a start counts for no longer"
+    " than any other."
 )
 TRAM_ANSWER = (
     "Nothing survives but the slot, which is written: no tram is known before it has answered in that. A spare station"

@@ -130,28 +130,33 @@ def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack
     )
 
 
+def a_start_goes_on_from_the_last_number(system: Level, number: int) -> bool:
+    """Whoever starts, the crossing or a spare in its place, has a number above each that was given out (X3, X4)."""
+    return number > system.newest
+
+
 # ---- transitions
 
 
-def put_into_service(site: Road, system: Level) -> Level:
+def put_into_service(site: Road, system: Level, number: int) -> Level:
     """The settings of a crossing are checked, and refused if they are not lawful; then it starts (X5)."""
-    if not machine.are_lawful(site.settings):
+    if not machine.are_lawful(site.settings) or not a_start_goes_on_from_the_last_number(system, number):
         return system
-    return restarted(site, replace(system, in_service=True))
+    return restarted(site, replace(system, in_service=True), number)
 
 
-def restart(site: Road, system: Level) -> Level:
-    """Its power fails and is back: all that it was told is lost (X3).
+def restart(site: Road, system: Level, number: int) -> Level:
+    """Its power fails and is back, or a spare takes its place: all that it was told is lost (X3).
 
     Without power lamps, bells and arms do what the start state asks for; so while power is away it restarts in each
     cycle.
     """
-    if not nobody_comes_before_the_check(system):
+    if not nobody_comes_before_the_check(system) or not a_start_goes_on_from_the_last_number(system, number):
         return system
-    return restarted(site, system)
+    return restarted(site, system, number)
 
 
-def restarted(site: Road, system: Level) -> Level:
+def restarted(site: Road, system: Level, number: int) -> Level:
     """What a start leaves: whoever is inside is forgotten, and whoever is not may be told of again (X3)."""
     return replace(
         system,
@@ -161,16 +166,16 @@ def restarted(site: Road, system: Level) -> Level:
                 was_struck=False,
                 has_asked=body.has_asked and body.inside,
                 forgotten=body.inside,
-                forgotten_at=system.newest + 1,
+                forgotten_at=number,
             )
             for train, body in system.bodies.items()
         },
         told={},
         starting={},
-        crossing=restart_crossing(site.settings, site.tracks, system.crossing.number + 1),
+        crossing=restart_crossing(site.settings, site.tracks, number),
         accounted=frozenset(),
-        asked={track: system.newest + 1 for track in site.tracks},  # noqa: C420
-        newest=system.newest + 1,
+        asked={track: number for track in site.tracks},  # noqa: C420
+        newest=number,
         restarted=True,
         unseen=True,
         decided=False,

@@ -69,7 +69,7 @@ class Day(Play[Road, Level]):
     def __init__(self, settings: Settings = SETTINGS, *, opened: bool = True) -> None:
         """Begin."""
         super().__init__(THEORY, Road(settings, SITE.tracks, SITE.signals), new())
-        self.step("put_into_service")
+        self.step("put_into_service", number=1)
         assert self.system.in_service == machine.are_lawful(settings)
         if opened and self.system.in_service:
             self.account(UP, DOWN)
@@ -77,6 +77,10 @@ class Day(Play[Road, Level]):
             for track in (UP, DOWN):
                 self.step("hear_terminal", track=track, age_cycles=0)
             assert not self.warns()
+
+    def restart(self, over: int = 1) -> Level:
+        """Power fails and is back; what starts has a number that is so much over the last one."""
+        return self.step("restart", number=self.system.newest + over)
 
     def account(self, *tracks: CrossingTrack) -> None:
         """A person has seen tracks to be empty."""

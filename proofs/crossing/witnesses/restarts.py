@@ -49,7 +49,7 @@ def who_was_forgotten_finds_the_arms_down() -> None:
     for _ in range(20):
         day.cycle()
     down_cycles = day.system.down_cycles
-    day.step("restart")
+    day.restart()
     assert (dict(day.system.crossing.asks.items()), set(day.system.told)) == ({}, set())
     body = day.system.bodies[ONE]
     assert (body.forgotten, body.was_struck, body.has_asked) == (True, False, True)
@@ -72,16 +72,29 @@ def who_passed_its_start_point_without_power_finds_the_arms_down() -> None:
     """Power is away for a minute: the crossing restarts in each cycle, and arms fall without the bell (X3, X5)."""
     day = Day()
     day.come(ONE, contact=False)
-    day.step("restart")
+    day.restart()
     assert (day.warns(), day.system.lowered_cycles, day.system.down_cycles) == (True, 0, 0)
     day.strike(ONE)
     for cycles in range(1, 60):
         day.cycle(heard=())
         assert day.system.lowered_cycles == cycles
         assert day.system.are_down == (cycles >= 10)
-        day.step("restart")
+        day.restart()
     arrived = day.arrive(ONE)
     assert (arrived.warned_cycles, arrived.down_cycles) == (59, 49)
+
+
+def a_spare_goes_on_above_every_number_that_was_given_out() -> None:
+    """With a lower one, or the same, a word from before the start would count; it is not put in (X3, X4)."""
+    day = Day()
+    before = day.system
+    assert day.restart(0) == before
+    assert day.restart(-1) == before
+    number = before.crossing.number + 1_000
+    assert day.restart(1_000).crossing.number == number
+    assert day.system.asked == {UP: number, DOWN: number}
+    new = Day(opened=False)
+    assert new.step("put_into_service", number=new.system.newest) == new.system
 
 
 def what_was_seen_before_a_restart_counts_no_more() -> None:
@@ -90,7 +103,7 @@ def what_was_seen_before_a_restart_counts_no_more() -> None:
     day.account(UP, DOWN)
     day.come(ONE, contact=False)
     day.strike(ONE)
-    day.step("restart")
+    day.restart()
     assert day.system.accounted == frozenset()
     for _ in range(10):
         day.cycle()
@@ -104,7 +117,7 @@ def who_is_in_contact_is_told_of_anew() -> None:
     day.come(TWO, DOWN)
     day.strike(ONE)
     day.cycle((ONE, NOW), (TWO, NOW))
-    day.step("restart")
+    day.restart()
     assert (day.system.bodies[ONE].has_asked, day.system.bodies[TWO].has_asked) == (True, False)
     day.step("make_contact", train=ONE)
     day.step("make_contact", train=TWO)
@@ -150,7 +163,7 @@ def a_track_that_settings_leave_out_warns() -> None:
     day.step("hear_terminal", track=UP, age_cycles=0)
     day.cycle()
     assert (day.warns(), day.system.unseen) == (True, True)
-    day.step("restart")
+    day.restart()
     assert (set(day.system.unheard_cycles), day.system.unseen) == (set(SITE.tracks), True)
     day.account(UP, DOWN)
     day.step("hear_terminal", track=SIDING, age_cycles=0)
@@ -167,7 +180,7 @@ def who_had_not_asked_has_not_asked_at_the_restart() -> None:
     day.come(ONE, contact=False)
     day.strike(ONE)
     before = day.system
-    restarted = day.step("restart")
+    restarted = day.restart()
     assert (before.unseen, restarted.unseen) == (False, True)
     body = restarted.bodies[ONE]
     assert (body.has_asked, body.forgotten, body.forgotten_at) == (False, True, day.system.crossing.number)
@@ -185,7 +198,7 @@ def a_restart_in_a_warning_is_over_with_it() -> None:
         day.cycle((ONE, NOW))
         assert day.system.lowered_cycles == max(0, cycles - 5)
     day.step("decide", dues={ONE: NOW})
-    day.step("restart")
+    day.restart()
     assert (day.system.decided, day.system.lowered_cycles, day.system.warned_cycles) == (False, 2, 7)
     day.cycle()
     assert (day.system.lowered_cycles, day.system.warned_cycles) == (3, 8)
@@ -248,7 +261,7 @@ def a_word_from_before_a_restart_opens_nothing() -> None:
     day.come(ONE, contact=False)
     day.strike(ONE)
     number = day.system.crossing.number
-    day.step("restart")
+    day.restart()
     assert day.system.crossing.number == number + 1
     assert (day.look(UP), day.look(DOWN), day.look(SIDING)) == (number + 1, number + 1, 0)
     before = day.system
@@ -269,6 +282,7 @@ WITNESSES = (
     a_start_is_closed_until_terminals_are_heard,
     who_was_forgotten_finds_the_arms_down,
     who_passed_its_start_point_without_power_finds_the_arms_down,
+    a_spare_goes_on_above_every_number_that_was_given_out,
     what_was_seen_before_a_restart_counts_no_more,
     who_is_in_contact_is_told_of_anew,
     a_strike_is_told_after_the_restart_too,

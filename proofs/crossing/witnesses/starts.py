@@ -124,7 +124,7 @@ def a_restart_forgets_who_asked_to_start() -> None:
     while not is_let_go(day, ONE):
         day.cycle()
     assert (day.system.warned_cycles, day.system.crossing.warned_cycles) == (37, 37)
-    day.step("restart")
+    day.restart()
     assert not day.system.starting
     assert not day.system.crossing.starts
     assert (day.system.bodies[ONE].forgotten, day.system.bodies[TWO].forgotten) == (True, False)
@@ -280,7 +280,7 @@ def who_was_forgotten_and_stands_is_looked_at_no_more() -> None:
     day = Day()
     day.come(ONE, contact=False)
     day.strike(ONE)
-    day.step("restart")
+    day.restart()
     before = day.system
     assert day.step("account", track=UP, number=day.look(UP)) == before
     stands = day.step("come_to_stand", train=ONE, signal=STATION)
@@ -296,7 +296,7 @@ def who_was_forgotten_and_has_parted_is_looked_for_still() -> None:
     day.come(ONE, contact=False)
     day.strike(ONE)
     day.step("part", train=ONE)
-    day.step("restart")
+    day.restart()
     day.cycle()
     before = day.system
     assert (before.bodies[ONE].forgotten, before.bodies[ONE].has_asked) == (True, True)
