@@ -14,126 +14,29 @@ from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import CrossingTrack, Due, Signal, Standing, Train
 from kernel.maps import Map
 from kernel.restarts import restart_crossing
-from models.crossing.level import Arrived, Body, Level, Road
+from models.crossing.level import (
+    Arrived,
+    Body,
+    Level,
+    Road,
+    a_decision_begins_each_cycle,
+    a_person_accounts_for_a_track_seen_empty,
+    a_person_releases_what_is_gone,
+    a_start_goes_on_from_the_last_number,
+    a_start_point_is_passed_once,
+    a_train_comes_as_new,
+    a_train_comes_on_a_track,
+    a_whole_train_told_gone_is_gone,
+    nobody_arrives_before_he_can,
+    nobody_comes_before_the_check,
+    only_who_stands_promises_to_stand,
+    the_arms_come_down_in_time,
+    the_terminal_tells_every_strike_first,
+    who_arrives_has_passed_the_start_point,
+    who_stands_at_a_starting_signal_was_not_let_go,
+    who_stands_before_the_road_is_not_on_it,
+)
 from models.measures import greater, lesser
-
-# ---- assumptions
-
-
-def nobody_comes_before_the_check(system: Level) -> bool:
-    """Trains run over a crossing that is in service (X5)."""
-    return system.in_service
-
-
-def a_train_comes_as_new(system: Level, train: Train) -> bool:
-    """Nobody comes under a name of which the crossing was told, and not yet that he is gone (X1)."""
-    return train not in system.bodies and train not in system.told
-
-
-def a_train_comes_on_a_track(site: Road, track: CrossingTrack) -> bool:
-    """Each track over the crossing has its start points (X3)."""
-    return track in site.tracks
-
-
-def a_start_point_is_passed_once(system: Level, train: Train) -> bool:
-    """Who passes a start point is on its way, and has not been inside; out again it counts as inside (X3)."""
-    return train in system.bodies and not system.bodies[train].inside
-
-
-def who_arrives_has_passed_the_start_point(system: Level, train: Train) -> bool:
-    """Start points lie on every way to the crossing, or starting signals at which trains wait to be let go (X3)."""
-    return train in system.bodies and system.bodies[train].inside
-
-
-def nobody_arrives_before_he_can(system: Level, train: Train) -> bool:
-    """What is secured by start point and rangings is true (X2)."""
-    return system.bodies[train].left_cycles <= 0
-
-
-def the_terminal_tells_every_strike_first(system: Level, track: CrossingTrack, age_cycles: int) -> bool:
-    """Who had passed a start point without contact when its terminal spoke is told of when that is heard (X3).
-
-    The word may have been under way for any time, and be no older than it is taken for.
-    A strike is put down to a train in contact only if that has made it.  Strikes from before a restart are not told
-    again, nor are those that a terminal without power has missed: it tells first that there may be some.
-    """
-    return all(
-        train in system.told or body.forgotten
-        for train, body in system.bodies.items()
-        if body.track == track and body.inside and body.inside_cycles >= age_cycles
-    )
-
-
-def who_stands_at_a_starting_signal_was_not_let_go(system: Level, train: Train) -> bool:
-    """Who has asked to start counts as on its way, even if it stands; nobody passes such a signal before (X3)."""
-    return train in system.bodies and train not in system.starting
-
-
-def who_stands_before_the_road_is_not_on_it(site: Road, system: Level, train: Train, signal: Signal) -> bool:
-    """Of a whole train that stands at a signal before the road, facing it, no part is on the road (X3)."""
-    body = system.bodies[train]
-    return signal not in site.signals.before or not body.is_whole or not body.is_on_road
-
-
-def only_who_stands_promises_to_stand(site: Road, system: Level, train: Train, standing: Standing) -> bool:
-    """Who tells that it stands, whole, at a signal before this road does so, or has asked to start there since (X3).
-
-    Who is not whole, or stands at any other signal, may tell so wherever it is.
-    """
-    return (
-        standing.signal not in site.signals.before
-        or not standing.is_whole
-        or train not in system.bodies
-        or not system.bodies[train].inside
-        or train in system.starting
-    )
-
-
-def a_decision_begins_each_cycle(system: Level) -> bool:
-    """The crossing decides once before each cycle, never later (X2)."""
-    return not system.decided
-
-
-def the_arms_come_down_in_time(site: Road, lowered_cycles: int, are_down: bool) -> bool:
-    """Arms that have been lowered for their time are down, and stay so (X5)."""
-    return are_down or lowered_cycles < site.settings.lowering_cycles
-
-
-def a_whole_train_told_gone_is_gone(system: Level, gone: Train, number: int, is_whole: bool) -> bool:
-    """Evidence of a rear is of the run that was noted by that number, and of a whole train no part is left behind (X4).
-
-    Or the train is in contact, and has turned back before its start point; it strikes that when it comes again.
-    It may come late, and again, when the train is on its way once more.
-    """
-    if not is_whole or gone not in system.bodies:
-        return True
-    return number < system.bodies[gone].came_at or not system.bodies[gone].inside
-
-
-def a_person_releases_what_is_gone(system: Level, gone: Train, number: int) -> bool:
-    """Who releases has looked, and no part of the train that was noted by that number is in the approach (X4).
-
-    His word may come late, and again.
-    """
-    return gone not in system.bodies or number < system.bodies[gone].came_at
-
-
-def a_person_accounts_for_a_track_seen_empty(system: Level, track: CrossingTrack, number: int) -> bool:
-    """Who was asked by that number has seen the track empty since: nobody is left who was forgotten on it by then (X3).
-
-    His word may come late, and again.
-    """
-    return all(
-        not body.forgotten or number < body.forgotten_at
-        for _train, body in system.bodies.items()
-        if body.track == track
-    )
-
-
-def a_start_goes_on_from_the_last_number(system: Level, number: int) -> bool:
-    """Whoever starts, the crossing or a spare in its place, has a number above each that was given out (X3, X4)."""
-    return number > system.newest
-
 
 # ---- transitions
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Due, Standing, Train
-from models.crossing import crossing as world
+from models.crossing import level
 from proofs.crossing.witnesses.crossing_day import BEYOND, DOWN, ONE, STATION, TWO, UP, Day
 
 NOW = Due.NOW
@@ -310,11 +310,11 @@ def what_may_be_told_of_standing() -> None:
     day.strike(ONE)
     site, system = day.site, day.system
     there = Standing(STATION, True)
-    assert not world.only_who_stands_promises_to_stand(site, system, ONE, there)
-    assert world.only_who_stands_promises_to_stand(site, system, TWO, there)
-    assert world.only_who_stands_promises_to_stand(site, system, ONE, Standing(BEYOND, True))
-    assert world.only_who_stands_promises_to_stand(site, system, ONE, Standing(STATION, False))
-    assert world.only_who_stands_promises_to_stand(site, replace(system, starting={ONE: RUN_CYCLES}), ONE, there)
+    assert not level.only_who_stands_promises_to_stand(site, system, ONE, there)
+    assert level.only_who_stands_promises_to_stand(site, system, TWO, there)
+    assert level.only_who_stands_promises_to_stand(site, system, ONE, Standing(BEYOND, True))
+    assert level.only_who_stands_promises_to_stand(site, system, ONE, Standing(STATION, False))
+    assert level.only_who_stands_promises_to_stand(site, replace(system, starting={ONE: RUN_CYCLES}), ONE, there)
 
 
 WITNESSES = (
