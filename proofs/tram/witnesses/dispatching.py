@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.tram import centre as dispatcher
 from kernel.tram import display as on_board
-from kernel.tram.centre import Centre, Tram
-from kernel.tram.dispatching import Hand, Known, Order, Report, is_beyond_its_destination, mark
+from kernel.tram.centre import Tram
+from kernel.tram.dispatching import Hand, Order, Report, is_beyond_its_destination, mark
 from models.tram.dispatching import Body, Given, place
 from proofs.tram.witnesses import holds, ways
 from proofs.tram.witnesses import on_board as orders_shown
@@ -457,25 +456,6 @@ def when_it_stands_is_told_once() -> None:
     assert day.known(FIRST).arrived_ms == first_ms + 30
 
 
-def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
-    """Somebody tells what is not so: which of them is ahead nobody knows (G2, G6)."""
-    known = Known(9, 0, 3, False, True, 900, 900, 0, True)
-    centre = Centre(1_000, 0, 19, {FIRST: known, SECOND: known}, {}, frozenset({(FIRST, SECOND)}), {})
-    for shown, clear in (
-        ({(FIRST, SECOND)}, True),
-        ({(SECOND, FIRST)}, False),
-        ({(FIRST, SECOND), (SECOND, FIRST)}, False),
-        (frozenset[tuple[Tram, Tram]](), False),
-    ):
-        told = replace(centre, shown=frozenset(shown))
-        assert dispatcher.is_clear(told, FIRST, known) == clear
-        assert dispatcher.contradicts(told, FIRST, SECOND) == (len(shown) == 2)
-    far = replace(known, stop=known.stop + 2)
-    for shown, clear in (({(SECOND, FIRST)}, True), ({(FIRST, SECOND), (SECOND, FIRST)}, False)):
-        told = replace(centre, trams={FIRST: known, SECOND: far}, shown=frozenset(shown))
-        assert dispatcher.is_clear(told, FIRST, known) == clear
-
-
 WITNESSES = (
     *orders_shown.WITNESSES,
     *holds.WITNESSES,
@@ -500,5 +480,4 @@ WITNESSES = (
     what_contradicts_is_not_taken,
     a_tram_that_comes_back_is_not_where_it_was,
     when_it_stands_is_told_once,
-    trams_that_reports_have_shown_in_either_order_do_not_recover,
 )

@@ -1,9 +1,12 @@
-"""Trams of both directions, and of two lines that share some stops: turning, and joining at a junction (G4 to G6)."""
+"""Trams of both directions, and of two lines that share some stops; and reports of who is ahead (G2, G4 to G6)."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+from kernel.tram import centre as dispatcher
+from kernel.tram.centre import Centre, Tram
+from kernel.tram.dispatching import Known
 from models.tram import dispatching as world
 from models.tram.dispatching import Run
 from proofs.tram.witnesses.line import FIRST, NEITHER, RECOVERS, SECOND, SITE, THIRD, Day, two_stops_apart
@@ -101,7 +104,27 @@ def who_is_on_the_way_neither_comes_nor_arrives() -> None:
     assert day.step("arrive", tram=SECOND, **event) == system
 
 
+def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
+    """Somebody tells what is not so: which of them is ahead nobody knows (G2, G6)."""
+    known = Known(9, 0, 3, False, True, 900, 900, 0, True)
+    centre = Centre(1_000, 0, 19, {FIRST: known, SECOND: known}, {}, frozenset({(FIRST, SECOND)}), {})
+    for shown, clear in (
+        ({(FIRST, SECOND)}, True),
+        ({(SECOND, FIRST)}, False),
+        ({(FIRST, SECOND), (SECOND, FIRST)}, False),
+        (frozenset[tuple[Tram, Tram]](), False),
+    ):
+        told = replace(centre, shown=frozenset(shown))
+        assert dispatcher.is_clear(told, FIRST, known) == clear
+        assert dispatcher.contradicts(told, FIRST, SECOND) == (len(shown) == 2)
+    far = replace(known, stop=known.stop + 2)
+    for shown, clear in (({(SECOND, FIRST)}, True), ({(FIRST, SECOND), (SECOND, FIRST)}, False)):
+        told = replace(centre, trams={FIRST: known, SECOND: far}, shown=frozenset(shown))
+        assert dispatcher.is_clear(told, FIRST, known) == clear
+
+
 WITNESSES = (
+    trams_that_reports_have_shown_in_either_order_do_not_recover,
     what_was_told_of_the_other_way_ends_no_run_on_this_one,
     a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to,
     a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known,
