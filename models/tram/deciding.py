@@ -30,6 +30,7 @@ from models.tram.state import (
     BOX,
     FREE,
     G_BEHIND,
+    G_MADE,
     G_MARK,
     G_TOLD,
     K_CLEARS,
@@ -45,6 +46,7 @@ from models.tram.state import (
     O_STOP,
     O_STRAY,
     O_TRAM,
+    O_TRULY,
     ON,
     R_DUE,
     R_LEAVES,
@@ -230,11 +232,13 @@ def decide(day: Given, traffic: Traffic, tram: int, now_ms: int, rng: np.random.
     due_ms = 1_000 * asks_s + REQUEST_MS + slower_ms(day, now_ms // 1_000)
     holds, recovers = 1 if order.holds else 0, 1 if order.recovers else 0
     made_ms = order.made_ms + (day.ahead_ms if order.stop == day.where.ahead_station else 0)
-    send(traffic.orders[tram], traffic.due_ms[1], tram, due_ms, (tram, order.stop, holds, recovers, made_ms, 0))
+    traffic.row[tally.FRAME_BROKEN] += made_ms != order.made_ms
+    told = (tram, order.stop, holds, recovers, made_ms)
+    send(traffic.orders[tram], traffic.due_ms[1], tram, due_ms, (*told, 0, order.made_ms))
     if rng.random() < day.repeats:
         to = int(len(traffic.trams) * rng.random()) if rng.random() < 0.5 else tram
         stray_ms = due_ms + int(1_000 * LATEST_S * rng.random())
-        send(traffic.orders[to], traffic.due_ms[1], to, stray_ms, (tram, order.stop, holds, recovers, made_ms, 1))
+        send(traffic.orders[to], traffic.due_ms[1], to, stray_ms, (*told, 1, order.made_ms))
 
 
 # ---- what arrives
@@ -306,6 +310,8 @@ def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int
         is_of_the_future = message[O_TRAM] == tram and order.made_ms > before.now_ms
         traffic.row[tally.OF_THE_FUTURE] += is_of_the_future and after.made_ms == before.made_ms
         traffic.row[tally.WRONG_TRAM] += message[O_TRAM] != tram and after.made_ms != before.made_ms
+        if after.made_ms != before.made_ms:
+            traffic.trams[tram, G_MADE] = message[O_TRULY]
         keep_display(traffic.trams[tram], after)
 
 

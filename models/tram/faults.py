@@ -64,7 +64,13 @@ FAULTS = {
         "trams of the other line come back so much later, and join at the junction", 10, 40, "min", 0.5, "practice"
     ),
     "order_from_the_future": Fault(
-        "one station's clock is so far ahead, and it writes orders by that", 20, 3_600, "s", 0.2, "ours: a restart"
+        "one station's clock is so far ahead, and it writes orders by that",
+        20,
+        3_600,
+        "s",
+        0.0,
+        "ours: a restart",
+        "the_frame_carries_the_order",
     ),
     "asked_anew": Fault(
         "so often the dispatcher asks to take up a tram that is on the way", 1, 9, "1", 0.3, "practice: a wrong number"

@@ -32,8 +32,10 @@ UNIT = ("U_STOP", "U_LEFT", "U_STANDS", "U_STOOD", "D_LOCATED", "D_STOP", "D_STA
 UNIT_TIME = ("D_NOW", "H_KNOWN", "H_AGE", "H_ANSWERED")
 CENTRE = ("K_IS", "K_LEAVES", "K_SINCE", "K_STOP", "K_LEFT", "K_STANDS", "K_ARRIVED", "K_TOLD", "K_RECOVERY")
 CENTRE_TOO = ("K_CLEARS", "K_ELSEWHERE")
-GHOST = ("G_MARK", "G_TOLD", "G_BEHIND")
-"""What reports have truly told: the farthest mark of this run, when it stood last; and whether one behind holds it."""
+GHOST = ("G_MARK", "G_TOLD", "G_BEHIND", "G_MADE")
+"""What reports have truly told: the farthest mark of this run, when it stood last; whether one behind holds it.
+
+And when the order that it shows was truly made."""
 NAMES = (*TRUTH, *UNIT, *UNIT_TIME, *CENTRE, *CENTRE_TOO, *GHOST)
 
 ON, TURN, PLACE, SPEED, LEAVES, NEXT, DWELL_S, PASSES, BROKEN_S, OFF_S, WAITS, DUE_S, CONFIRMED_S, COMES_AT = map(
@@ -43,13 +45,13 @@ U_STOP, U_LEFT, U_STANDS, U_STOOD, D_LOCATED, D_STOP, D_STANDS, D_HOLDS, D_RECOV
 D_NOW, H_KNOWN, H_AGE, H_ANSWERED = map(NAMES.index, UNIT_TIME)
 K_IS, K_LEAVES, K_SINCE, K_STOP, K_LEFT, K_STANDS, K_ARRIVED, K_TOLD, K_RECOVERY = map(NAMES.index, CENTRE)
 K_CLEARS, K_ELSEWHERE = map(NAMES.index, CENTRE_TOO)
-G_MARK, G_TOLD, G_BEHIND = map(NAMES.index, GHOST)
+G_MARK, G_TOLD, G_BEHIND, G_MADE = map(NAMES.index, GHOST)
 
 BOX = 8
 """So many messages to or from one tram are on their way at most; a later one is lost."""
 FREE = -1
 R_DUE, R_STOP, R_LEFT, R_STANDS, R_LEAVES, R_MADE = range(6)
-O_DUE, O_TRAM, O_STOP, O_HOLDS, O_RECOVERS, O_MADE, O_STRAY = range(7)
+O_DUE, O_TRAM, O_STOP, O_HOLDS, O_RECOVERS, O_MADE, O_STRAY, O_TRULY = range(8)
 NEVER_MS = -(10**9)
 LATE_MS = 10**12
 
@@ -95,7 +97,7 @@ def begun(trams: int, stops: int, runs: int, columns: int, now_s: int) -> Traffi
         size=np.zeros(2, np.int64),
         known=np.array([LATE_MS, FREE], np.int64),
         reports=np.full((trams, BOX, 7), FREE, np.int64),
-        orders=np.full((trams, BOX, 7), FREE, np.int64),
+        orders=np.full((trams, BOX, 8), FREE, np.int64),
         due_ms=np.full((2, trams), LATE_MS, np.int64),
         left_ms=np.full((trams, stops + 1), NEVER_MS, np.int64),
         truly_left_ms=np.full((trams, stops + 1), NEVER_MS, np.int64),

@@ -12,7 +12,7 @@ CLAIMS: Mapping[str, str] = {
     "order_by_guess": "orders to a tram that had not told within 11 s that it stands there (G6)",
     "hold_and_recovery": "seconds in which a driver was shown both (G4)",
     "recovery_beyond": "seconds in which a recovery lasted beyond the next stop (G5)",
-    "order_stale": "seconds in which a standing tram was shown an order older than it may be, or of the future (G6)",
+    "order_stale": "seconds in which a standing tram was shown an order that was made longer ago than it may be (G6)",
     "wrong_tram": "orders taken by another tram than they were for (G6)",
     "order_turned": "seconds in which reports had shown two trams in another order than that on the track (G2)",
     "reached_too_soon": "seconds in which a unit had reached, or left, a stop that the tram had not (G2)",
@@ -26,6 +26,7 @@ ASSUMPTIONS: Mapping[str, str] = {
     "taken_off_there": "`who_is_taken_off_is_off_the_way`: trams taken off by hand that were on the way",
     "clock_broken": "`clocks_keep_gps_time`: seconds in which a unit's clock was off",
     "report_broken": "`a_report_tells_where_it_is`: reports from beyond where the tram was",
+    "frame_broken": "`the_frame_carries_the_order`: orders written with another time than that at which they were made",
 }
 MONITORS: Mapping[str, str] = {
     "reports_refused": "reports that were not taken: too old, backwards, of a run before",
@@ -67,7 +68,7 @@ RECOVERY_OCCUPIED, RECOVERY_UNKNOWN, ORDER_BY_GUESS, HOLD_AND_RECOVERY = map(COL
 RECOVERY_BEYOND, ORDER_STALE, WRONG_TRAM, ORDER_TURNED = map(COLUMNS.index, list(CLAIMS)[4:8])
 REACHED_TOO_SOON, WANDERED = map(COLUMNS.index, list(CLAIMS)[8:])
 PLACE_BROKEN, SPEED_BROKEN, OVERTAKEN, UNANNOUNCED = map(COLUMNS.index, list(ASSUMPTIONS)[:4])
-TAKEN_OFF_THERE, CLOCK_BROKEN, REPORT_BROKEN = map(COLUMNS.index, list(ASSUMPTIONS)[4:])
+TAKEN_OFF_THERE, CLOCK_BROKEN, REPORT_BROKEN, FRAME_BROKEN = map(COLUMNS.index, list(ASSUMPTIONS)[4:])
 REPORTS_REFUSED, UNHEARD, PLACE_LOST, ORDERS_LAPSED, NOT_TAKEN_UP = map(COLUMNS.index, list(MONITORS)[:5])
 CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION, GIVEN_UP = map(COLUMNS.index, list(MONITORS)[5:10])
 OF_THE_FUTURE, NOT_TAKEN_UP_ANEW, CONTRADICTED = map(COLUMNS.index, list(MONITORS)[10:])

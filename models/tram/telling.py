@@ -247,13 +247,13 @@ def slower_ms(day: Given, now_s: int) -> int:
 
 
 @compiled
-def send(box: Any, first_ms: Any, tram: int, due_ms: int, message: tuple[int, int, int, int, int, int]) -> None:
+def send(box: Any, first_ms: Any, tram: int, due_ms: int, message: tuple[int, ...]) -> None:
     """Put a message on its way; where all places are taken it is lost."""
     for place in range(BOX):
         if box[place, 0] == FREE:
             box[place, 0] = due_ms
             first_ms[tram] = min(first_ms[tram], due_ms)
-            for part in range(6):
+            for part in range(len(message)):
                 box[place, part + 1] = message[part]
             return
 

@@ -11,7 +11,6 @@ from models.tram.line import AT_STOP_MM
 from models.tram.machines import MADE, compiled
 from models.tram.state import (
     D_HOLDS,
-    D_MADE,
     D_NOW,
     D_RECOVERS,
     D_STANDS,
@@ -19,6 +18,7 @@ from models.tram.state import (
     DWELL_S,
     FREE,
     G_BEHIND,
+    G_MADE,
     G_MARK,
     G_TOLD,
     K_IS,
@@ -97,7 +97,7 @@ def watch_orders(day: Given, traffic: Traffic, tram: int, now_ms: int) -> None:
     row, body = traffic.row, traffic.trams[tram]
     holds, recovers, stop = body[D_HOLDS] == 1, body[D_RECOVERS] == 1, body[D_STOP]
     row[tally.HOLD_AND_RECOVERY] += holds and recovers
-    counts = 0 <= now_ms - body[D_MADE] <= ORDER_MS
+    counts = now_ms - body[G_MADE] <= ORDER_MS
     row[tally.ORDER_STALE] += body[D_STANDS] == 1 and (holds or recovers) and not counts
     if recovers:
         row[tally.RECOVERY_S] += body[DWELL_S] == FREE
