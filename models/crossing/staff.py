@@ -84,7 +84,8 @@ def prove_rear(
         out[REAR_BROKEN] += stays_s(day, run, train) > 0
         return told_gone(run, train, crossing)
     rear_um = run[train].way_um + line.length_um[day.trains[train].local]
-    by_detector = rear_um <= -END_DETECTOR_UM and not is_on(day, END_DETECTOR, out_s)
+    is_beyond_road = run[train].is_back == 0 and rear_um <= -END_DETECTOR_UM
+    by_detector = is_beyond_road and not is_on(day, END_DETECTOR, out_s)
     is_known = run[train].contact == 1 or run[train].struck_s >= 0
     if is_known and not by_detector and now < out_s + day.trains[train].person_s:
         return crossing

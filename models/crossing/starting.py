@@ -116,12 +116,14 @@ def talk(
         if now > run[train].started_s + LATEST_S or run[train].starts_s == NEVER:
             return crossing
         return hear_of_starts(day, run, line, train, now, crossing, signals, out)
-    has_changed_ends = run[train].stood_s > day.trains[train].trick_s and run[train].cleared == 1
-    if has_changed_ends and run[train].starts_s == NEVER:
-        run[train].asked_s = NEVER
-        if day.trains[train].trick == UNASKED:
+    has_changed_ends = run[train].stood_s > day.trains[train].trick_s
+    if day.trains[train].trick == UNASKED:
+        if has_changed_ends:
+            run[train].asked_s = NEVER
             turn(run, line, day.trains[train].local, train, now, out)
-            return crossing
+        return crossing
+    if has_changed_ends and run[train].cleared == 1 and run[train].starts_s == NEVER:
+        run[train].asked_s = NEVER
         run[train].starts_s = now
     crossing = hear_of_starts(day, run, line, train, now, crossing, signals, out)
     if 0 <= run[train].go_s <= now:

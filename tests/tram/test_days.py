@@ -139,7 +139,11 @@ def test_orders_of_the_future_are_refused_until_their_time_has_come() -> None:
     ahead = frozenset({"order_from_the_future", "repeats", "centre_slow"})
     rows, planted, without = (
         np.array([one_day(3, number, present=present, plant=plant)[0] for number in range(4)])
-        for present, plant in ((ahead, plan.NO_PLANT), (ahead, plan.TAKES_THE_FUTURE), (ahead - set(DRAWN_ALONE), plan.NO_PLANT))
+        for present, plant in (
+            (ahead, plan.NO_PLANT),
+            (ahead, plan.TAKES_THE_FUTURE),
+            (ahead - set(DRAWN_ALONE), plan.NO_PLANT),
+        )
     )
     assert column(rows, "of_the_future") > column(without, "of_the_future") == 0
     assert column(rows, "frame_broken") > column(without, "frame_broken") == 0
