@@ -2,8 +2,8 @@
 
 A tram is on its line, and so the part of the error across the track is taken away; what is along it stays
 (4.1).  The place told is the nearest on the line.  It counts only as far as it is known: beside it goes a range
-of kilometrage outside of which the tram is nowhere, if the fix is off by no more than is written.  Where the line
-bends back beside itself, or another part of it is as near, the range is wide, and no place is told (ours).
+of kilometrage outside of which the tram is nowhere, if the fix is off by no more than is written for where the tram is.
+Where the line bends back beside itself, or a street canyon is near, the range is wide, and no place is told (ours).
 
 The line is a row of stretches in mm of a plane grid, with the kilometrage of both ends of each.  All is exact in
 whole numbers of any size; a projected point is rounded to the mm, so the correction is to within 2 mm.
@@ -30,6 +30,8 @@ class Stretch:
 
     ``start``: where it begins.  ``east_mm``, ``north_mm``: so far on it ends.  ``length_mm``: its length in the plane,
     rounded up.  ``from_mm``: the kilometrage of its start.  ``grows_mm``: so much more is that of its end.
+    ``error_mm``: so much a fix of a tram on it is off at most, along it and across it: with what the table is off the
+    track, and the way until its place is told (ours).
     """
 
     start: Point
@@ -38,17 +40,16 @@ class Stretch:
     length_mm: int
     from_mm: int
     grows_mm: int
+    error_mm: int
 
 
 @dataclass(frozen=True)
 class MatchLimits:
-    """What is written for a line, in mm (G1, ours).
+    """What is written for a line: a place counts if its kilometrage is off by no more than ``most_mm`` (G1, ours).
 
-    ``error_mm``: a fix is off by no more, with what the table is off the track.
-    ``most_mm``: a place counts if it is off by no more along the line.
+    It is the error by which `stopping` is told that places err.
     """
 
-    error_mm: int
     most_mm: int
 
 
@@ -113,13 +114,13 @@ def apart_mm2(one: Point, other: Point) -> int:
     return x_mm * x_mm + y_mm * y_mm
 
 
-def foot_on(limits: MatchLimits, stretch: Stretch, place: Point) -> Foot:
+def foot_on(stretch: Stretch, place: Point) -> Foot:
     """Give the foot of the perpendicular from a fix to a stretch; it errs along it as across it (002, 3.1.1; G1)."""
     x_mm, y_mm, length_mm = place.x_mm - stretch.start.x_mm, place.y_mm - stretch.start.y_mm, stretch.length_mm
     along_mm2 = x_mm * stretch.east_mm + y_mm * stretch.north_mm
     across_mm2 = y_mm * stretch.east_mm - x_mm * stretch.north_mm
     square_mm2 = stretch.east_mm * stretch.east_mm + stretch.north_mm * stretch.north_mm
-    off_mm2 = limits.error_mm * length_mm
+    off_mm2 = stretch.error_mm * length_mm
     return Foot(
         stretch=stretch,
         is_sound=length_mm > 0 and 0 < square_mm2 <= length_mm * length_mm and stretch.grows_mm > 0,
@@ -175,13 +176,13 @@ def either(one: Range | None, other: Range | None) -> Range | None:
     return Range(smaller(one.from_mm, other.from_mm), larger(one.to_mm, other.to_mm))
 
 
-def note_foot(limits: MatchLimits, found: Found, foot: Foot) -> Found:
+def note_foot(found: Found, foot: Foot) -> Found:
     """Take in what one more stretch of the line says of the fix; what is no stretch spoils the table (G1)."""
     if not foot.is_sound:
         return replace(found, is_sound=False)
     return replace(
         found,
-        nearest=nearer(found.nearest, projected(foot, found.place), limits.error_mm),
+        nearest=nearer(found.nearest, projected(foot, found.place), foot.stretch.error_mm),
         within=either(found.within, range_on(foot)),
     )
 
@@ -195,9 +196,9 @@ def place_mm(limits: MatchLimits, found: Found) -> int | None:
     return at_mm if is_near else None
 
 
-def matched(limits: MatchLimits, line: tuple[Stretch, ...], place: Point) -> Found:
+def matched(line: tuple[Stretch, ...], place: Point) -> Found:
     """Look at every stretch of a line for a fix (002, 3.1.1; G1)."""
     found = nothing_found(place)
     for stretch in line:
-        found = note_foot(limits, found, foot_on(limits, stretch, place))
+        found = note_foot(found, foot_on(stretch, place))
     return found

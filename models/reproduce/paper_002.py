@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kernel.tram.dispatching import DispatchLimits
-from kernel.tram.map_matching import MatchLimits, Point, Stretch, matched
+from kernel.tram.map_matching import Point, Stretch, matched
 from models.reproduce.tables import Picture, Reproduction, Row, Sensitivity, share
 from models.tram import line, tally
 from models.tram.bunching import WATCHED, Days, days
@@ -30,8 +30,6 @@ BENDS = 60
 STRETCH_MM = 150_000
 MOST_TURN_RAD = 0.35
 """The line for map matching: stretches of 150 m, each turned from the one before by up to 20 degrees; ours."""
-
-MATCHING = MatchLimits(error_mm=REJECTED_MM, most_mm=2 * REJECTED_MM)
 
 Progress = Callable[[int, int, str], None]
 
@@ -91,7 +89,7 @@ def bends(chance: np.random.Generator) -> tuple[Stretch, ...]:
     y = np.concatenate(([0.0], np.cumsum(STRETCH_MM * np.sin(turns))))
     points = [Point(round(float(east)), round(float(north))) for east, north in zip(x, y, strict=True)]
     return tuple(
-        stretch_between(points[number], points[number + 1], STRETCH_MM * number, STRETCH_MM * (number + 1))
+        stretch_between(points[number], points[number + 1], STRETCH_MM * number, STRETCH_MM * (number + 1), REJECTED_MM)
         for number in range(BENDS)
     )
 
@@ -107,7 +105,7 @@ def measured(seed: int, gps: Gps) -> Fixes:
         for second in range(RIDE_S):
             at_mm = begins_mm + 1_000 * SPEED_M_S * second
             number = int(at_mm // STRETCH_MM)
-            found = matched(MATCHING, near(on, number), off(on[number], at_mm, errors, second))
+            found = matched(near(on, number), off(on[number], at_mm, errors, second))
             if is_within(errors, second):
                 within += 1
                 beyond += found.within is None or not found.within.from_mm <= at_mm <= found.within.to_mm
@@ -147,7 +145,7 @@ def off(stretch: Stretch, at_mm: float, errors: tuple[Floats, Floats], second: i
 
 def across_m(on: Sequence[Stretch], point: Point) -> float:
     """How far a point is from the line."""
-    nearest = matched(MATCHING, tuple(on), point).nearest
+    nearest = matched(tuple(on), point).nearest
     return float("inf") if nearest is None else nearest.correction_mm2**0.5 / 1_000
 
 

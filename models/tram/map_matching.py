@@ -51,8 +51,10 @@ def the_tram_is_on_its_line(own: Stretch, part_um: int, length_mm: int) -> bool:
     return 0 <= part_um <= UM_A_MM * own.grows_mm and is_its_length(own, length_mm)
 
 
-def a_fix_is_within_its_error(site: Survey, own: Stretch, part_um: int, length_mm: int, place: Point) -> bool:
-    """Along its stretch, and across it, a fix is no farther than its error from where the tram is (G1, G7).
+def a_fix_is_within_its_error(own: Stretch, part_um: int, length_mm: int, place: Point) -> bool:
+    """Along its stretch, and across it, a fix is no farther than that stretch's error from where the tram is (G1, G7).
+
+    That is where it is as the place is told: the way since the receiver took the fix is part of the error.
 
     The tram is as far along the stretch as its kilometrage.  All is times the stretch's length, and along it times its
     kilometrage in µm too, so nothing is divided.
@@ -60,14 +62,14 @@ def a_fix_is_within_its_error(site: Survey, own: Stretch, part_um: int, length_m
     x_mm, y_mm = place.x_mm - own.start.x_mm, place.y_mm - own.start.y_mm
     at = part_um * (own.east_mm * own.east_mm + own.north_mm * own.north_mm)
     fixed_at = UM_A_MM * own.grows_mm * (x_mm * own.east_mm + y_mm * own.north_mm)
-    most = site.limits.error_mm * length_mm
+    most = own.error_mm * length_mm
     return apart(fixed_at, at) <= UM_A_MM * own.grows_mm * most and (
         apart(y_mm * own.east_mm, x_mm * own.north_mm) <= most
     )
 
 
 def the_table_has_the_line(system: Fixing) -> bool:
-    """The unit's table has every stretch of the line, and the unit looks at all of them (G1)."""
+    """The unit's table has every stretch of the line (G1)."""
     return system.own_taken
 
 
@@ -80,7 +82,7 @@ def run_on(site: Survey, system: Fixing, own: Stretch, part_um: int, length_mm: 
 
 def take_fix(site: Survey, system: Fixing, place: Point) -> Fixing:
     """The unit takes a fix; nothing was looked at yet."""
-    if not a_fix_is_within_its_error(site, system.own, system.part_um, system.length_mm, place):
+    if not a_fix_is_within_its_error(system.own, system.part_um, system.length_mm, place):
         return system
     return replace(
         system, is_fixed=True, found=machine.nothing_found(place), is_new=False, own_taken=False, told_mm=None
@@ -89,14 +91,14 @@ def take_fix(site: Survey, system: Fixing, place: Point) -> Fixing:
 
 def look_at(site: Survey, system: Fixing, stretch: Stretch) -> Fixing:
     """The unit looks at a stretch of its table, in any order, once or again."""
-    return replace(system, foot=machine.foot_on(site.limits, stretch, system.found.place), is_new=True)
+    return replace(system, foot=machine.foot_on(stretch, system.found.place), is_new=True)
 
 
 def take_in(site: Survey, system: Fixing) -> Fixing:
     """It takes in what that stretch says of the fix."""
     return replace(
         system,
-        found=machine.note_foot(site.limits, system.found, system.foot),
+        found=machine.note_foot(system.found, system.foot),
         own_taken=system.own_taken or (system.is_new and system.foot.stretch == system.own),
     )
 
@@ -108,9 +110,9 @@ def tell(site: Survey, system: Fixing) -> Fixing:
     return replace(system, told_mm=machine.place_mm(site.limits, system.found))
 
 
-def stretch_between(start: Point, end: Point, from_mm: int, to_mm: int) -> Stretch:
+def stretch_between(start: Point, end: Point, from_mm: int, to_mm: int, error_mm: int) -> Stretch:
     """Enter a stretch into a table by its two points and their kilometrage (G1)."""
     east_mm, north_mm = end.x_mm - start.x_mm, end.y_mm - start.y_mm
     square_mm2 = east_mm * east_mm + north_mm * north_mm
     length_mm = isqrt(square_mm2 - 1) + 1 if square_mm2 > 0 else 0
-    return Stretch(start, east_mm, north_mm, length_mm, from_mm, to_mm - from_mm)
+    return Stretch(start, east_mm, north_mm, length_mm, from_mm, to_mm - from_mm, error_mm)

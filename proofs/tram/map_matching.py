@@ -51,7 +51,7 @@ def the_tram_is_not_beyond_its_range(site: Survey, system: Fixing) -> bool:
 
 
 def a_place_told_is_within_its_error(site: Survey, system: Fixing) -> bool:
-    """A place that is told is off by no more along the line than is written for it (G1, G2)."""
+    """The kilometrage of a place that is told is off by no more than is written for it (G1, G2)."""
     at_um, told_mm = UM_A_MM * system.own.from_mm + system.part_um, system.told_mm
     return not system.is_fixed or told_mm is None or apart(UM_A_MM * told_mm, at_um) <= UM_A_MM * site.limits.most_mm
 
@@ -88,7 +88,7 @@ def the_fix_is_off_by_no_more(site: Survey, system: Fixing) -> bool:
     own, place = system.own, system.found.place
     if not system.is_fixed or not is_straight(own):
         return True
-    x_mm, y_mm, most = place.x_mm - own.start.x_mm, place.y_mm - own.start.y_mm, site.limits.error_mm * own.length_mm
+    x_mm, y_mm, most = place.x_mm - own.start.x_mm, place.y_mm - own.start.y_mm, own.error_mm * own.length_mm
     at = system.part_um * (own.east_mm * own.east_mm + own.north_mm * own.north_mm)
     fixed_at = UM_A_MM * own.grows_mm * (x_mm * own.east_mm + y_mm * own.north_mm)
     return apart(fixed_at, at) <= UM_A_MM * own.grows_mm * most and (

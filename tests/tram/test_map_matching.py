@@ -27,16 +27,16 @@ from models.tram.map_matching import stretch_between
 MM = st.integers(-(10**9), 10**9)
 POINTS = st.builds(Point, MM, MM)
 NEARBY = st.builds(Point, st.integers(-60, 60), st.integers(-60, 60))
-LIMITS = MatchLimits(error_mm=25_000, most_mm=50_000)
+ERROR_MM = 25_000
 LINE = (
-    stretch_between(Point(0, 0), Point(100_000, 0), 0, 100_000),
-    stretch_between(Point(100_000, 0), Point(100_000, 50_000), 100_000, 150_000),
+    stretch_between(Point(0, 0), Point(100_000, 0), 0, 100_000, ERROR_MM),
+    stretch_between(Point(100_000, 0), Point(100_000, 50_000), 100_000, 150_000, ERROR_MM),
 )
 
 
 def stretch(start: Point, end: Point, from_mm: int, way_mm: int) -> Stretch:
     """A stretch with a kilometrage."""
-    return stretch_between(start, end, from_mm, from_mm + way_mm)
+    return stretch_between(start, end, from_mm, from_mm + way_mm, ERROR_MM)
 
 
 STRETCHES = st.builds(stretch, POINTS, POINTS, MM, st.integers(1, 10**9)).filter(lambda on: on.length_mm > 0)
@@ -45,12 +45,12 @@ SHORT = st.builds(stretch, NEARBY, NEARBY, MM, st.integers(1, 200)).filter(lambd
 
 def projected(on: Stretch, place: Point) -> Matched:
     """Project a place onto a stretch."""
-    return projected_from(foot_on(LIMITS, on, place), place)
+    return projected_from(foot_on(on, place), place)
 
 
 def nearest(line: tuple[Stretch, ...], place: Point, error_mm: int = 25_000) -> Matched | None:
     """The nearest place on a line."""
-    return matched(MatchLimits(error_mm, error_mm), line, place).nearest
+    return matched(tuple(replace(on, error_mm=error_mm) for on in line), place).nearest
 
 
 def test_a_place_beside_the_line_is_put_at_right_angles() -> None:
@@ -65,7 +65,7 @@ def test_a_place_beside_the_line_is_put_at_right_angles() -> None:
 def test_beyond_the_bound_there_is_no_place() -> None:
     assert nearest(LINE, Point(40_000, 25_000)) is not None
     assert nearest(LINE, Point(40_000, 25_001)) is None
-    assert matched(LIMITS, (), Point(0, 0)) == Found(Point(0, 0), True, None, None)
+    assert matched((), Point(0, 0)) == Found(Point(0, 0), True, None, None)
 
 
 def test_beyond_its_ends_a_line_ends() -> None:
@@ -80,7 +80,7 @@ def test_of_two_that_are_as_near_the_first_counts() -> None:
     found = nearest(LINE, Point(100_000, 0), 1_000)
     assert found is not None
     assert found.kilometrage_mm == 100_000
-    twice = (LINE[0], stretch_between(Point(0, 0), Point(100_000, 0), 7, 8))
+    twice = (LINE[0], stretch_between(Point(0, 0), Point(100_000, 0), 7, 8, ERROR_MM))
     again = nearest(twice, Point(50_000, 1_000), 1_000)
     assert again is not None
     assert again.kilometrage_mm == 50_000
@@ -124,24 +124,28 @@ def test_a_match_is_within_the_bound_and_the_nearest(line: list[Stretch], place:
         assert found.correction_mm2 == min(each) <= error_mm**2
 
 
-BENDS = st.lists(st.tuples(st.integers(-400, 400), st.integers(-400, 400), st.integers(1, 900)), min_size=1, max_size=6)
+BENDS = st.lists(
+    st.tuples(st.integers(-400, 400), st.integers(-400, 400), st.integers(1, 900), st.integers(0, 120)),
+    min_size=1,
+    max_size=6,
+)
 
 
-def bent(start: Point, on: list[tuple[int, int, int]]) -> tuple[Stretch, ...]:
+def bent(start: Point, on: list[tuple[int, int, int, int]]) -> tuple[Stretch, ...]:
     """A line from one place to the next, wherever that leads it; each piece of some length."""
     line: list[Stretch] = []
     at, from_mm = start, 0
-    for east_mm, north_mm, grows_mm in on:
+    for east_mm, north_mm, grows_mm, error_mm in on:
         end = Point(at.x_mm + east_mm, at.y_mm + north_mm)
         if end != at:
-            line.append(stretch_between(at, end, from_mm, from_mm + grows_mm))
+            line.append(stretch_between(at, end, from_mm, from_mm + grows_mm, error_mm))
             at, from_mm = end, from_mm + grows_mm
     return tuple(line)
 
 
-@given(BENDS, st.data(), st.integers(0, 120))
+@given(BENDS, st.data())
 def test_the_tram_is_in_the_range_on_a_line_of_any_shape(
-    on: list[tuple[int, int, int]], data: st.DataObject, error_mm: int
+    on: list[tuple[int, int, int, int]], data: st.DataObject
 ) -> None:
     """Wherever on it, and however the fix errs by no more than that; a place that counts is off by no more (G1)."""
     line = bent(Point(0, 0), on)
@@ -149,9 +153,9 @@ def test_the_tram_is_in_the_range_on_a_line_of_any_shape(
     own, share = data.draw(st.sampled_from(line)), data.draw(st.fractions(0, 1))
     x, y = own.start.x_mm + share * own.east_mm, own.start.y_mm + share * own.north_mm
     place = Point(round(x) + data.draw(st.integers(-120, 120)), round(y) + data.draw(st.integers(-120, 120)))
-    assume((place.x_mm - x) ** 2 + (place.y_mm - y) ** 2 <= error_mm**2)
-    limits = MatchLimits(error_mm, most_mm=data.draw(st.integers(0, 600)))
-    found, at_mm = matched(limits, line, place), own.from_mm + share * own.grows_mm
+    assume((place.x_mm - x) ** 2 + (place.y_mm - y) ** 2 <= own.error_mm**2)
+    limits = MatchLimits(data.draw(st.integers(0, 600)))
+    found, at_mm = matched(line, place), own.from_mm + share * own.grows_mm
     assert found.within is not None
     assert found.within.from_mm <= at_mm <= found.within.to_mm
     counted_mm = place_mm(limits, found)
@@ -163,15 +167,15 @@ def test_the_tram_is_in_the_range_on_a_line_of_any_shape(
 
 @given(POINTS, MM, st.integers(0, 10**9))
 def test_what_has_no_length_is_no_stretch(at: Point, from_mm: int, grows_mm: int) -> None:
-    assert not foot_on(LIMITS, stretch_between(at, at, from_mm, from_mm + grows_mm), at).is_sound
-    assert not matched(LIMITS, (*LINE, stretch_between(at, at, from_mm, from_mm + grows_mm)), Point(0, 0)).is_sound
+    assert not foot_on(stretch_between(at, at, from_mm, from_mm + grows_mm, ERROR_MM), at).is_sound
+    assert not matched((*LINE, stretch_between(at, at, from_mm, from_mm + grows_mm, ERROR_MM)), Point(0, 0)).is_sound
 
 
 @given(STRETCHES)
 def test_a_length_is_rounded_up(on: Stretch) -> None:
     assert (on.length_mm - 1) ** 2 < on.east_mm**2 + on.north_mm**2 <= on.length_mm**2
-    assert foot_on(LIMITS, on, Point(0, 0)).is_sound
-    assert not foot_on(LIMITS, replace(on, length_mm=on.length_mm - 1), Point(0, 0)).is_sound
+    assert foot_on(on, Point(0, 0)).is_sound
+    assert not foot_on(replace(on, length_mm=on.length_mm - 1), Point(0, 0)).is_sound
 
 
 @given(MM, st.integers(0, 10**18), st.integers(0, 10**18))

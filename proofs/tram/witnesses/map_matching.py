@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.tram.map_matching import Foot, Matched, MatchLimits, Point, Range, Stretch, nothing_found
+from kernel.tram.map_matching import Foot, Matched, MatchLimits, Point, Range, Stretch, matched, nothing_found
 from models.tram.map_matching import Fixing, Survey, stretch_between
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.map_matching import THEORY
 
-SITE = Survey(MatchLimits(error_mm=15_000, most_mm=20_000))
-EAST = stretch_between(Point(0, 0), Point(100_000, 0), 0, 100_000)
-NORTH = stretch_between(Point(100_000, 0), Point(100_000, 50_000), 100_000, 150_000)
-BACK = stretch_between(Point(100_000, 10_000), Point(0, 10_000), 110_000, 210_000)
-ASKEW = stretch_between(Point(0, 0), Point(30_001, 40_000), 0, 50_100)
+SITE = Survey(MatchLimits(most_mm=20_000))
+ERROR_MM = 15_000
+EAST = stretch_between(Point(0, 0), Point(100_000, 0), 0, 100_000, ERROR_MM)
+NORTH = stretch_between(Point(100_000, 0), Point(100_000, 50_000), 100_000, 150_000, ERROR_MM)
+BACK = stretch_between(Point(100_000, 10_000), Point(0, 10_000), 110_000, 210_000, ERROR_MM)
+ASKEW = stretch_between(Point(0, 0), Point(30_001, 40_000), 0, 50_100, ERROR_MM)
 
 
 class Along(Play[Survey, Fixing]):
@@ -38,10 +39,13 @@ class Along(Play[Survey, Fixing]):
 
     def look(self, *line: Stretch) -> Range | None:
         """Look at stretches of the table; the range found."""
+        before = self.system.found
         for stretch in line:
             self.step("look_at", stretch=stretch)
             assert self.system.is_new
             self.step("take_in")
+        if before == nothing_found(before.place):
+            assert matched(line, before.place) == self.system.found
         return self.system.found.within
 
     def told(self) -> int | None:
@@ -103,19 +107,19 @@ def beyond_its_error_a_line_is_not_found() -> None:
     """Of a fix that is farther from each stretch; the tram's own was not looked at yet (G1)."""
     along = Along()
     for place in (Point(40_000, 15_001), Point(40_000, -15_001), Point(-15_001, 0), Point(115_001, 0)):
-        along.fix(stretch_between(Point(place.x_mm, place.y_mm), Point(0, 900_000), 0, 900_000), 0, place)
+        along.fix(stretch_between(Point(place.x_mm, place.y_mm), Point(0, 900_000), 0, 900_000, ERROR_MM), 0, place)
         assert along.look(EAST) is None
         assert along.system.found.nearest is None
         assert along.told() is None
     for place in (Point(40_000, 15_000), Point(40_000, -15_000), Point(-15_000, 0), Point(115_000, 0)):
-        along.fix(stretch_between(Point(place.x_mm, place.y_mm), Point(0, 900_000), 0, 900_000), 0, place)
+        along.fix(stretch_between(Point(place.x_mm, place.y_mm), Point(0, 900_000), 0, 900_000, ERROR_MM), 0, place)
         assert along.look(EAST) is not None
         assert along.system.found.nearest is not None
 
 
 def a_stretch_of_a_millimetre_is_one() -> None:
     """Also if its kilometrage grows by no more (G1)."""
-    short = stretch_between(Point(0, 0), Point(1, 0), 0, 1)
+    short = stretch_between(Point(0, 0), Point(1, 0), 0, 1, ERROR_MM)
     along = Along(short)
     along.fix(short, 0, Point(-14_999, 0))
     assert along.look(short) == Range(0, 2)
@@ -124,7 +128,7 @@ def a_stretch_of_a_millimetre_is_one() -> None:
     along.fix(short, 1_000, Point(0, 0))
     assert along.look(short) == Range(0, 2)
     assert along.told() == 0
-    along.fix(stretch_between(Point(-15_001, 0), Point(-90_000, 0), 0, 90_000), 0, Point(-15_001, 0))
+    along.fix(stretch_between(Point(-15_001, 0), Point(-90_000, 0), 0, 90_000, ERROR_MM), 0, Point(-15_001, 0))
     assert along.look(short) is None
 
 
@@ -137,10 +141,24 @@ def beside_an_end_it_may_be_there_and_no_place_is_near() -> None:
     assert along.told() is None
 
 
+def in_a_street_canyon_no_place_is_told() -> None:
+    """Fixes of a tram there err by 60 m, and its range says so; far from it the line has its places (G1)."""
+    canyon = stretch_between(Point(100_000, 0), Point(300_000, 0), 100_000, 300_000, 60_000)
+    beyond = stretch_between(Point(300_000, 0), Point(500_000, 0), 300_000, 500_000, ERROR_MM)
+    along = Along()
+    along.fix(canyon, 100_000_000, Point(260_000, 20_000))
+    assert along.look(EAST, canyon, beyond) == Range(200_000, 300_001)
+    assert along.told() is None
+    for at_mm, told in ((350_000, None), (361_000, 361_000)):
+        along.fix(beyond, 1_000 * (at_mm - 300_000), Point(at_mm, 0))
+        along.look(EAST, canyon, beyond)
+        assert along.told() == told
+
+
 def what_is_no_stretch_spoils_the_table() -> None:
     """Without a length, with one that is written too short, or with a kilometrage that does not grow (G1)."""
     for wrong in (
-        stretch_between(Point(0, 0), Point(0, 0), 0, 10_000),
+        stretch_between(Point(0, 0), Point(0, 0), 0, 10_000, ERROR_MM),
         replace(EAST, length_mm=99_999),
         replace(EAST, length_mm=-100_000),
         replace(EAST, grows_mm=0),
@@ -158,7 +176,7 @@ def what_is_no_stretch_spoils_the_table() -> None:
 def a_place_is_told_as_far_as_it_is_known() -> None:
     """20 m to either side and no more, and what was told before does not stay (G1)."""
     for most_mm, told in ((15_001, 40_000), (15_000, None)):
-        along = Along(site=Survey(MatchLimits(error_mm=15_000, most_mm=most_mm)))
+        along = Along(site=Survey(MatchLimits(most_mm)))
         along.fix(EAST, 40_000_000, Point(40_000, 0))
         along.look(EAST)
         assert along.told() == told
@@ -209,6 +227,7 @@ WITNESSES = (
     beyond_its_error_a_line_is_not_found,
     a_stretch_of_a_millimetre_is_one,
     beside_an_end_it_may_be_there_and_no_place_is_near,
+    in_a_street_canyon_no_place_is_told,
     what_is_no_stretch_spoils_the_table,
     a_place_is_told_as_far_as_it_is_known,
     what_nature_does_not_do,
