@@ -11,8 +11,6 @@ from dataclasses import dataclass, field
 from random import Random
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from kernel.crossing import crossing as machine
 from kernel.crossing.crossing import Crossing, CrossingTrack, Settings, Train
@@ -53,6 +51,7 @@ class World:
     closed_s: int = 0
     least_s: int = 10**6
     opened: int = 0
+    failed_inside: int = 0
     life: int = 0
     seen: set[CrossingTrack] = field(default_factory=set)
 
@@ -216,11 +215,9 @@ def test_each_attack_succeeds_against_a_crossing_that_only_begins_closed(attack:
     assert not world.crossing.warns or world.least_s < SETTINGS.least_down_cycles
 
 
-@settings(max_examples=25, deadline=None)
-@given(st.integers(0, 2**32))
-def test_in_drawn_worlds_no_train_finds_the_arms_up(seed: int) -> None:
+def judge_at_random(seed: int) -> World:
     """Power fails at any moment, for seconds or minutes; somebody looks now and then."""
-    chance, world = Random(seed), World()
+    chance, world = Random(f"restarts {seed}"), World()
     for number in range(900):
         clear = {track: all(each.track != track or each.met for each in world.trains) for track in TRACKS}
         for track in TRACKS:
@@ -230,6 +227,7 @@ def test_in_drawn_worlds_no_train_finds_the_arms_up(seed: int) -> None:
                     Vehicle(Train(str(number)) + track, track, START_M + 60, chance.randint(8, MOST_M_S), **stands)  # type: ignore[arg-type]
                 )
         if world.powered and chance.random() < 0.01:
+            world.failed_inside += any(train.inside() for train in world.trains)
             world.fail()
             world.powered = chance.random() < 0.5
         elif not world.powered and chance.random() < 0.05:
@@ -242,6 +240,22 @@ def test_in_drawn_worlds_no_train_finds_the_arms_up(seed: int) -> None:
         assert world.seen == set(TRACKS)
     world.powered = True
     world.judge()
+    return world
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_in_drawn_worlds_no_train_finds_the_arms_up(seed: int) -> None:
+    judge_at_random(seed)
+
+
+def test_power_fails_with_trains_inside() -> None:
+    assert sum(judge_at_random(seed).failed_inside for seed in range(25)) > 25
+
+
+@pytest.mark.slow
+def test_in_a_thousand_drawn_worlds_no_train_finds_the_arms_up() -> None:
+    for seed in range(25, 1_025):
+        judge_at_random(seed)
 
 
 def test_drawn_worlds_open_and_close() -> None:
