@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import sys
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,11 @@ KERNEL_NAMES_REFUSED = {
     *("print", "open", "input", "eval", "exec", "compile", "globals", "locals", "vars", "setattr", "delattr"),
     *("getattr", "__import__", "id", "hash", "object", "breakpoint", "exit", "quit", "float", "complex"),
 }
+NOT_INDEPENDENT = {*MAY_IMPORT, "heisoku", "heisoku_public", "heisoku_start"} - {"kernel"}
+"""What a world that shares nothing with the proofs may not import, directly or by another file of tests."""
+SAYS_IT_IS = "Nothing of models or proofs is in it"
+"""So a file tells of itself that it is such a world."""
+INDEPENDENT = ROOT / "tests" / "independent"
 LINES_OF_A_FUNCTION = 60
 LINES_OF_A_FILE = 500
 
@@ -79,6 +85,48 @@ def wrong_way_imports(room: str, source: str) -> list[str]:
         for line, module in imports(source)
         if module.startswith(".") or (module.split(".")[0] in ROOMS and module.split(".")[0] not in MAY_IMPORT[room])
     ]
+
+
+def listed_worlds(page: str) -> list[Path]:
+    """The files of the worlds in the first column of a table, and of the folders that it names."""
+    cells = [line.split("|")[1] for line in page.splitlines() if line.startswith("| `")]
+    places = [(INDEPENDENT / name).resolve() for cell in cells for name in cell.split("`")[1::2]]
+    return [path for place in places for path in (sorted(place.rglob("*.py")) if place.is_dir() else [place])]
+
+
+@cache
+def imported_files(path: Path) -> frozenset[Path]:
+    """Files of tests that a file imports, each as a module or a name out of it."""
+    names = set[str]()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
+    paths = [ROOT / f"{name.replace('.', '/')}.py" for name in names if name.startswith("tests.")]
+    return frozenset(each for each in paths if each.is_file())
+
+
+def reached(path: Path) -> set[Path]:
+    """A file of tests and all others of them that it imports, by way of each other too."""
+    found, left = set[Path](), [path]
+    while left:
+        here = left.pop()
+        if here not in found:
+            found.add(here)
+            left += imported_files(here)
+    return found
+
+
+def shared_imports(source: str) -> list[str]:
+    """Imports into an independent world of what it is to be independent of."""
+    return [f"line {line}: {module}" for line, module in imports(source) if module.split(".")[0] in NOT_INDEPENDENT]
+
+
+@cache
+def shared_imports_of(path: Path) -> list[str]:
+    """The same of a file, read once for all worlds that reach it."""
+    return shared_imports(path.read_text("utf-8"))
 
 
 def acting_imports(source: str, pure: set[str] | None = None) -> list[str]:
@@ -268,6 +316,28 @@ def test_a_helper_of_another_file_counts_only_if_it_asserts() -> None:
 def test_imports_go_one_way(room: str) -> None:
     offences = {named(path): wrong_way_imports(room, path.read_text("utf-8")) for path in python_files(room)}
     assert {path: lines for path, lines in offences.items() if lines} == {}
+
+
+def test_a_shared_import_is_seen_through_another_file() -> None:
+    for room in ("models.tram", "proofs", "fuzz.campaign", "evidence", "heisoku_public"):
+        assert shared_imports(f"def f():\n    from {room} import x\n") == [f"line 2: {room}"]
+    assert shared_imports("from kernel.tram import centre\nfrom tests.tram import street\n") == []
+    through = reached(ROOT / "tests" / "tram" / "test_two_ways.py")
+    assert {"two_ways.py", "street.py"} <= {path.name for path in through}
+
+
+@pytest.mark.parametrize("path", listed_worlds((INDEPENDENT / "README.md").read_text("utf-8")), ids=named)
+def test_independent_worlds_share_nothing_with_the_proofs(path: Path) -> None:
+    offences = {named(each): shared_imports_of(each) for each in reached(path)}
+    assert {each: lines for each, lines in offences.items() if lines} == {}
+
+
+def test_who_says_that_it_is_independent_is_listed() -> None:
+    listed = listed_worlds((INDEPENDENT / "README.md").read_text("utf-8"))
+    told = {path: ast.get_docstring(ast.parse(path.read_text("utf-8"))) or "" for path in python_files("tests")}
+    says_it = [path for path, text in told.items() if SAYS_IT_IS in text]
+    assert len(says_it) > 5
+    assert [named(path) for path in says_it if path not in {each for world in listed for each in reached(world)}] == []
 
 
 def test_the_kernel_imports_types_and_nothing_that_acts() -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import ast
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,13 +18,6 @@ FEW, MANY = range(20), range(1_000, 2_000)
 def breaches(seeds: range, broken: str = "") -> int:
     """Count wrong tones in so many worlds."""
     return sum(Line(seed, broken).breaches() for seed in seeds)
-
-
-def test_nothing_of_models_or_proofs_is_used() -> None:
-    for path in Path(__file__).parent.glob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.ImportFrom):
-                assert (node.module or "").split(".")[0] not in ("models", "proofs", "fuzz", "evidence")
 
 
 def test_no_tone_is_mild_with_a_train_near() -> None:

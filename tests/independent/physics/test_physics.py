@@ -35,11 +35,6 @@ def imported(path: Path) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize("path", sorted(HERE.glob("*.py")), ids=lambda path: path.name)
-def test_nothing_is_shared_with_the_proof(path: Path) -> None:
-    assert not {name.split(".")[0] for name in imported(path)} & {"models", "proofs", "fuzz", "evidence", "heisoku"}
-
-
 @pytest.mark.parametrize("path", [HERE / "bodies.py", HERE / "faults.py", HERE / "ride.py"], ids=lambda path: path.name)
 def test_the_world_itself_knows_nothing_of_the_kernel(path: Path) -> None:
     assert not {name for name in imported(path) if name.startswith("kernel")}

@@ -52,7 +52,6 @@ FAULTS: list[tuple[type[Calls], str, int, str | None]] = [
 ]
 """A fault, a layout that shows it, the first seed that does, and how the line is run there, if not in any way."""
 HERE = Path(__file__).parent
-READERS = ["raw_graph.py", "raw_native.py", "raw_railjson.py", "raw_table.py", "files.py"]
 TYPES = {"kernel.names", "kernel.layout", "kernel.maps", "kernel.standstill"}
 """What other files may import of the kernel: names, maps, the layout that it is told, and what sensors say."""
 
@@ -67,14 +66,6 @@ def imported(path: Path) -> set[str]:
                 f"{node.module}.{alias.name}" if node.module == "kernel" else str(node.module) for alias in node.names
             }
     return found
-
-
-@pytest.mark.parametrize(
-    "path", [*HERE.glob("*.py"), *(HERE.parent / name for name in READERS)], ids=lambda path: path.name
-)
-def test_nothing_is_shared_with_the_proof(path: Path) -> None:
-    rooms = {name.split(".")[0] for name in imported(path)}
-    assert not rooms & {"models", "proofs", "fuzz", "evidence", "heisoku"}
 
 
 @pytest.mark.parametrize("path", [*HERE.glob("*.py")], ids=lambda path: path.name)
