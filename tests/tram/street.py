@@ -19,7 +19,7 @@ from kernel.tram.stopping import Fix, StopLimits, Stopping
 Table = tuple[Stretch, ...]
 
 FIX_ERROR_MM = 10_000
-MATCH = MatchLimits(FIX_ERROR_MM, 14_000)
+MATCH = MatchLimits(14_000)
 NEAR = StopLimits(30_000, 58_000)
 FIRST_MM, APART_MM = 100_000, 400_000
 STRETCHES, STRETCH_MM = 4, 950_000
@@ -41,6 +41,7 @@ def table_of(corners: list[Point]) -> Table:
             ceil(hypot(end.x_mm - start.x_mm, end.y_mm - start.y_mm)) + 1,
             number * STRETCH_MM,
             STRETCH_MM,
+            FIX_ERROR_MM,
         )
         for number, (start, end) in enumerate(pairwise(corners))
     )
@@ -89,7 +90,7 @@ def unit_begun(way: int, stop: int, now_s: int, starts_s: int) -> Unit:
 
 def note(unit: Unit, table: Table, fix: Point, speed_mm_s: int, now_s: int) -> None:
     """Take a fix on board: match it, find the stop, and show what follows."""
-    unit.place_mm = map_matching.place_mm(MATCH, map_matching.matched(MATCH, table, fix))
+    unit.place_mm = map_matching.place_mm(MATCH, map_matching.matched(table, fix))
     unit.fixed_s = now_s
     is_placed, stop = unit.place_mm is not None, unit.stopping.stop
     taken = Fix(is_placed, unit.place_mm or 0, True, speed_mm_s)
