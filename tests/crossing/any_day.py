@@ -257,7 +257,7 @@ class Day:
 
     def tell_rear(self, body: Body) -> None:
         """A rear past the road is told, late and again: by tags of a train with radio, of any other by the detector."""
-        for name in {body.name} if body.has_radio else body.names:
+        for name in [body.name] if body.has_radio else sorted(body.names):
             number = machine.number_of(self.crossing, name)
             for latest_s in (5, 200):
                 self.say("gone", name, number, latest_s)
@@ -303,7 +303,7 @@ class Day:
     def look(self) -> None:
         """Whom nothing else has told gone a person releases who sees it out; and he sees tracks empty."""
         for body in self.bodies:
-            names = [name for name in body.names if name != body.name or not body.stands_at_signal]
+            names = [name for name in sorted(body.names) if name != body.name or not body.stands_at_signal]
             is_out = not body.is_in_the_approach and (body.met or body.speed_mm_s <= 0)
             body.out_s = body.out_s + 1 if is_out and any(self.asks(name) for name in names) else 0
             if body.out_s > LOOKS_S:
