@@ -97,6 +97,11 @@ def who_stands(centre: Centre, tram: Tram, _is_away: bool, made_ms: int) -> Cent
     return NOTE_ELSEWHERE(centre, tram, True, made_ms)
 
 
+def whenever_it_is_off(centre: Centre, tram: Tram, _stop: int) -> bool:
+    """A tram may come whoever runs faster to there."""
+    return tram not in centre.trams and tram in centre.elsewhere_ms
+
+
 def whoever_asks(_centre: Centre, _tram: Tram, _stop: int) -> bool:
     """A tram may come although it is on the way."""
     return True
@@ -151,6 +156,7 @@ SEEN: list[tuple[Rule, int, tuple[str, ...] | None, str]] = [
     ((dispatcher, "note_elsewhere", any_word), 0, None, "not clear"),
     ((dispatcher, "note_elsewhere", who_stands), 1, None, "not clear"),
     ((dispatcher, "may_come", whoever_asks), 1, None, "not clear"),
+    ((dispatcher, "may_come", whenever_it_is_off), 14, (), "not clear"),
     ((dispatcher, "received", whatever_its_time), 0, None, "of the future"),
     ((dispatcher, "restarted", knows_the_way), 0, ("centres",), "not clear"),
     ((dispatching, "counts", of_any_run), 3, ("numbers",), "not clear"),
