@@ -69,6 +69,14 @@ NOTED: Mapping[str, Mapping[str, str]] = {
         "may_proceed": "what is claimed of an order is claimed of what the unit was told",
         "acknowledged": "what is claimed of a release is claimed of what the driver did",
     },
+    "stopping": {
+        "here": "the stop with which a unit begins is what it is told; that the tram has come to it is assumed"
+    },
+    "crossing": {
+        "newest": "the number with which the crossing starts is what its memory tells it",
+        "asked": "and so is the one by which it asks a person to look",
+        "forgotten_at": "and the one from which a train inside is forgotten",
+    },
     "alarm_tone": {"newest_ms": "the clock that the server reads at its start is what it is told"},
     "alarm_distance": {"received_mm": "a receiver that hangs tells again what it told; that is what the unit was told"},
 }

@@ -39,19 +39,6 @@ class DispatchLimits:
     coming_ms: int
 
 
-def are_lawful(limits: DispatchLimits) -> bool:
-    """Tell whether a line may be run by these limits; if not, its centre is not put into service (G3 to G5)."""
-    return (
-        limits.ahead_hold_ms >= 0
-        and limits.behind_hold_ms >= 0
-        and limits.longest_hold_ms >= 0
-        and limits.recovery_ms >= 0
-        and limits.fresh_ms >= 0
-        and limits.order_ms >= 0
-        and limits.coming_ms >= 0
-    )
-
-
 @dataclass(frozen=True)
 class Known:
     """What the centre knows of a tram on the way (G2, G4, G5).

@@ -27,15 +27,6 @@ class StopLimits:
     held_mm: int
 
 
-def are_lawful(limits: StopLimits, error_mm: int) -> bool:
-    """Tell whether a unit may run by these limits where places err by so much; if not, it is not put to use (G2).
-
-    Near a stop is at least as far as that: else a tram could be told beyond one that it has not come to.  A place is
-    held for what one error to one side, and one to the other, make of it.
-    """
-    return 0 <= error_mm <= limits.near_mm and limits.near_mm + 2 * error_mm <= limits.held_mm
-
-
 @dataclass(frozen=True)
 class Fix:
     """What the unit measured: the place by map matching and the speed, each of them there or not (G1, G2)."""

@@ -35,6 +35,7 @@ __all__ = [
 
 NOT_STEPS = frozenset(
     {
+        "kernel.alarm.limits",
         "kernel.error_correction",
         "kernel.machine.centre",
         "kernel.machine.messages",
@@ -48,6 +49,7 @@ NOT_STEPS = frozenset(
         "kernel.tags",
         "kernel.telegram",
         "kernel.tram.frames",
+        "kernel.tram.limits",
         "models.world.formations",
         "models.world.premises",
         "models.world.start",

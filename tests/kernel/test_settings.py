@@ -9,7 +9,8 @@ from typing import Any
 
 from kernel.alarm.limits import GREATEST_SERVER_MS, is_lawful
 from kernel.crossing import arrival, crossing
-from kernel.tram import dispatching, stopping
+from kernel.tram import stopping
+from kernel.tram.limits import are_lawful, are_lawful_at_stops
 from models.alarm import tone_assumptions
 from models.alarm.line import REGISTER
 from models.alarm.worksite import Railway
@@ -70,21 +71,21 @@ def test_a_register_is_lawful_where_the_premises_hold_and_only_there() -> None:
 
 def test_limits_of_trams_are_lawful_only_where_the_premise_holds() -> None:
     """None of them is below 0 (G3 to G5)."""
-    assert dispatching.are_lawful(LIMITS)
+    assert are_lawful(LIMITS)
     for each in spoilt(LIMITS):
-        assert dispatching.are_lawful(each) == (min(getattr(each, field.name) for field in fields(each)) >= 0)
-        assert not dispatching.are_lawful(each) or a_confirmation_counts_for_some_time(Way(each))
+        assert are_lawful(each) == (min(getattr(each, field.name) for field in fields(each)) >= 0)
+        assert not are_lawful(each) or a_confirmation_counts_for_some_time(Way(each))
 
 
 def test_limits_at_stops_are_lawful_where_the_premises_hold_and_only_there() -> None:
     """By what places err (G2)."""
-    assert stopping.are_lawful(STOP_LIMITS, BOUND_MM)
-    assert not stopping.are_lawful(STOP_LIMITS, BOUND_MM + 1)
+    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM)
+    assert not are_lawful_at_stops(STOP_LIMITS, BOUND_MM + 1)
     verdicts = set()
     for near_mm, held_mm, error_mm in product(range(-1, 4), range(-1, 8), range(-1, 4)):
         limits = stopping.StopLimits(near_mm, held_mm)
         street = Street(limits, error_mm, 0)
-        verdict = stopping.are_lawful(limits, error_mm)
+        verdict = are_lawful_at_stops(limits, error_mm)
         assert verdict == (
             the_place_is_held_for_twice_the_error(street) and near_a_stop_is_no_less_than_the_error(street)
         )

@@ -21,6 +21,7 @@ from kernel.tram.centre import Centre, Command, Tram
 from kernel.tram.cycle import Answer, CycleLimits, Heard
 from kernel.tram.dispatching import DispatchLimits, Known, Report, mark
 from kernel.tram.display import Display
+from kernel.tram.limits import are_lawful, are_lawful_at_stops
 from kernel.tram.map_matching import Found, MatchLimits
 from kernel.tram.stopping import Fix, StopLimits, Stopping
 from tests.tram.street import FIX_ERROR_MM, MATCH, NEAR
@@ -53,8 +54,8 @@ def test_a_thousand_worlds_at_random() -> None:
 
 
 def test_limits_are_lawful_and_errors_as_written() -> None:
-    assert dispatching.are_lawful(LIMITS)
-    assert stopping.are_lawful(NEAR, MATCH.most_mm)
+    assert are_lawful(LIMITS)
+    assert are_lawful_at_stops(NEAR, MATCH.most_mm)
     assert MATCH.most_mm > FIX_ERROR_MM
     assert cycle.slot_begins_ms(CYCLE, cycle.SLOTS) <= cycle.CYCLE_MS
 
