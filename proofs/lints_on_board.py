@@ -75,7 +75,6 @@ NOTED: Mapping[str, Mapping[str, str]] = {
     "crossing": {
         "newest": "the number with which the crossing starts is what its memory tells it",
         "asked": "and so is the one by which it asks a person to look",
-        "forgotten_at": "and the one from which a train inside is forgotten",
     },
     "alarm_tone": {"newest_ms": "the clock that the server reads at its start is what it is told"},
     "alarm_distance": {"received_mm": "a receiver that hangs tells again what it told; that is what the unit was told"},
