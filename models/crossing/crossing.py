@@ -61,24 +61,27 @@ def restart(site: Road, system: Level, number: int) -> Level:
 
 def restarted(site: Road, system: Level, number: int) -> Level:
     """What a start leaves: whoever is inside is forgotten, and whoever is not may be told of again (X3)."""
-    return replace(
+    started = replace(
         system,
+        crossing=restart_crossing(site.settings, site.tracks, number),
+        asked={track: number for track in site.tracks},  # noqa: C420
+        newest=number,
+    )
+    return replace(
+        started,
         bodies={
             train: replace(
                 body,
                 was_struck=False,
                 has_asked=body.has_asked and body.inside,
                 forgotten=body.inside,
-                forgotten_at=number,
+                forgotten_at=started.newest,
             )
             for train, body in system.bodies.items()
         },
         told={},
         starting={},
-        crossing=restart_crossing(site.settings, site.tracks, number),
         accounted=frozenset(),
-        asked={track: number for track in site.tracks},  # noqa: C420
-        newest=number,
         restarted=True,
         unseen=True,
         decided=False,
