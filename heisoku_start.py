@@ -1,10 +1,8 @@
 """Begins the program: finds that its packages are its own, and ends with 3 where it cannot be loaded.
 
 Until it is loaded, and once it has a verdict, an interruption ends it at once and without a word.  So nothing is
-imported here before that is settled but what settles it.
+imported here before that is settled but what settles it: not even how annotations are read.
 """
-
-from __future__ import annotations
 
 import _signal  # type: ignore[import-not-found]  # built in: the rest of signal takes longer to load
 import sys
@@ -82,7 +80,7 @@ def loaded() -> str | None:
     return line
 
 
-def interrupt(number: int, frame: FrameType | None) -> None:
+def interrupt(number: int, frame: "FrameType | None") -> None:
     """Interrupt the program; a moment later where Python would print the exception and go on, as finalisers do.
 
     So do callbacks of the compiler's library (llvmlite).  Its objects and Z3's complain if they are let go half made.
