@@ -11,12 +11,20 @@ GREATEST_SERVER_MS = 3_600_000
 def is_lawful(register: Register) -> bool:
     """Tell whether a register may be used; if not, no handset is given out with it (A1).
 
-    Neither the line's greatest speed nor the error of a train's fix is below zero, nor the time for which a fix is
-    fresh; the server's list is fresh for an hour at most.
+    Nothing in it is below zero, and the server's list is fresh for an hour at most.
     """
+    bounds, fresh = register.bounds, register.fresh
     return (
-        register.bounds.train_mm_s >= 0
-        and register.bounds.train_error_mm >= 0
-        and register.fresh.fix_ms >= 0
-        and register.fresh.server_ms <= GREATEST_SERVER_MS
+        bounds.train_mm_s >= 0
+        and bounds.worker_mm_s >= 0
+        and bounds.length_mm >= 0
+        and bounds.train_error_mm >= 0
+        and bounds.worker_error_mm >= 0
+        and bounds.turning_ms >= 0
+        and fresh.fix_ms >= 0
+        and fresh.display_ms >= 0
+        and 0 <= fresh.server_ms <= GREATEST_SERVER_MS
+        and fresh.worker_ms >= 0
+        and register.display_error_mm >= 0
+        and register.tolerance_mm >= 0
     )

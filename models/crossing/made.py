@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from kernel.crossing import arrival, crossing, end_point, promise, start_point
-from kernel.crossing.arrival import Followed, Ranging
+from kernel.crossing.arrival import Ranging
 from kernel.crossing.crossing import Crossing, CrossingTrack, Due, Train
 from kernel.maps import Map
 from kernel.restarts import restart_crossing
@@ -15,7 +15,6 @@ from models.crossing.traffic import TRACKS
 
 MADE = compile_machines([arrival, crossing, end_point, promise, start_point])
 NOTHING = packed(Ranging(False, 0, 0, 0))
-UNKNOWN = packed(Followed(0, 0, 0, 10**6, 0, 0, False))
 """Of a train of which there is no ranging; the ceiling is to be told."""
 OPEN = Crossing(
     asks={}, starts={}, silent_cycles={}, unaccounted={}, numbers={}, looks={}, number=0, warns=False, warned_cycles=0

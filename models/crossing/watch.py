@@ -16,7 +16,7 @@ from models.crossing.columns import ASSUMPTIONS, CLAIMS, MONITORS, NUMBER
 from models.crossing.end_points import has_left
 from models.crossing.faults import KIND
 from models.crossing.judging import judge_decision, judge_end, judge_trains, old_crossing
-from models.crossing.made import MADE, NO_DUES, OPEN, STARTS, UNKNOWN
+from models.crossing.made import MADE, NO_DUES, OPEN, STARTS
 from models.crossing.motion import (
     COMES_UM,
     GOES_M,
@@ -38,6 +38,7 @@ from models.crossing.traffic import NEVER, SECONDS, TRACKS, Day, Records
 counts, taken, aged_train = MADE.arrival.counts, MADE.arrival.taken, MADE.arrival.aged
 follow, contradicts, decide = MADE.arrival.follow, MADE.arrival.contradicts, MADE.crossing.decide
 begins_contact, has_turned_back = MADE.arrival.begins_contact, MADE.arrival.has_turned_back
+nothing_known = MADE.arrival.nothing_known
 note_contact, note_heard, note_empty = MADE.crossing.note_contact, MADE.crossing.note_heard, MADE.crossing.note_empty
 look_of, note_missed, may_start = MADE.crossing.look_of, MADE.crossing.note_missed, MADE.crossing.may_start
 due_of, aged, are_to_be_down = MADE.crossing.due, MADE.crossing.aged, MADE.crossing.arms_are_to_be_down
@@ -201,7 +202,7 @@ def follow_train(
         run[train].contact = 1
         crossing = note_contact(crossing, train)
         forget_promise(run, line, train, day.trains[train].local)
-        known = taken(bounds, take_promise(bounds, run, train, UNKNOWN, told), told)
+        known = taken(bounds, take_promise(bounds, run, train, nothing_known(bounds), told), told)
     else:
         held = take_promise(bounds, run, train, followed_of(run, train), told)
         out[CONTRADICTED] += run[train].arrived_s < 0 and contradicts(bounds, held, told)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kernel.tram.dispatching import DispatchLimits
+from kernel.tram.limits import are_lawful, are_lawful_at_stops
 from models.days.system import Numbers, System
 from models.tram import tally
 from models.tram.deciding import (
@@ -17,7 +18,8 @@ from models.tram.deciding import (
     take_off_by_hand,
 )
 from models.tram.faults import FAULTS
-from models.tram.given import LIMITS, NO_PLANT, Given, given, other_way
+from models.tram.given import LIMITS, NO_PLANT, STOP_LIMITS, Given, given, other_way
+from models.tram.gps import BOUND_MM
 from models.tram.line import (
     AWAY_S,
     CLOSE_S,
@@ -222,6 +224,8 @@ def one_day(
     beyond: tuple[str, ...] = (),
 ) -> tuple[Numbers, Given, Whole]:
     """Simulate a day: its row, what it was given, and when each run left each stop; ``beyond``: faults besides."""
+    assert are_lawful(limits)
+    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM)
     chance, apart = np.random.default_rng((seed, number)), np.random.default_rng((seed, number, 2))
     day, drawn = given(chance, apart, limits, present, plant, frozenset(beyond))
     back = other_way(day, apart)

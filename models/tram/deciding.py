@@ -60,7 +60,6 @@ from models.tram.telling import (
     LATEST_S,
     contradicts,
     display_of,
-    is_behind,
     is_in_reach,
     is_lost,
     keep_display,
@@ -181,7 +180,7 @@ def view_of(limits: Any, traffic: Traffic, tram: int, own: Any, now_ms: int) -> 
             continue
         known = known_of(traffic.trams[other])
         if other != tram:
-            is_out = has_passed(own, known) or is_behind(traffic, tram, other)
+            is_out = has_passed(own, known) or traffic.shown[tram, other] == 1
             clear = clear and is_out and not contradicts(traffic, tram, other)
             present = present or is_seen_in_the_way(limits, now_ms, own, known)
         left_ms = traffic.left_ms[other, own.stop]

@@ -48,7 +48,6 @@ BOUNDS = ArrivalBounds(
     4 * OFF_MM,
     4 * OFF_MM_S + GAIN_MM_S2 + BRAKES_MM_S2,
 )
-NOTHING_KNOWN = Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False)
 LOOKS_S, LATE_S, WHOLE_S = 60, 30, 1_500
 """For so long people look, and so late their word may come; longer than that no day lasts."""
 BEYOND = Signal("beyond the road, before it for who comes back")
@@ -216,7 +215,7 @@ class Day:
             ceilings.begin_contact(body)
         if body.promises:
             ceilings.tell(body, self.now_s)
-        known, heard = ceilings.note(self.more, BOUNDS, body, body.followed or NOTHING_KNOWN)
+        known, heard = ceilings.note(self.more, BOUNDS, body, body.followed or arrival.nothing_known(BOUNDS))
         return (arrival.taken if begins else arrival.follow)(BOUNDS, known, told), heard
 
     def is_let_go(self, body: Body, now: Followed, told: Ranging) -> bool:

@@ -171,7 +171,7 @@ class Two:
             return {}
         road.crossing = machine.note_contact(road.crossing, STANDS)
         told = Ranging(True, way_mm, self.speed_mm_s, 0)
-        known = road.followed or Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False)
+        known = road.followed or arrival.nothing_known(BOUNDS)
         now = arrival.taken(BOUNDS, known, told) if road.followed is None else arrival.follow(BOUNDS, known, told)
         road.followed = arrival.aged(BOUNDS, now)
         return {STANDS: machine.due(BOUNDS, now, SETTINGS.reopening_cycles)}

@@ -123,7 +123,7 @@ class World(Road):
         if not self.radio or self.gone or self.started_s < 0 or self.way_mm <= 0:
             return {}
         self.crossing = machine.note_contact(self.crossing, TURNS)
-        known = self.followed or Followed(0, 0, BOUNDS.line_um, 10**6, 0, 0, False)
+        known = self.followed or arrival.nothing_known(BOUNDS)
         told = Ranging(True, self.way_mm, self.speed_mm_s, 0)
         now = arrival.taken(BOUNDS, known, told) if self.followed is None else arrival.follow(BOUNDS, known, told)
         self.followed = arrival.aged(BOUNDS, now)
