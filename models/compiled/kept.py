@@ -13,9 +13,10 @@ import os
 import pickle
 import secrets
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
-from functools import cache
+from functools import cache, reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
@@ -35,6 +36,8 @@ core: Any = numba_core
 DIGEST_BYTES = hashlib.sha256().digest_size
 UNUSED_S = 30 * 24 * 3_600
 """What nobody has read for so long is deleted."""
+Place = tuple[int, ...]
+"""Where among arguments something is: which argument; if that is a tuple, which of its members; and so on."""
 
 
 @overload
@@ -159,11 +162,14 @@ class _Pickler(NumbaPickler):
 
     arguments: Sequence[Any]
 
-    def persistent_id(self, value: Any) -> int | None:
+    def persistent_id(self, value: Any) -> Place | None:
         """The place of a function among the arguments."""
         if not isinstance(value, core.types.Dispatcher):
             return None
-        return list(self.arguments).index(value)
+        for place, each in _functions(self.arguments):
+            if each == value:
+                return place
+        raise pickle.PicklingError(f"{value} is not among the arguments")
 
 
 class _Unpickler(pickle.Unpickler):
@@ -173,7 +179,17 @@ class _Unpickler(pickle.Unpickler):
 
     def persistent_load(self, place: Any) -> Any:
         """The function that is now in its place."""
-        return self._arguments[place]
+        return reduce(getitem, place, self._arguments)
+
+
+def _functions(arguments: Iterable[Any], within: Place = ()) -> Iterator[tuple[Place, Any]]:
+    """Every function among arguments, and in tuples among them however deep, with its place."""
+    for number, each in enumerate(arguments):
+        place = (*within, number)
+        if isinstance(each, core.types.Dispatcher):
+            yield place, each
+        elif isinstance(each, core.types.BaseTuple):
+            yield from _functions(each, place)
 
 
 name_apart()

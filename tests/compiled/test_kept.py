@@ -175,6 +175,47 @@ def test_what_is_read_is_not_taken_for_what_is_named_alike_here(tmp_path: Path) 
     assert answer(started(NAMED_ALIKE.replace("BY", "(3, 4, 3)"), tmp_path)) == [16, 21, 16]
 
 
+WITHIN_TUPLES = """
+import json
+from numba.core import event
+from models.compiled import compiled
+
+again = []
+class Noted(event.Listener):
+    def on_start(self, event):
+        again.append(event.data["dispatcher"].py_func.__name__)
+    def on_end(self, event):
+        pass
+event.register("numba:compile", Noted())
+
+def function(name, said, **around):
+    names = {"__name__": "models.compiled.machines", **around}
+    exec(f"def {name}(value, first=None, others=None):\\n    return {said}", names)
+    return compiled(names[name])
+
+first, second, third = (function(f"times_{by}", f"value * {by}") for by in (2, 3, 5))
+chosen = function("chosen", "others[2][1]")
+inner = function("inner", "first(value) + others[1](value)")
+outer = function("outer", "inner(value, first, others) - chosen(value, first, others)(value) + MORE",
+                 inner=inner, chosen=chosen)
+print(json.dumps([outer(10, first, (7, second, (8, third))), sorted(set(again))]))
+"""
+"""Functions given as an argument, in a tuple and in a tuple within it; and those for which nothing was kept."""
+
+
+def test_what_takes_functions_within_tuples_is_read(tmp_path: Path) -> None:
+    """Each is the one in its place, also where it is what a function that was read gives to one compiled anew."""
+    run = WITHIN_TUPLES.replace("MORE", "0")
+    found, names = answer(started(run, tmp_path))
+    assert found == 2 * 10 + 3 * 10 - 5 * 10
+    assert names == ["chosen", "inner", "outer", "times_2", "times_3", "times_5"]
+    files = kept(tmp_path)
+    assert len(files) == len(names)
+    assert answer(started(run, tmp_path)) == [found, []]
+    assert kept(tmp_path) == files
+    assert answer(started(WITHIN_TUPLES.replace("MORE", "1"), tmp_path)) == [found + 1, ["outer"]]
+
+
 # ---- what a digest tells apart
 
 BASE = "def f(x):\n    return g(x) + TABLE[0] + LIMITS.least if x < LIMIT else -1\n\ndef g(x):\n    return x * 3\n"
