@@ -102,20 +102,15 @@ def hear_of_starts(day: Any, run: Any, line: Any, train: int, now: int, crossing
 
 
 @compiled
-def talk(
-    day: Any, road: Any, line: Any, train: int, now: int, crossing: Any, settings: Any, signals: Any, lets: Any
-) -> Any:
-    """Let a train that stands beyond the road promise, ask and be let go, and start once it hears so (X4, X5).
-
-    ``lets``: the crossing's way to tell whom it lets go.
-    """
+def talk(day: Any, road: Any, line: Any, train: int, now: int, crossing: Any, machines: Any) -> Any:
+    """Let a train that stands beyond the road promise, ask and be let go, and start once it hears so (X4, X5)."""
     run, out = road.run, road.out
     if not turns_beyond(day, train) or run[train].stood_s == 0:
         return crossing
     if run[train].is_back == 1:
         if now > run[train].started_s + LATEST_S or run[train].starts_s == NEVER:
             return crossing
-        return hear_of_starts(day, run, line, train, now, crossing, signals, out)
+        return hear_of_starts(day, run, line, train, now, crossing, machines.signals, out)
     has_changed_ends = run[train].stood_s > day.trains[train].trick_s
     if day.trains[train].trick == UNASKED:
         if has_changed_ends:
@@ -125,13 +120,13 @@ def talk(
     if has_changed_ends and run[train].cleared == 1 and run[train].starts_s == NEVER:
         run[train].asked_s = NEVER
         run[train].starts_s = now
-    crossing = hear_of_starts(day, run, line, train, now, crossing, signals, out)
+    crossing = hear_of_starts(day, run, line, train, now, crossing, machines.signals, out)
     if 0 <= run[train].go_s <= now:
         is_heard = day.trains[train].radio == 0 or not day.on[RADIO_OUT]
         run[train].go_s = NEVER
         if is_heard:
             turn(run, line, day.trains[train].local, train, now, out)
             return crossing
-    if run[train].go_s == NEVER and not has_no_power(day) and lets(settings, crossing, train):
+    if run[train].go_s == NEVER and not has_no_power(day) and machines.lets(machines.settings, crossing, train):
         run[train].go_s = now + 1 + lag_s(day, train, now)
     return crossing

@@ -68,10 +68,10 @@ class Machines(NamedTuple):
     notes: Any = note_heard
     misses: Any = note_missed
     lets: Any = may_start
+    signals: Any = packed(SIGNALS)
 
 
 MACHINES = Machines()
-SIGNALS_MADE = packed(SIGNALS)
 
 
 def watched(trial: Trial, day: Day, out: Any, machines: Machines = MACHINES) -> Records:
@@ -80,17 +80,15 @@ def watched(trial: Trial, day: Day, out: Any, machines: Machines = MACHINES) -> 
     first = road_of(0, day, line, out)
     window = day.faults[CLOSE_ROADS]
     if window["begin_s"] == NEVER:
-        live(day, day, first, first, 0, line, *machines, SIGNALS_MADE, packed(OPEN), STARTS, NO_DUES)
+        live(day, day, first, first, 0, line, machines, packed(OPEN), STARTS, NO_DUES)
         return first.run
     trains = day.trains.copy()
     trains["promises"] = 0
     beside = np.zeros_like(out)
     second = road_of(1, day, line, beside)
     apart_um = round(1e6 * window["size"])
-    live(
-        day, day._replace(trains=trains), first, second, apart_um, line, *machines, SIGNALS_MADE, packed(OPEN), STARTS,
-        NO_DUES,
-    )  # fmt: skip
+    there = day._replace(trains=trains)
+    live(day, there, first, second, apart_um, line, machines, packed(OPEN), STARTS, NO_DUES)
     out[JUDGED] += beside[JUDGED]
     out[ARRIVALS_BESIDE] += beside[ARRIVALS]
     out[CLOSED_BESIDE] += beside[CLOSED]
@@ -189,7 +187,7 @@ def start_mm(line: Any, kind: Any) -> Any:
 
 @compiled
 def follow_train(
-    day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, settings: Any, turns: Any, out: Any
+    day: Any, run: Any, line: Any, train: int, now: int, crossing: Any, dues: Any, machines: Any, out: Any
 ) -> Any:
     """Take a train's ranging, reckon, and answer when it is due; or let it go (X1, X2, X4)."""
     told = ranging(day, run, line, train, now, out)
@@ -207,7 +205,7 @@ def follow_train(
         held = take_promise(bounds, run, train, followed_of(run, train), told)
         out[CONTRADICTED] += run[train].arrived_s < 0 and contradicts(bounds, held, told)
         known = follow(bounds, held, told)
-        if turns(bounds, known, told, start_mm(line, day.trains[train].local)):
+        if machines.turns(bounds, known, told, start_mm(line, day.trains[train].local)):
             return let_go(day, run, line, train, now, crossing, out)
     if known.age_cycles > bounds.silence_cycles and run[train].lost == 0:
         run[train].lost = 1
@@ -215,7 +213,7 @@ def follow_train(
     if run[train].likely_s < 0 and likely(day, run, line, train, told):
         run[train].likely_s = now
     known = answer_ask(bounds, run, train, known)
-    dues.append((train, due_of(bounds, known, settings.reopening_cycles)))
+    dues.append((train, due_of(bounds, known, machines.settings.reopening_cycles)))
     later = aged_train(bounds, known)
     run[train].near_um, run[train].short_um, run[train].ceiling_um = later.way_um, later.short_um, later.ceiling_um
     run[train].followed_way_mm, run[train].followed_mm_s = later.told_way_mm, later.told_speed_mm_s
@@ -234,27 +232,21 @@ def tell(
     now: int,
     crossing: Any,
     dues: Any,
-    settings: Any,
-    hears: Any,
-    turns: Any,
-    notes: Any,
-    misses: Any,
-    lets: Any,
-    signals: Any,
+    machines: Any,
 ) -> Any:
     """Tell the crossing all of a track, once its start points have been struck (X1 to X4)."""
     run, out = road.run, road.out
-    crossing = hear(day, road, window, track, now, crossing, notes, misses)
+    crossing = hear(day, road, window, track, now, crossing, machines.notes, machines.misses)
     for train in range(window[track, 0], window[track, 1]):
         if run[train].state != UNDER_WAY:
             continue
-        crossing = prove_rear(day, road, other, line, train, track, now, crossing, hears)
-        crossing = talk(day, road, line, train, now, crossing, settings, signals, lets)
+        crossing = prove_rear(day, road, other, line, train, track, now, crossing, machines.hears)
+        crossing = talk(day, road, line, train, now, crossing, machines)
         in_reach = run[train].way_um <= day.trains[train].contact_um
         if run[train].gone == 0 and day.trains[train].radio == 1 and in_reach:
             if day.trains[train].promises == 1:
                 promises(day, run, line, train, now, out)
-            crossing = follow_train(day, run, line, train, now, crossing, dues, settings, turns, out)
+            crossing = follow_train(day, run, line, train, now, crossing, dues, machines, out)
     return crossing
 
 
@@ -285,15 +277,7 @@ def decide_at(
     window: Any,
     moment: Any,
     now: int,
-    decides: Any,
-    settings: Any,
-    reads: Any,
-    hears: Any,
-    turns: Any,
-    notes: Any,
-    misses: Any,
-    lets: Any,
-    signals: Any,
+    machines: Any,
     start: Any,
     dues: Any,
 ) -> Any:
@@ -301,18 +285,15 @@ def decide_at(
     crossing, before = moment.crossing, moment.crossing
     dues.clear()
     for track in range(TRACKS):
-        strikes(day, road.run, line, window, road.points, track, now, reads, road.out)
-        crossing = tell(
-            day, road, other, line, window, track, now, crossing, dues, settings, hears, turns, notes, misses, lets,
-            signals,
-        )  # fmt: skip
+        strikes(day, road.run, line, window, road.points, track, now, machines.reads, road.out)
+        crossing = tell(day, road, other, line, window, track, now, crossing, dues, machines)
         road.unheard[track] = road.unheard[track] + 1 if is_silent(day, track, now) else 0
     if has_no_power(day):
         forget(day, road.run, window, now, road.out)
         dues.clear()
         crossing, road.unseen[:] = start, somebody_comes_s(day)
     crossing = account(day, road.run, window, road.unseen, now, crossing, road.out)
-    crossing = decides(settings, crossing, dues)
+    crossing = machines.decides(machines.settings, crossing, dues)
     told = Moment(
         crossing, moment.warned, moment.lowered, moment.down, moment.opened, moment.arrivals, moment.held,
         moment.old_on, moment.old_off_s,
@@ -361,15 +342,7 @@ def live(
     second: Any,
     apart_um: int,
     line: Any,
-    decides: Any,
-    settings: Any,
-    reads: Any,
-    hears: Any,
-    turns: Any,
-    notes: Any,
-    misses: Any,
-    lets: Any,
-    signals: Any,
+    machines: Any,
     crossing: Any,
     starts: Any,
     dues: Any,
@@ -393,15 +366,9 @@ def live(
             if apart_um > 0:
                 see_from_there(first.run, second.run, window, track, apart_um)
         start = starts[left_out(day, now)]
-        moment = decide_at(
-            day, first, second, line, window, moment, now, decides, settings, reads, hears, turns, notes, misses, lets,
-            signals, start, dues,
-        )  # fmt: skip
+        moment = decide_at(day, first, second, line, window, moment, now, machines, start, dues)
         if apart_um > 0:
-            beside = decide_at(
-                there, second, first, line, window, beside, now, decides, settings, reads, hears, turns, notes, misses,
-                lets, signals, start, dues,
-            )  # fmt: skip
+            beside = decide_at(there, second, first, line, window, beside, now, machines, start, dues)
         begun = window.copy()
         for track in range(TRACKS):
             run_trains(day, first.run, second.run, line, window, track, first.out)
