@@ -34,6 +34,7 @@ from tests.crossing.bodies import (
     Body,
     drawn,
     drive,
+    hurried,
 )
 from tests.crossing.road import DOWN, SETTINGS, UP, restarted
 from tests.crossing.terminals import NOBODY, TAG_MM, Terminal
@@ -78,7 +79,8 @@ class Found:
 class Day:
     """A road, its trains, and the time at which the last decision was taken.
 
-    ``alone``: one train that promises, and no other; so nobody else closes the road.
+    ``alone``: one train that promises, and no other; so nobody else closes the road.  ``hurries``: so does one alone,
+    that runs slowly up to the road and asks to go faster only shortly before it.
     ``more``: what comes beside rangings is drawn from.  ``dark``: the seconds without power.
     ``asked``: who has asked for the warning and is not out yet.
     ``air``: words of tails and people under way: when they come, of which train or track, and its number.
@@ -86,6 +88,7 @@ class Day:
 
     number: int
     alone: bool = False
+    hurries: bool = False
     bodies: list[Body] = field(default_factory=list)
     found: Found = field(default_factory=Found)
     now_s: int = 0
@@ -106,11 +109,13 @@ class Day:
         if self.alone:
             self.bodies = [self.more.choice(self.bodies)]
             self.bodies[0].promises = self.bodies[0].has_radio = True
+        if self.hurries:
+            self.bodies = [hurried(Random(f"hurries on any day {self.number}"))]
         self.owner = {body.name: body for body in self.bodies}
         first_s = self.chance.randint(20, 500)
         fails = (first_s, first_s + self.chance.randint(30, 400))
         self.dark = {fail_s + second for fail_s in fails for second in range(self.chance.randint(1, 30))}
-        if self.alone or self.more.random() < 0.4:
+        if self.alone or self.hurries or self.more.random() < 0.4:
             self.dark = set()
         elif self.more.random() < 0.7:
             self.dark.add(self.more.randint(20, 90))
@@ -118,6 +123,8 @@ class Day:
         for track in (UP, DOWN):
             self.crossing = machine.note_empty(self.crossing, track, machine.look_of(self.crossing, track))
             silent, dark = self.out(track, (0, 0, 10, 100)), self.out(track, (0, 0, 1, 30))
+            if self.hurries:
+                silent = dark = range(0)
             self.terminals[track] = Terminal(track, silent, dark)
 
     def out(self, track: CrossingTrack, lasts_s: tuple[int, ...]) -> range:
@@ -362,17 +369,17 @@ class Day:
         self.found.open_s += not self.crossing.warns
 
 
-def played(number: int, alone: bool = False) -> Found:
-    day = Day(number, alone)
+def played(number: int, alone: bool = False, hurries: bool = False) -> Found:
+    day = Day(number, alone, hurries)
     while day.now_s < WHOLE_S and not all(body.is_done for body in day.bodies):
         day.cycle()
     day.found.counts["arrived"] += sum(body.met or body.comes_back for body in day.bodies)
     return day.found
 
 
-def judge(number: int, alone: bool = False) -> Found:
+def judge(number: int, alone: bool = False, hurries: bool = False) -> Found:
     """Full warning and arms down before each arrival, and nobody faster than the crossing holds it to be."""
-    found = played(number, alone)
+    found = played(number, alone, hurries)
     assert alone or found.warned_ms
     assert min(found.warned_ms, default=10**6) >= SETTINGS.cycle_ms * SETTINGS.warning_cycles
     assert min(found.lowered_ms, default=10**6) >= SETTINGS.cycle_ms * (

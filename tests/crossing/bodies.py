@@ -10,7 +10,7 @@ from random import Random
 
 from kernel.crossing.arrival import Followed
 from kernel.crossing.crossing import CrossingTrack, Train
-from kernel.crossing.promise import Promise, nothing_promised
+from kernel.crossing.promise import Promise, lower, nothing_promised
 from tests.crossing.road import DOWN, SETTINGS, UP
 
 LINE_MM_S, GAIN_MM_S2, BRAKES_MM_S2, LENGTH_MM, APART_MM = 28_000, 950, 800, 120_000, 400_000
@@ -44,6 +44,7 @@ class Body:
     ``told``: what it has told in this contact.  ``heard``: the acknowledgements under way to it, and when they come.
     ``heeds``: its driver heeds the ceiling; any other meets the brake.
     ``means_mm_s``: as fast as it means to run until it is ``asks_mm`` before the road; from there on it asks for more.
+    ``hurries``: it asks at once then, for nearly all that the line allows, and does not promise less again.
     ``names``: by which the crossing may know it.
     ``out_s``: for how long it has been out of the approach, though the crossing knows it.
     """
@@ -61,6 +62,7 @@ class Body:
     promises: bool = False
     heeds: bool = True
     asks_mm: int = 0
+    hurries: bool = False
     means_mm_s: int = LINE_MM_S
     off: range = range(0)
     speed_mm_s: int = 15_000
@@ -222,3 +224,27 @@ def draw_more(more: Random, body: Body, is_last: bool) -> None:
     if body.promises and more.random() < 0.5:
         off_s = more.randint(10, 300)
         body.off = range(off_s, off_s + more.randint(1, 20))
+
+
+def hurried(chance: Random) -> Body:
+    """One that has promised to run slowly, and asks to go faster where it may already be too late for that."""
+    means_mm_s = chance.randint(LEAST_MM_S, LEAST_MM_S * 3 // 2)
+    ceiling_mm_s = means_mm_s + ODOMETRY_MM_S + RESPONDS_MM_S
+    return Body(
+        name=Train("hurries"),
+        track=UP,
+        way_mm=START_MM + chance.randint(300_000, 800_000),
+        has_radio=True,
+        stops_mm=0,
+        stands_s=0,
+        to_and_fro_s=0,
+        unheard=range(0),
+        promises=True,
+        heeds=chance.random() < 0.5,
+        asks_mm=chance.randint(400_000, 800_000),
+        hurries=True,
+        means_mm_s=means_mm_s,
+        speed_mm_s=means_mm_s,
+        held=lower(nothing_promised(LINE_MM_S), ceiling_mm_s, means_mm_s),
+        names={Train("hurries")},
+    )

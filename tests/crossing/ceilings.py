@@ -17,7 +17,8 @@ from tests.crossing.road import SETTINGS
 def promise_and_ask(chance: Random, body: Body, now_s: int, counts: Counter[str]) -> None:
     """Take the acknowledgements that have come; promise less, whatever the speed is, or ask for more.
 
-    One that stands far before the road promises to stand, and asks to run when its time there is over.
+    One that stands far before the road promises to stand, with its brake on already, and asks to run when its time
+    there is over.
     """
     body.upper_mm_s = max(0, body.speed_mm_s) + chance.randint(0, ODOMETRY_MM_S)
     if now_s in body.off:
@@ -32,15 +33,22 @@ def promise_and_ask(chance: Random, body: Body, now_s: int, counts: Counter[str]
         if body.stands_s == 0 and body.held.asked_mm_s == 0:
             body.held = promise.ask(LINE_MM_S, body.held, LINE_MM_S)
     elif body.speed_mm_s == 0 and body.stands_s in range(3, 20) and body.way_mm > FAR_MM - 100_000:
-        body.held = promise.lower(body.held, 0, 0)
+        body.held, body.brakes = promise.lower(body.held, 0, 0), True
         counts["promised to stand"] += 1
-    elif chance.random() < (0.04 if body.held.asked_mm_s == body.held.ceiling_mm_s else 0.01):
+    elif not body.hurries and chance.random() < (0.04 if body.held.asked_mm_s == body.held.ceiling_mm_s else 0.01):
         lower_mm_s = chance.randint(LEAST_MM_S, max(LEAST_MM_S, body.held.ceiling_mm_s))
         body.held = promise.lower(body.held, lower_mm_s, body.upper_mm_s + RESPONDS_MM_S)
         counts["lowered"] += body.held.number > was.number
-    elif body.way_mm < body.asks_mm and chance.random() < 0.06 and body.held.asked_mm_s == body.held.ceiling_mm_s:
-        body.held = promise.ask(LINE_MM_S, body.held, chance.randint(LEAST_MM_S, LINE_MM_S))
+    elif asks_now(chance, body):
+        least_mm_s = LINE_MM_S * 9 // 10 if body.hurries else LEAST_MM_S
+        body.held = promise.ask(LINE_MM_S, body.held, chance.randint(least_mm_s, LINE_MM_S))
         counts["asked"] += body.held.number > was.number
+
+
+def asks_now(chance: Random, body: Body) -> bool:
+    """Tell whether it asks to go faster in this second: near enough, and with no ask that stands."""
+    nears = body.way_mm < body.asks_mm and chance.random() < (0.5 if body.hurries else 0.06)
+    return nears and body.held.asked_mm_s == body.held.ceiling_mm_s
 
 
 def tell(body: Body, now_s: int) -> None:

@@ -1,7 +1,8 @@
 """Trains that promise ceilings on any day at a road: judged by the truth, with single rules left out (X2).
 
 Beside all else trains of these days promise, ask, and hear acknowledgements that come late, again, or never; the
-crossing restarts, and so do computers on board.  Days with one train show what others would hide by their warnings.
+crossing restarts, and so do computers on board.  Days with one train show what others would hide by their warnings,
+and those with one that hurries what an acknowledgement shortly before the road does.
 """
 
 from __future__ import annotations
@@ -13,9 +14,12 @@ from typing import Any
 
 import pytest
 
+from kernel.crossing import crossing as machine
 from kernel.crossing import promise
+from kernel.crossing.arrival import ArrivalBounds, Followed
+from kernel.crossing.crossing import Due
 from kernel.crossing.promise import NONE, Promise
-from tests.crossing.any_day import judge, played
+from tests.crossing.any_day import SETTINGS, Found, judge, played
 
 DAYS = 20
 
@@ -26,10 +30,17 @@ def test_a_train_that_promises_and_no_other(number: int) -> None:
     judge(number, alone=True)
 
 
+@pytest.mark.parametrize("number", range(DAYS))
+def test_a_train_that_asks_to_go_faster_shortly_before_the_road(number: int) -> None:
+    """It has come slowly, for as long as the road may stay open, and gains what it can once it is let go."""
+    assert judge(number, hurries=True).counts["asked"]
+
+
 @pytest.mark.slow
 def test_a_thousand_trains_that_promise_and_no_other() -> None:
     for number in range(DAYS, DAYS + 1_000):
         judge(number, alone=True)
+        judge(number, hurries=True)
 
 
 @pytest.mark.parametrize("alone", [True, False])
@@ -87,5 +98,29 @@ def test_a_rule_that_is_left_out_is_seen(
     """By a train to which it matters; with the rule it is as any other."""
     judge(number, alone=True)
     monkeypatch.setattr(module, rule, wrong)
-    found = played(number, alone=True)
-    assert found.beyond_ceiling or min(found.warned_ms, default=10**6) < 35_000
+    assert is_broken(played(number, alone=True))
+
+
+def is_broken(found: Found) -> bool:
+    warned_ms = min(found.warned_ms, default=10**6)
+    return found.beyond_ceiling > 0 or warned_ms < SETTINGS.cycle_ms * SETTINGS.warning_cycles
+
+
+def lets_go_whoever_asks(bounds: ArrivalBounds, followed: Followed, asked_um: int, _reopening_cycles: int) -> bool:
+    """An ask is acknowledged wherever the train is."""
+    return followed.ceiling_um <= asked_um <= bounds.line_um
+
+
+def lets_go_who_is_far_as_it_runs(
+    bounds: ArrivalBounds, followed: Followed, asked_um: int, reopening_cycles: int
+) -> bool:
+    """An ask is acknowledged to a train that is far by the ceiling that it has, not by what it asks for."""
+    is_far = machine.due(bounds, followed, reopening_cycles) == Due.FAR
+    return lets_go_whoever_asks(bounds, followed, asked_um, reopening_cycles) and is_far
+
+
+@pytest.mark.parametrize("wrong", [lets_go_whoever_asks, lets_go_who_is_far_as_it_runs])
+def test_who_is_let_go_faster_too_late_is_seen(wrong: Callable[..., bool], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its warning began with the acknowledgement, and it gained all the way from there."""
+    monkeypatch.setattr(machine, "may_go_faster", wrong)
+    assert any(is_broken(played(number, hurries=True)) for number in range(DAYS))

@@ -21,6 +21,9 @@ TRACKS = (CrossingTrack("up"), CrossingTrack("down"))
 MOST_M_S = 28
 START_M = MOST_M_S * (SETTINGS.start_cycles + 1)
 LENGTH_M = 160
+LATEST_S = 60
+"""No word of a person is on its way for longer."""
+NOTE_EMPTY = machine.note_empty
 Start = Callable[[Settings, frozenset[CrossingTrack], int], Crossing]
 
 
@@ -43,14 +46,22 @@ class Vehicle:
 
 @dataclass
 class World:
-    """A crossing of two tracks whose trains have no radio; ``least_s``: the shortest closure before an arrival."""
+    """A crossing of two tracks whose trains have no radio; ``least_s``: the shortest closure before an arrival.
+
+    ``words``: of people who have seen a track empty, on their way: when they come, of which track, and by which number;
+    ``late``: what is drawn is how late they come, if they do not come at once.
+    """
 
     start: Start = restart_crossing
     trains: list[Vehicle] = field(default_factory=list)
     powered: bool = True
+    late: Random | None = None
+    words: list[tuple[int, CrossingTrack, int]] = field(default_factory=list)
+    now_s: int = 0
     closed_s: int = 0
     least_s: int = 10**6
     opened: int = 0
+    open_unseen: int = 0
     failed_inside: int = 0
     life: int = 0
     seen: set[CrossingTrack] = field(default_factory=set)
@@ -64,14 +75,25 @@ class World:
         self.seen = set()
 
     def look(self, *tracks: CrossingTrack) -> None:
-        """A person looks; what is seen empty is said at once, if there is power."""
+        """A person looks; what is seen empty is said, if there is power: at once, or late and again."""
         for track in tracks:
             if self.powered and all(each.track != track or not each.inside() for each in self.trains):
-                self.crossing = machine.note_empty(self.crossing, track, machine.look_of(self.crossing, track))
+                number = machine.look_of(self.crossing, track)
+                for late_s in (0,) if self.late is None else (self.late.randint(0, 10), self.late.randint(0, LATEST_S)):
+                    self.words.append((self.now_s + late_s, track, number))
                 self.seen.add(track)
+        self.hear()
+
+    def hear(self) -> None:
+        """Words that come while there is no power are lost."""
+        for _, track, number in [word for word in self.words if self.powered and word[0] <= self.now_s]:
+            self.crossing = machine.note_empty(self.crossing, track, number)
+        self.words = [word for word in self.words if word[0] > self.now_s]
 
     def second(self) -> None:
         """Strikes are told if there is power, then it decides, trains run, and arms move."""
+        self.now_s += 1
+        self.hear()
         for train in self.trains:
             if train.way_m <= START_M and not train.struck:
                 train.struck = True
@@ -118,7 +140,7 @@ class World:
         assert not self.trains
         assert self.least_s >= SETTINGS.least_down_cycles
         self.look(*TRACKS)
-        self.seconds(2)
+        self.seconds(LATEST_S + 2)
         assert not self.crossing.warns
 
 
@@ -215,9 +237,9 @@ def test_each_attack_succeeds_against_a_crossing_that_only_begins_closed(attack:
     assert not world.crossing.warns or world.least_s < SETTINGS.least_down_cycles
 
 
-def judge_at_random(seed: int) -> World:
-    """Power fails at any moment, for seconds or minutes; somebody looks now and then."""
-    chance, world = Random(f"restarts {seed}"), World()
+def drawn(seed: int) -> World:
+    """Power fails at any moment, for seconds or minutes; somebody looks now and then, and his word comes late."""
+    chance, world = Random(f"restarts {seed}"), World(late=Random(f"late words {seed}"))
     for number in range(900):
         clear = {track: all(each.track != track or each.met for each in world.trains) for track in TRACKS}
         for track in TRACKS:
@@ -235,10 +257,14 @@ def judge_at_random(seed: int) -> World:
         if chance.random() < 0.1:
             world.look(*TRACKS)
         world.second()
-        if world.crossing.warns:
-            continue
-        assert world.seen == set(TRACKS)
+        world.open_unseen += not world.crossing.warns and world.seen != set(TRACKS)
     world.powered = True
+    return world
+
+
+def judge_at_random(seed: int) -> World:
+    world = drawn(seed)
+    assert world.open_unseen == 0
     world.judge()
     return world
 
@@ -250,6 +276,17 @@ def test_in_drawn_worlds_no_train_finds_the_arms_up(seed: int) -> None:
 
 def test_power_fails_with_trains_inside() -> None:
     assert sum(judge_at_random(seed).failed_inside for seed in range(25)) > 25
+
+
+def empty_by_any_number(crossing: Crossing, track: CrossingTrack, _number: int) -> Crossing:
+    """A word from before the restart counts."""
+    return NOTE_EMPTY(crossing, track, machine.look_of(crossing, track))
+
+
+def test_a_word_from_before_the_restart_is_seen_to_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A train that came in since it was spoken finds the arms up."""
+    monkeypatch.setattr(machine, "note_empty", empty_by_any_number)
+    assert any(drawn(seed).least_s < SETTINGS.least_down_cycles for seed in range(20))
 
 
 @pytest.mark.slow
