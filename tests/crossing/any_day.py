@@ -81,7 +81,8 @@ class Day:
 
     ``alone``: one train that promises, and no other; so nobody else closes the road.  ``hurries``: so does one alone,
     that runs slowly up to the road and asks to go faster only shortly before it.
-    ``more``: what comes beside rangings is drawn from.  ``dark``: the seconds without power.
+    ``more``: what comes beside rangings is drawn from; ``past``: what becomes of asks past the road.
+    ``dark``: the seconds without power.
     ``asked``: who has asked for the warning and is not out yet.
     ``air``: words of tails and people under way: when they come, of which train or track, and its number.
     """
@@ -105,6 +106,7 @@ class Day:
 
     def __post_init__(self) -> None:
         self.chance, self.more = Random(f"any day {self.number}"), Random(f"more of any day {self.number}")
+        self.past = Random(f"past the road on any day {self.number}")
         self.bodies = drawn(self.chance, self.more)
         if self.alone:
             self.bodies = [self.more.choice(self.bodies)]
@@ -197,6 +199,8 @@ class Day:
             told = self.ranging(body)
             if body.promises:
                 ceilings.promise_and_ask(self.more, body, self.now_s, self.found.counts)
+            if body.promises and body.met:
+                ceilings.ask_past_the_road(self.past, body, self.now_s)
             if not body.has_radio or body.met or body.stands_at_signal:
                 continue
             now, heard = self.taken(body, told)
@@ -304,7 +308,7 @@ class Day:
         elif what == "gone":
             self.found.counts["gone again"] += machine.number_of(self.crossing, Train(of)) not in (machine.NONE, number)
             if self.over(Train(of), number) and body.met:
-                ceilings.end(body)
+                ceilings.end(self.past, body, self.now_s)
 
     def look(self) -> None:
         """Whom nothing else has told gone a person releases who sees it out; and he sees tracks empty."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 from random import Random
 
 from kernel.crossing import arrival, promise
@@ -86,6 +85,19 @@ def acknowledge(
     return arrival.held_to(bounds, known, asked_um)
 
 
-def end(body: Body) -> None:
-    """Its rear is past, and its host has been told so: nothing is promised any more."""
-    body.held = replace(nothing_promised(LINE_MM_S), number=body.held.number)
+def ask_past_the_road(chance: Random, body: Body, now_s: int) -> None:
+    """Ask for the line's speed once the head is past the road, and tell so until the rear is proved past."""
+    if now_s in body.off or body.followed is None:
+        return
+    if body.held.asked_mm_s == body.held.ceiling_mm_s:
+        body.held = promise.ask(LINE_MM_S, body.held, LINE_MM_S)
+    body.told.append(body.held)
+    if chance.random() < 0.6:
+        body.noted = promise.note(body.noted, chance.choice(body.told[-3:]))
+
+
+def end(chance: Random, body: Body, now_s: int) -> None:
+    """Its rear is past, and nobody reckons by its ceiling any more: its ask is acknowledged, late and again."""
+    body.noted = promise.acknowledged(body.noted)
+    for _ in range(chance.choice((1, 2))):
+        body.heard.append((now_s + chance.choice((1, 1, 5, 60, 200)), body.noted.number))

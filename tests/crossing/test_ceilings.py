@@ -19,7 +19,8 @@ from kernel.crossing import promise
 from kernel.crossing.arrival import ArrivalBounds, Followed
 from kernel.crossing.crossing import Due
 from kernel.crossing.promise import NONE, Promise
-from tests.crossing.any_day import SETTINGS, Found, judge, played
+from tests.crossing.any_day import Found, judge, played
+from tests.crossing.road import SETTINGS
 
 DAYS = 20
 

@@ -205,7 +205,26 @@ def what_nature_does_not_do_does_not_happen() -> None:
     assert train.step("hear_promise", told=Promise(1, 0, 0)) == held
 
 
+def a_promise_ends_by_an_acknowledgement_however_late() -> None:
+    """Its rear is past, and what it asked for is acknowledged; it hears that on its next way to the road (X2)."""
+    train = Train(10_000)
+    train.hear(train.lower(12_000))
+    train.hear(train.ask(LINE_MM_S))
+    number = train.acknowledge()
+    train.step("restart_crossing")
+    assert train.ceilings() == (12_000, LINE_MM_S)
+    train.hear(train.tell())
+    assert train.ceilings() == (12_000, LINE_MM_S), "what is heard first counts by what it asks"
+    train.told_so(number)
+    assert train.ceilings() == (LINE_MM_S, LINE_MM_S)
+    again = train.lower(15_000)
+    train.hear(again)
+    train.told_so(number)
+    assert train.ceilings() == (15_000, 15_000), "the same word again ends no later promise"
+
+
 WITNESSES = (
+    a_promise_ends_by_an_acknowledgement_however_late,
     a_promise_is_kept_until_another_is_acknowledged,
     a_lost_promise_is_kept_all_the_same,
     a_lost_acknowledgement_leaves_the_train_where_it_is,
