@@ -101,6 +101,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
         "block_ends_mm": "where the blocks of those lists end: what its unit was given",
     },
     "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
+    "stopping": {"error_mm": "what places err at most is written, for map matching and for stops alike"},
 }
 """Fields of a state or a site, by theory, that are what a machine was told, though in no record of the kernel; why."""
 

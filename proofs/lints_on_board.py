@@ -43,6 +43,7 @@ TOLD: Mapping[str, Mapping[str, str]] = {
     "crossing": {"tracks": "which tracks lead over the road is how the crossing is set up; it says nothing of trains"},
     "arrival": {"brought": "a history of what the radio brought: what the crossing was told, and nothing else"},
     "promise": {"line_mm_s": "the greatest speed of the line is written for trains and crossings alike"},
+    "stopping": {"error_mm": "what places err at most is written, for map matching and for stops alike"},
     "link": {"ends": "which links there are is how machines are set up; of an end only its link is told"},
 }
 """Fields by theory that a machine may be told although they are no machine's; why.

@@ -187,19 +187,17 @@ def a_decision_begins_each_cycle(system: Coming) -> bool:
     return not system.decided
 
 
-def the_way_follows_the_speed(site: Crossing, system: Coming, to_um: int, pace_um: int) -> bool:
-    """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
-    return system.way_um - to_um <= greater(system.pace_um, pace_um)
+def the_train_gains_no_more(site: Crossing, system: Coming, to_um: int, pace_um: int) -> bool:
+    """In one cycle the train gains no more than motors and descent give it, at its end and on its mean (X2)."""
+    return greater(system.way_um - to_um, pace_um) - system.pace_um <= site.bounds.gain_um
 
 
-def the_train_gains_no_more(site: Crossing, system: Coming, pace_um: int) -> bool:
-    """In one cycle the train gains no more than motors and descent give it (X2)."""
-    return pace_um - system.pace_um <= site.bounds.gain_um
+def the_train_keeps_to_its_ceiling(system: Coming, to_um: int, pace_um: int) -> bool:
+    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by.
 
-
-def the_train_keeps_to_its_ceiling(system: Coming, pace_um: int) -> bool:
-    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by."""
-    return pace_um <= system.ceiling_um
+    Neither at the end of a cycle nor on its mean.
+    """
+    return greater(system.way_um - to_um, pace_um) <= system.ceiling_um
 
 
 def only_a_ceiling_that_is_kept_is_promised(system: Coming, ceiling_um: int) -> bool:
@@ -311,9 +309,11 @@ def turn_back(site: Crossing, system: Coming, ranging: Ranging, start_mm: int) -
 
 def run_a_cycle(site: Crossing, system: Coming, to_um: int, pace_um: int) -> Coming:
     """The train runs for a cycle as it likes: on, slower, back, or as hard as it can (X2)."""
-    if a_decision_begins_each_cycle(system) or not the_way_follows_the_speed(site, system, to_um, pace_um):
+    if a_decision_begins_each_cycle(system):
         return system
-    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_its_ceiling(system, pace_um):
+    if not the_train_gains_no_more(site, system, to_um, pace_um):
+        return system
+    if not the_train_keeps_to_its_ceiling(system, to_um, pace_um):
         return system
     run = replace(
         system,

@@ -79,19 +79,17 @@ def the_ranging_bounds_the_train(site: Way, system: Answered, ranging: Ranging) 
     )
 
 
-def the_way_follows_the_speed(system: Answered, to_um: int, pace_um: int) -> bool:
-    """Within one cycle the head comes no nearer than at the greater of the speeds at its ends (X2)."""
-    return system.way_um - to_um <= greater(system.pace_um, pace_um)
+def the_train_gains_no_more(site: Way, system: Answered, to_um: int, pace_um: int) -> bool:
+    """In one cycle the train gains no more than motors and descent give it, at its end and on its mean (X2)."""
+    return greater(system.way_um - to_um, pace_um) - system.pace_um <= site.bounds.gain_um
 
 
-def the_train_gains_no_more(site: Way, system: Answered, pace_um: int) -> bool:
-    """In one cycle the train gains no more than motors and descent give it (X2)."""
-    return pace_um - system.pace_um <= site.bounds.gain_um
+def the_train_keeps_to_its_ceiling(system: Answered, to_um: int, pace_um: int) -> bool:
+    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by.
 
-
-def the_train_keeps_to_its_ceiling(system: Answered, pace_um: int) -> bool:
-    """No train is faster than what it has promised; else than the line's speed, with what a driver may exceed it by."""
-    return pace_um <= system.ceiling_um
+    Neither at the end of a cycle nor on its mean.
+    """
+    return greater(system.way_um - to_um, pace_um) <= system.ceiling_um
 
 
 def only_a_ceiling_that_is_kept_is_promised(system: Answered, ceiling_um: int) -> bool:
@@ -188,9 +186,9 @@ def answer(site: Way, system: Answered) -> Answered:
 
 def run_a_cycle(site: Way, system: Answered, to_um: int, pace_um: int) -> Answered:
     """The train runs for a cycle as it likes (X2)."""
-    if not the_way_follows_the_speed(system, to_um, pace_um):
+    if not the_train_gains_no_more(site, system, to_um, pace_um):
         return system
-    if not the_train_gains_no_more(site, system, pace_um) or not the_train_keeps_to_its_ceiling(system, pace_um):
+    if not the_train_keeps_to_its_ceiling(system, to_um, pace_um):
         return system
     run = replace(system, way_um=to_um, pace_um=pace_um, left_cycles=system.left_cycles - 1)
     run = replace(run, followed=arrival.aged(site.bounds, system.followed))

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from kernel.maps import Map
 from kernel.tram import centre as machine
 from kernel.tram import display as on_board
+from kernel.tram import limits
 from kernel.tram.centre import Centre, Command, Tram
 from kernel.tram.dispatching import DispatchLimits, Hand, Order, Report
 from kernel.tram.display import Display
@@ -151,11 +152,6 @@ def none_overtakes(bodies: Map[Tram, Body], tram: Tram, there: Body) -> bool:
     )
 
 
-def it_arrives_from_the_section(system: Traffic, tram: Tram) -> bool:
-    """A tram arrives at a stop from the section before: it has departed from the stop before that."""
-    return tram in system.bodies and system.bodies[tram].left
-
-
 def who_is_taken_off_is_off_the_way(site: Way, system: Traffic, tram: Tram) -> bool:
     """A person takes off only a tram that is not on the way, and has no confirmation to come (ours)."""
     return tram not in system.bodies and not may_still_come(site, system, tram)
@@ -269,15 +265,16 @@ def depart(site: Way, system: Traffic, tram: Tram) -> Traffic:
 
 
 def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int, stands: bool) -> Traffic:
-    """A tram comes to the next stop, and stands there or passes; its unit notices, if it knows its place (G2, G5)."""
-    if not it_arrives_from_the_section(system, tram):
+    """A tram comes to the next stop, and stands there or passes; its unit notices, if it knows its place (G2, G5).
+
+    From the section before it, or with the same step from the stop before that.
+    """
+    if tram not in system.bodies or not it_knows_the_stop_that_it_comes_to(system, tram, noticed, told_stop):
         return system
     body = system.bodies[tram]
     if not none_overtakes(system.bodies, tram, replace(body, stop=body.stop + 1, left=False)):
         return system
     if not a_known_place_shows_the_stop(body.display, noticed):
-        return system
-    if not it_knows_the_stop_that_it_comes_to(system, tram, noticed, told_stop):
         return system
     display = on_board.located(body.display, True, told_stop, stands) if noticed else body.display
     there = replace(body, stop=body.stop + 1, left=False, display=display)
@@ -327,7 +324,12 @@ def tell_elsewhere(site: Way, system: Traffic, tram: Tram) -> Traffic:
 
 
 def restart_centre(site: Way, system: Traffic, now_ms: int) -> Traffic:
-    """The centre starts anew, and knows nothing; what it has sent is still on its way (G6)."""
+    """The centre starts anew, and knows nothing; what it has sent is still on its way (G6).
+
+    With limits that do not pass their check it is not put into service, the first time or anew.
+    """
+    if not limits.are_lawful(site.limits):
+        return system
     if not clocks_keep_gps_time(system, now_ms):
         return system
     return replace(system, centre=machine.restarted(site.limits, system.centre, now_ms))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.tram import stopping as machine
+from kernel.tram.limits import are_lawful_at_stops
 from kernel.tram.stopping import Fix, StopLimits, Stopping
 from models.measures import apart
 
@@ -13,7 +14,7 @@ from models.measures import apart
 class Street:
     """What does not change.
 
-    ``error_mm``: so much a place by map matching errs at most.  ``speed_error_mm_s``: so much a speed.
+    ``error_mm``: so much is written that a place by map matching errs at most.  ``speed_error_mm_s``: so much a speed.
     """
 
     limits: StopLimits
@@ -42,17 +43,6 @@ class Ride:
     stood_at_mm: int
     wandered: bool
     fell_back: bool
-
-
-def the_place_is_held_for_twice_the_error(site: Street) -> bool:
-    """A place is held as long as GPS may have made all of the difference, to one side and to the other (G2)."""
-    limits = site.limits
-    return limits.near_mm >= 0 and site.error_mm >= 0 and limits.held_mm >= limits.near_mm + 2 * site.error_mm
-
-
-def near_a_stop_is_no_less_than_the_error(site: Street) -> bool:
-    """Near a stop is at least as far as GPS errs: else a tram could be told beyond one that it has not come to (G2)."""
-    return site.limits.near_mm >= site.error_mm
 
 
 def trams_do_not_run_backwards(way_mm: int) -> bool:
@@ -104,8 +94,12 @@ def take_fix(
 ) -> Ride:
     """The unit takes a fix; ``further_mm``: the stop after the next one, wherever (G2).
 
+    With limits that do not pass their check for what places err it is not put to use, and takes none.
+
     5 km/h, below which a fix tells of one that stands, are the paper's (002, 3.1.2), rounded up to whole mm/s.
     """
+    if not are_lawful_at_stops(site.limits, site.error_mm):
+        return system
     if not a_place_is_within_its_error(site, system, fix) or not a_speed_is_within_its_error(site, fix, speed_mm_s):
         return system
     if not the_table_has_the_stops(system, here_mm, next_mm):

@@ -18,12 +18,6 @@ from proofs.tram.recoveries import (
     recoveries_shown_are_on_record,
 )
 
-
-def a_confirmation_counts_for_some_time(site: Way) -> bool:
-    """The time for which a confirmation counts is not below 0 (ours)."""
-    return site.limits.coming_ms >= 0
-
-
 # ---- the start
 
 
@@ -362,7 +356,6 @@ def stops_are_counted_from_0(site: Way, system: Traffic) -> bool:
     return all(known.stop >= 0 for _tram, known in system.centre.trams.items())
 
 
-PREMISES = (a_confirmation_counts_for_some_time,)
 INITIAL = (nothing_is_known_yet,)
 SAFETY = (
     no_recovery_towards_an_occupied_section,
@@ -430,6 +423,5 @@ THEORY = Theory(
     by_name(INITIAL),
     by_name(INVARIANTS),
     by_name(SAFETY),
-    by_name(PREMISES),
     quantified=True,
 )

@@ -6,11 +6,9 @@ from models.measures import apart
 from models.tram.stopping import (
     Ride,
     Street,
-    near_a_stop_is_no_less_than_the_error,
     restart,
     run_on,
     take_fix,
-    the_place_is_held_for_twice_the_error,
 )
 from proofs.theory import Theory, by_name
 
@@ -92,7 +90,6 @@ SAFETY = (
     no_tram_falls_back,
 )
 INVARIANTS = (*SAFETY, it_began_to_stand_near_the_stop)
-PREMISES = (the_place_is_held_for_twice_the_error, near_a_stop_is_no_less_than_the_error)
 STEPS = (run_on, take_fix, restart)
 
 THEORY = Theory(
@@ -103,5 +100,4 @@ THEORY = Theory(
     by_name(INITIAL),
     by_name(INVARIANTS),
     by_name(SAFETY),
-    by_name(PREMISES),
 )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass, replace
 from itertools import product
 from typing import Any
+
+import pytest
 
 from kernel.alarm.limits import GREATEST_SERVER_MS, is_lawful
 from kernel.crossing import arrival, crossing
@@ -17,11 +19,10 @@ from models.alarm.worksite import Railway
 from models.crossing import arrival as ranged
 from models.crossing import due
 from models.crossing.sites import TRIALS, lawful
-from models.tram.dispatching import Way
 from models.tram.given import LIMITS, STOP_LIMITS
 from models.tram.gps import BOUND_MM
-from models.tram.stopping import Street, near_a_stop_is_no_less_than_the_error, the_place_is_held_for_twice_the_error
-from proofs.tram.dispatching import a_confirmation_counts_for_some_time
+from proofs.mutants.edits import Mutant, mutants_of
+from proofs.mutated import running
 
 VALUES = (-1, 0, 1)
 
@@ -53,6 +54,18 @@ def test_bounds_of_trains_before_a_crossing_are_lawful_where_the_premises_hold_a
     assert verdicts == {True, False}
 
 
+def test_a_crossing_has_one_warning_time_and_one_cycle() -> None:
+    """And its bounds are lawful (X2, X5)."""
+    trial = TRIALS[0]
+    bounds, settings = trial.bounds(trial.express), trial.settings
+    assert crossing.have_one_warning_time(bounds, settings)
+    for other in (-1, 1):
+        warning_cycles, cycle_ms = settings.warning_cycles + other, settings.cycle_ms + other
+        assert not crossing.have_one_warning_time(bounds, replace(settings, warning_cycles=warning_cycles))
+        assert not crossing.have_one_warning_time(bounds, replace(settings, cycle_ms=cycle_ms))
+    assert not crossing.have_one_warning_time(replace(bounds, line_um=0), settings)
+
+
 def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     """Nothing in it is below zero; what fits the line is another matter (A1)."""
     assert is_lawful(REGISTER)
@@ -71,25 +84,37 @@ def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     assert verdicts == {True, False}
 
 
-def test_limits_of_trams_are_lawful_only_where_the_premise_holds() -> None:
+def test_limits_of_trams_are_lawful_only_where_none_is_below_zero() -> None:
     """None of them is below 0 (G3 to G5)."""
     assert are_lawful(LIMITS)
     for each in spoilt(LIMITS):
         assert are_lawful(each) == (min(getattr(each, field.name) for field in fields(each)) >= 0)
-        assert not are_lawful(each) or a_confirmation_counts_for_some_time(Way(each))
 
 
-def test_limits_at_stops_are_lawful_where_the_premises_hold_and_only_there() -> None:
-    """By what places err (G2)."""
+def test_limits_at_stops_are_lawful_where_what_places_err_fits_them_and_only_there() -> None:
+    """Near a stop is no nearer than places err, and a place is held for as much to both sides (G2)."""
     assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM)
     assert not are_lawful_at_stops(STOP_LIMITS, BOUND_MM + 1)
     verdicts = set()
     for near_mm, held_mm, error_mm in product(range(-1, 4), range(-1, 8), range(-1, 4)):
         limits = stopping.StopLimits(near_mm, held_mm)
-        street = Street(limits, error_mm, 0)
         verdict = are_lawful_at_stops(limits, error_mm)
-        assert verdict == (
-            the_place_is_held_for_twice_the_error(street) and near_a_stop_is_no_less_than_the_error(street)
-        )
+        assert verdict == (error_mm >= 0 and near_mm >= error_mm and held_mm >= near_mm + 2 * error_mm)
         verdicts.add(verdict)
     assert verdicts == {True, False}
+
+
+CHECKS: dict[Callable[..., Any], Callable[[], None]] = {
+    arrival.are_lawful: test_bounds_of_trains_before_a_crossing_are_lawful_where_the_premises_hold_and_only_there,
+    crossing.have_one_warning_time: test_a_crossing_has_one_warning_time_and_one_cycle,
+    is_lawful: test_a_register_is_lawful_only_where_the_premises_hold,
+    are_lawful: test_limits_of_trams_are_lawful_only_where_none_is_below_zero,
+    are_lawful_at_stops: test_limits_at_stops_are_lawful_where_what_places_err_fits_them_and_only_there,
+}
+WITHOUT = [(dropped, test) for check, test in CHECKS.items() for dropped in mutants_of(check)]
+
+
+@pytest.mark.parametrize(("dropped", "test"), WITHOUT, ids=[dropped.name for dropped, _ in WITHOUT])
+def test_a_check_that_is_left_out_or_another_is_noticed(dropped: Mutant, test: Callable[[], None]) -> None:
+    with running({dropped.function: dropped.tree}), pytest.raises(AssertionError):
+        test()

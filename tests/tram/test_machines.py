@@ -18,10 +18,6 @@ from kernel.tram.display import Display, begun, located, taken
 from kernel.tram.display import older as shown_older
 from kernel.tram.stopping import Fix, StopLimits, Stopping, note_fix
 from models.tram.dispatching import Body
-from models.tram.given import SPEED_ERROR_MM_S, STOP_LIMITS
-from models.tram.gps import BOUND_MM
-from models.tram.stopping import Street
-from proofs.tram import stopping as stopping_claims
 from proofs.tram.witnesses import cycle, dispatching, display, stopping
 from proofs.tram.witnesses.cycle import Polling
 from proofs.tram.witnesses.line import LIMITS, Day
@@ -47,17 +43,6 @@ def test_no_fix_puts_a_tram_back(stopping_: Stopping, here_mm: int, next_mm: int
     now = note_fix(StopLimits(20_000, 50_000), stopping_, here_mm, next_mm, fix)
     assert mark(stopping_.stop, stopping_.left) <= mark(now.stop, now.left) <= mark(stopping_.stop + 1, True)
     assert not now.stands or (fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389)
-
-
-def test_the_limits_of_the_simulated_days_keep_the_premises() -> None:
-    """A machine with others tells that it has left a stop before it has come there (G2, G5)."""
-    for street, is_kept in (
-        (Street(STOP_LIMITS, BOUND_MM, SPEED_ERROR_MM_S), True),
-        (Street(StopLimits(near_mm=15_000, held_mm=45_000), 15_000, 0), True),
-        (Street(StopLimits(near_mm=14_999, held_mm=45_000), 15_000, 0), False),
-        (Street(StopLimits(near_mm=15_000, held_mm=44_999), 15_000, 0), False),
-    ):
-        assert all(premise(street) for premise in stopping_claims.PREMISES) == is_kept
 
 
 @settings(max_examples=60, deadline=None)

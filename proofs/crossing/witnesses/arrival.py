@@ -396,11 +396,12 @@ def what_nature_does_not_do_does_not_happen() -> None:
     held = train.system
     assert train.step("decide", ranging=ranging) == held
     for event in (
-        {"to_um": start.way_um - 2_000_001, "pace_um": 2_000_000},
+        {"to_um": start.way_um - 2_010_001, "pace_um": 2_000_000},
         {"to_um": start.way_um, "pace_um": 2_010_001},
     ):
         assert train.step("run_a_cycle", **event) == held
-    train.run(2_010_000)
+    train.step("run_a_cycle", to_um=start.way_um - 2_010_000, pace_um=2_000_000)
+    assert train.system.way_um == start.way_um - 2_010_000, "faster on the way than at its end"
     train.range()
     train.decide(NOTHING)
     train.run(2_010_000)
@@ -414,7 +415,8 @@ def what_nature_does_not_do_does_not_happen() -> None:
     fast = Train(contacted(2_000_000, 30_000))
     fast.decide()
     held = fast.system
-    assert fast.step("run_a_cycle", to_um=held.way_um, pace_um=3_000_001) == held
+    for to_um, pace_um in ((held.way_um, 3_000_001), (held.way_um - 3_000_001, 3_000_000)):
+        assert fast.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == held
 
 
 def what_contradicts_is_too_far_or_gains_too_much() -> None:

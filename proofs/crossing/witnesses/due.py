@@ -189,11 +189,15 @@ def what_nature_does_not_do_does_not_happen() -> None:
         told = Ranging(True, way_mm, speed_mm_s, age_cycles)
         within.step("take_ranging", ranging=told)
         assert within.step("answer").left_cycles == 552
-    for to_um, pace_um in ((1_997_999_999, 2_000_000), (1_997_989_999, 2_010_000), (2_000_000_000, 2_010_001)):
+    for to_um, pace_um in ((1_997_989_999, 2_000_000), (1_997_989_999, 2_010_000), (2_000_000_000, 2_010_001)):
         assert train.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == start
-    train.run(2_010_000)
+    train.step("run_a_cycle", to_um=1_997_990_000, pace_um=2_000_000)
+    assert (train.system.way_um, train.system.pace_um) == (1_997_990_000, 2_000_000), (
+        "faster on the way than at its end"
+    )
     fast = Train(2_000_000, 30_000)
-    assert fast.step("run_a_cycle", to_um=fast.system.way_um, pace_um=3_000_001) == fast.system
+    for to_um, pace_um in ((fast.system.way_um, 3_000_001), (fast.system.way_um - 3_000_001, 3_000_000)):
+        assert fast.step("run_a_cycle", to_um=to_um, pace_um=pace_um) == fast.system
     assert fast.system.pace_um == 3_000_000
 
 

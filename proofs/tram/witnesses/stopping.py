@@ -164,6 +164,23 @@ def what_nature_does_not_do() -> None:
         assert along.step("take_fix", **event) == before
 
 
+def limits_that_places_may_undo_are_refused() -> None:
+    """Near is nearer than places err, or a place is held for less than they err to both sides: no fix is taken (G2)."""
+    for near_mm, held_mm, error_mm, is_taken in (
+        (15_000, 45_000, 15_000, True),
+        (14_999, 45_000, 15_000, False),
+        (15_000, 44_999, 15_000, False),
+        (0, 0, 0, True),
+        (20_000, 50_000, -1, False),
+    ):
+        along = Along()
+        along.run(1)
+        along.site = Street(StopLimits(near_mm, held_mm), error_mm, 100)
+        event = {"fix": Fix(False, 0, False, 0), "speed_mm_s": 0, "here_mm": 0, "next_mm": 400_000}
+        taken = along.step("take_fix", further_mm=800_000, **event)
+        assert taken.fixed_at_mm == (1 if is_taken else 0)
+
+
 def what_tells_less_of_the_way_has_fallen_back() -> None:
     """An earlier stop, or one that was left and is not any more; a later stop not yet left has not (G2)."""
     left, at_it = Stopping(3, True, False), Stopping(3, False, False)
@@ -176,6 +193,7 @@ def what_tells_less_of_the_way_has_fallen_back() -> None:
 
 
 WITNESSES = (
+    limits_that_places_may_undo_are_refused,
     what_tells_less_of_the_way_has_fallen_back,
     a_tram_stands_at_its_stop,
     near_is_so_near_and_held_is_farther,

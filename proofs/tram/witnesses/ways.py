@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from kernel.tram import centre as dispatcher
 from kernel.tram.centre import Centre, Tram
-from kernel.tram.dispatching import Known
+from kernel.tram.dispatching import DispatchLimits, Known
 from models.tram import dispatching as world
-from models.tram.dispatching import Run
+from models.tram.dispatching import Run, Way
 from proofs.tram.witnesses.line import FIRST, NEITHER, RECOVERS, SECOND, SITE, THIRD, Day, two_stops_apart
 
 
@@ -90,18 +90,35 @@ def what_one_tram_tells_or_does_takes_nothing_from_another() -> None:
     assert day.body(SECOND) == other
 
 
-def who_is_on_the_way_neither_comes_nor_arrives() -> None:
-    """It came before its confirmation was given anew; and it stands at its stop, and has not departed (G3)."""
+def who_is_on_the_way_does_not_come_anew() -> None:
+    """It came before its confirmation was given anew (G3)."""
     day = two_stops_apart()
     body, system = day.body(FIRST), day.system
     anew = replace(system, runs={FIRST: Run(body.stop, system.now_ms)})
     here = replace(body, left=False)
     assert not world.a_tram_comes_where_and_when_it_was_confirmed(SITE, anew, FIRST, here)
     assert world.a_tram_comes_where_and_when_it_was_confirmed(SITE, replace(anew, bodies={}), FIRST, here)
-    stands = day.system.bodies[SECOND]
+
+
+def a_departure_may_be_seen_by_nobody() -> None:
+    """A tram that stood at its stop is at the next one; only one that is on the way comes to any (G2)."""
+    day = two_stops_apart()
+    stands, event = day.body(SECOND), {"noticed": True, "stands": True}
     assert not stands.left
-    event = {"noticed": True, "told_stop": stands.stop + 1, "stands": True}
-    assert day.step("arrive", tram=SECOND, **event) == system
+    day.step("arrive", tram=SECOND, told_stop=stands.stop + 1, **event)
+    assert (day.body(SECOND).stop, day.body(SECOND).left) == (stands.stop + 1, False)
+    system = day.system
+    assert day.step("arrive", tram=THIRD, told_stop=1, **event) == system
+
+
+def limits_below_zero_are_refused() -> None:
+    """A centre starts with none of its times below zero, or not at all (G3 to G5)."""
+    for limit in fields(DispatchLimits):
+        for least_ms, starts in ((0, True), (-1, False)):
+            day = two_stops_apart()
+            day.site = Way(replace(SITE.limits, **{limit.name: least_ms}))
+            day.step("restart_centre", now_ms=day.system.now_ms)
+            assert (not day.system.centre.trams) == starts
 
 
 def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
@@ -129,5 +146,7 @@ WITNESSES = (
     a_tram_of_the_other_line_joins_where_nobody_may_run_faster_to,
     a_tram_that_tells_another_way_at_a_platform_of_this_one_stays_known,
     what_one_tram_tells_or_does_takes_nothing_from_another,
-    who_is_on_the_way_neither_comes_nor_arrives,
+    who_is_on_the_way_does_not_come_anew,
+    a_departure_may_be_seen_by_nobody,
+    limits_below_zero_are_refused,
 )
