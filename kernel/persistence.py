@@ -147,6 +147,9 @@ TRAM_STOPPING: Mapping[str, tuple[Memory, str]] = {
     "stop": (Memory.LOST, "stop"),
     "left": (Memory.LOST, "False"),
     "stands": (Memory.LOST, "False"),
+    "is_followed": (Memory.LOST, "False"),
+    "least_mm": (Memory.LOST, "0"),
+    "has_run": (Memory.LOST, "False"),
 }
 """Where a tram stands: at the first stop, or farther on (`kernel.tram.stopping.begun`)."""
 

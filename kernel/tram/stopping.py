@@ -2,14 +2,18 @@
 
 What the unit tells is the stop that it reached last, and whether it has left it.  Neither goes back: GPS
 errs to both sides, trams run one way.  So no tram that stands seems to run, and none falls behind one that
-it is ahead of.  Places are those of map matching, in mm along the line; reckoned in 64 bits to 2**61.
+it is ahead of.  A driver may have set another way than his tram is on: until it was seen to run over a stop of the
+way that is set it tells of none there that it has left, and if it is seen before a stop that it has reached there it
+begins anew (ours).
+Places are those of map matching, in mm along the line; reckoned in 64 bits to 2**61.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import magnitude
+from kernel.onboard.arithmetic import magnitude, smaller
+from kernel.tram.dispatching import FIRST_STOP
 
 SLOW_MM_S = 1_389
 """5 km/h (002, 3.1.2: the threshold of the tests), rounded up."""
@@ -39,22 +43,28 @@ class Fix:
 
 @dataclass(frozen=True)
 class Stopping:
-    """What the unit tells (G2).
+    """What the unit tells, and what it has seen of the way that is set (G2).
 
     ``stop``: the stop that it reached last.  ``left``: it has left that one.  ``stands``: it stands there.
+    ``is_followed``: its last fix had a place; ``least_mm``: the least place since a fix had none, or since the start.
+    ``has_run``: since its start it was seen at a stop, or before it, and then beyond (ours).
     """
 
     stop: int
     left: bool
     stands: bool
+    is_followed: bool
+    least_mm: int
+    has_run: bool
 
 
 def begun(stop: int) -> Stopping:
     """Give the state in which a run begins, or a unit starts anew: it has come to that stop, or is farther on (G2).
 
     After a restart that is the first one of the way: the others it finds by its fixes, one after the other (ours).
+    Whoever sets a way, or another one, begins the unit so.
     """
-    return Stopping(stop=stop, left=False, stands=False)
+    return Stopping(stop=stop, left=False, stands=False, is_followed=False, least_mm=0, has_run=False)
 
 
 def is_slow(fix: Fix) -> bool:
@@ -67,24 +77,68 @@ def is_within(fix: Fix, stop_mm: int, within_mm: int) -> bool:
     return magnitude(fix.place_mm - stop_mm) <= within_mm
 
 
+def followed(stopping: Stopping, fix: Fix) -> Stopping:
+    """Note how far back the tram has been seen (G2, ours).
+
+    Without a place it may come round to another part of a way that it is not on, so what was seen before is forgotten.
+    """
+    if not fix.is_placed:
+        return replace(stopping, is_followed=False)
+    least_mm = smaller(stopping.least_mm, fix.place_mm) if stopping.is_followed else fix.place_mm
+    return replace(stopping, is_followed=True, least_mm=least_mm)
+
+
+def is_beyond(limits: StopLimits, stop_mm: int, fix: Fix) -> bool:
+    """Tell whether a place is behind a stop, and not near it any more (G2)."""
+    return fix.place_mm > stop_mm + limits.near_mm
+
+
+def is_before(limits: StopLimits, stop_mm: int, fix: Fix) -> bool:
+    """Tell whether a tram is before a stop that it was said to have reached: it was on another way than is set (G2).
+
+    Where the way is right the place is within the error by which it is told, and the error by which the stop was.
+    """
+    return fix.is_placed and fix.place_mm < stop_mm - limits.held_mm
+
+
+def runs_over(limits: StopLimits, stopping: Stopping, stop_mm: int, fix: Fix) -> bool:
+    """Tell whether a tram is seen to run over a stop: by more than the error of GPS can make of a tram at rest (G2).
+
+    That is the difference of the two limits.  Who is on another way than is set, beside this one, runs the other way.
+    """
+    rises_mm = fix.place_mm - stopping.least_mm
+    was_beyond = stopping.least_mm > stop_mm + limits.near_mm
+    return is_beyond(limits, stop_mm, fix) and not was_beyond and rises_mm > limits.held_mm - limits.near_mm
+
+
 def note_fix(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int, fix: Fix) -> Stopping:
     """Take a fix; ``here_mm``, ``next_mm``: where the stop reached last is, and the next one (G2).
 
     Without place or speed nothing is known but what was reached, and the tram does not count as standing.
     """
+    if is_before(limits, here_mm, fix):
+        return followed(begun(FIRST_STOP), fix)
+    seen = followed(stopping, fix)
     if not (fix.is_placed and fix.has_speed):
-        return replace(stopping, stands=False)
+        return replace(seen, stands=False)
     if not is_slow(fix):
-        return passing(limits, stopping, here_mm, next_mm, fix)
-    if is_within(fix, here_mm, limits.held_mm if stopping.stands else limits.near_mm) and not stopping.left:
-        return replace(stopping, stands=True)
+        return passing(limits, seen, here_mm, next_mm, fix)
+    if is_within(fix, here_mm, limits.held_mm if seen.stands else limits.near_mm) and not seen.left:
+        return replace(seen, stands=True)
     if is_within(fix, next_mm, limits.near_mm):
-        return Stopping(stop=stopping.stop + 1, left=False, stands=True)
-    return replace(stopping, stands=False)
+        return replace(seen, stop=seen.stop + 1, left=False, stands=True)
+    return replace(seen, stands=False)
 
 
 def passing(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int, fix: Fix) -> Stopping:
     """Take a fix of a tram that runs: behind a stop it has left that one, even if it never stood there (G2, G5)."""
-    if fix.place_mm > next_mm + limits.near_mm:
-        return Stopping(stop=stopping.stop + 1, left=True, stands=False)
-    return replace(stopping, left=stopping.left or fix.place_mm > here_mm + limits.near_mm, stands=False)
+    if is_beyond(limits, next_mm, fix):
+        return leaving(limits, replace(stopping, stop=stopping.stop + 1), next_mm, fix)
+    return leaving(limits, stopping, here_mm, fix)
+
+
+def leaving(limits: StopLimits, stopping: Stopping, stop_mm: int, fix: Fix) -> Stopping:
+    """Note that a tram that runs has left the stop it reached last, if it is seen to run along the way (G2, G5)."""
+    has_run = stopping.has_run or runs_over(limits, stopping, stop_mm, fix)
+    left = stopping.left or (has_run and is_beyond(limits, stop_mm, fix))
+    return replace(stopping, left=left, stands=False, has_run=has_run)

@@ -65,6 +65,8 @@ from models.tram.turning import (
     destination,
     go_over,
     none_to_come,
+    set_right,
+    set_wrong,
     take_up_who_comes_back,
 )
 from models.tram.watching import watch
@@ -73,6 +75,7 @@ END_S = CLOSE_S + 2 * 3_600
 """By then the last tram has long left the way; the simulation ends with it."""
 DEPOT_EACH_S = 1_800
 ASKED_ANEW_EACH_S = 1_800
+WRONG_WAY_EACH_S = 1_800
 LATEST_BEGUN_S = 400
 """So late a run begins at most that is late at the terminus; ours."""
 ELSEWHERE_S, ELSEWHERE_EACH_S = 60, 30
@@ -162,7 +165,7 @@ def second(day: Given, traffic: Traffic, there: Traffic, now_s: int, rng: np.ran
     for place in range(traffic.size[0]):
         see(day, traffic, traffic.line[place], now_s, rng)
     for stop in range(now_s % CYCLE_S, STOPS, CYCLE_S):
-        ask(day, traffic, stop, now_s, rng)
+        ask(day, traffic, there, stop, now_s, rng)
     for tram in range(len(traffic.trams)):
         if traffic.due_ms[0, tram] <= 1_000 * now_s:
             deliver_reports(day, traffic, there, tram, 1_000 * now_s, rng)
@@ -193,6 +196,7 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
     from_depot, depot_s = day.from_depot, day.where.depot_s
     restart_s, restarts = day.where.restart_s, day.restarts
     asked_anew, anew_s = day.asked_anew, day.where.anew_s
+    wrong_way, wrong_s = day.wrong_way, day.where.wrong_s
     come_back = day.turns_s > 0 or day.away_s > 0
     restart_everything(day, traffic, there, FIRST_S)
     for now_s in range(FIRST_S, END_S + COMES_BACK_S if come_back else END_S):
@@ -202,7 +206,7 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
         take_up(day, traffic, there, now_s, rng)
         second(day, traffic, there, now_s, rng)
         begin_runs(day, traffic, now_s, rng)
-        if come_back:
+        if come_back or day.wrong_way > 0:
             second_there(back, traffic, there, now_s, rng)
         if from_depot > 0 and now_s >= depot_s and come_from_the_depot(day, traffic, there, now_s, rng):
             from_depot -= 1
@@ -210,6 +214,10 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
         if asked_anew > 0 and now_s >= anew_s and ask_anew(day, traffic, 1_000 * now_s):
             asked_anew -= 1
             anew_s = now_s + ASKED_ANEW_EACH_S
+        if wrong_way > 0 and now_s >= wrong_s and set_wrong(day, traffic, now_s):
+            wrong_way -= 1
+            wrong_s = now_s + WRONG_WAY_EACH_S
+        set_right(traffic, now_s)
         are_away = traffic.size[0] == 0 and there.size[0] == 0
         if are_away and traffic.size[1] >= len(day.begins_s) and none_to_come(traffic) and none_to_come(there):
             return

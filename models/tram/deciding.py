@@ -54,6 +54,7 @@ from models.tram.state import (
     R_MADE,
     R_STANDS,
     R_STOP,
+    U_ASTRAY,
     Traffic,
 )
 from models.tram.telling import (
@@ -269,7 +270,7 @@ def deliver_reports(
 
     ``there``: the other way.
     """
-    body, box = traffic.trams[tram], traffic.reports[tram]
+    box = traffic.reports[tram]
     for place in range(BOX):
         message = box[place]
         if message[R_DUE] == FREE or message[R_DUE] > now_ms:
@@ -280,10 +281,11 @@ def deliver_reports(
         message[R_DUE] = FREE
         hear_report(traffic, tram, report, now_ms)
         hear_of_the_other_way(day, there, tram, report.left, report.made_ms, now_ms)
-        if body[K_IS] == 1 and report.made_ms > body[K_SINCE]:
-            body[G_MARK] = max(body[G_MARK], mark(report.stop, report.left))
+        by = traffic.trams[tram]
+        if by[K_IS] == 1 and report.made_ms > by[K_SINCE]:
+            by[G_MARK] = max(by[G_MARK], mark(report.stop, report.left))
             if report.stands:
-                body[G_TOLD] = max(body[G_TOLD], report.made_ms)
+                by[G_TOLD] = max(by[G_TOLD], report.made_ms)
         decide(day, traffic, tram, now_ms, rng)
     traffic.due_ms[0, tram] = first_due_ms(box)
 
@@ -299,10 +301,14 @@ def taken_now(day: Given, display: Any, order: Any) -> Any:
 
 @compiled
 def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int, rng: np.random.Generator) -> None:
-    """Let a tram hear an order, for it or for another one; as :func:`kernel.tram.centre.received`."""
-    if traffic.trams[tram, ON] == 0 or is_lost(day, tram, message[O_STOP], now_s, rng):
+    """Let a tram hear an order, for it or for another one; as :func:`kernel.tram.centre.received`.
+
+    One that is set to the other way hears nothing of this one.
+    """
+    body = traffic.trams[tram]
+    if body[ON] == 0 or body[U_ASTRAY] == 1 or is_lost(day, tram, message[O_STOP], now_s, rng):
         return
-    before = display_of(traffic.trams[tram])
+    before = display_of(body)
     order = Order(message[O_STOP], message[O_HOLDS] == 1, message[O_RECOVERS] == 1, message[O_MADE])
     if message[O_TRAM] == tram or day.plant == NOT_ADDRESSED:
         after = taken_now(day, before, order)
@@ -310,8 +316,8 @@ def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int
         traffic.row[tally.OF_THE_FUTURE] += is_of_the_future and after.made_ms == before.made_ms
         traffic.row[tally.WRONG_TRAM] += message[O_TRAM] != tram and after.made_ms != before.made_ms
         if after.made_ms != before.made_ms:
-            traffic.trams[tram, G_MADE] = message[O_TRULY]
-        keep_display(traffic.trams[tram], after)
+            body[G_MADE] = message[O_TRULY]
+        keep_display(body, after)
 
 
 @compiled

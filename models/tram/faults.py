@@ -84,11 +84,19 @@ FAULTS = {
         "practice: a wrong setting",
         "a_report_tells_where_it_is",
     ),
+    "wrong_way": Fault(
+        "so often a unit starts anew under way, and is set to the other way for minutes",
+        1,
+        9,
+        "1",
+        0.3,
+        "practice: a wrong setting",
+    ),
 }
 """By name, in the order in which they are drawn."""
 DRAWN_APART = ("both_ways", "junction")
 """What else is drawn of a day is the same with these and without."""
-DRAWN_ALONE = ("order_from_the_future", "asked_anew", "number_of_another")
+DRAWN_ALONE = ("order_from_the_future", "asked_anew", "number_of_another", "wrong_way")
 """And so it is with each of these, where it is too: further ones stand at the end."""
 
 FRAMES_LOST = (0.0, 0.1)
@@ -143,6 +151,8 @@ class Where(NamedTuple):
     anew_s: int
     number_tram: int
     number_s: int
+    wrong_place: int
+    wrong_s: int
 
 
 def place(chance: np.random.Generator, own: Mapping[str, np.random.Generator], line_mm: int) -> Where:
@@ -174,4 +184,6 @@ def place(chance: np.random.Generator, own: Mapping[str, np.random.Generator], l
         anew_s=second(own["asked_anew"]),
         number_tram=tram(own["number_of_another"]),
         number_s=second(own["number_of_another"]),
+        wrong_place=tram(own["wrong_way"]),
+        wrong_s=second(own["wrong_way"]),
     )

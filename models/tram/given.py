@@ -43,12 +43,13 @@ SPEED_ERROR_MM_S = 100
 """Declared: ours, typical of tachometers at walking pace."""
 
 NO_PLANT, NOT_ADDRESSED, NEVER_PRESENT, NEVER_STALE, NEVER_LOST, GPS_BEYOND, ANY_WORD_ENDS, JOINS_UNASKED = range(8)
-TAKES_THE_FUTURE, TAKES_UP_ANEW, IGNORES_CONTRADICTION = range(8, 11)
+TAKES_THE_FUTURE, TAKES_UP_ANEW, IGNORES_CONTRADICTION, LEAVES_AT_ONCE = range(8, 12)
 """Faults that tests plant: an order is taken by any tram; every way is clear; no report is too old; a unit goes on
 where it has no place; GPS errs beyond its bound, and says that it does not; whatever is told of the other way ends a
 run, however old it is; a tram joins at the junction without asking whether one behind may run faster to there; a
 display takes an order of the future; a tram that is on the way is taken up anew; of two trams that reports have shown
-in either order each is taken for the one behind."""
+in either order each is taken for the one behind; a unit tells of stops that it has left although it was not seen to run
+over one."""
 
 
 class Given(NamedTuple):
@@ -83,6 +84,7 @@ class Given(NamedTuple):
     ahead_ms: int
     asked_anew: int
     number_told_s: int
+    wrong_way: int
     plant: int
 
 
@@ -109,6 +111,7 @@ def other_way(day: Given, chance: np.random.Generator) -> Given:
         from_depot=0,
         restarts=0,
         asked_anew=0,
+        wrong_way=0,
         is_back=True,
     )
 
@@ -160,5 +163,6 @@ def given(
         ahead_ms=round(1_000 * drawn["order_from_the_future"]),
         asked_anew=round(drawn["asked_anew"]),
         number_told_s=round(drawn["number_of_another"]),
+        wrong_way=round(drawn["wrong_way"]),
         plant=plant,
     ), drawn

@@ -1,4 +1,7 @@
-"""A tram that runs, stands and creeps, and fixes of it that are wrong by so much, or not there (G2)."""
+"""A tram that runs, stands and creeps, and fixes of it that are wrong by so much, or not there (G2).
+
+Its driver may have set another way than it is on, beside which it runs, now and then; a wrong setting is routine.
+"""
 
 from __future__ import annotations
 
@@ -14,10 +17,12 @@ from models.measures import apart
 class Street:
     """What does not change.
 
-    ``error_mm``: so much is written that a place by map matching errs at most.  ``speed_error_mm_s``: so much a speed.
+    ``first_mm``: where the first stop is.  ``error_mm``: so much a place by map matching errs at most.
+    ``speed_error_mm_s``: so much a speed.
     """
 
     limits: StopLimits
+    first_mm: int
     error_mm: int
     speed_error_mm_s: int
 
@@ -28,16 +33,20 @@ class Ride:
 
     ``at_mm``: where the tram is.  ``here``: how many stops its unit has come to, by the places in its table;
     ``here_mm``, ``next_mm``: where the last of them is, and the next one.
-    Histories: ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
+    ``is_astray``: it is on another way than its unit is set to, and ``at_mm`` is where it is beside that one.
+    Histories: ``has_place``: the last fix since the start had one.
+    ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
     ``stood_at_mm``: where it was when it began to stand.  ``wandered``: a fix made it run that still stood there.
-    ``fell_back``: one put it farther back.
+    ``fell_back``: one put it farther back that was on the way that is set.
     """
 
     at_mm: int
     here: int
     here_mm: int
     next_mm: int
+    is_astray: bool
     stopping: Stopping
+    has_place: bool
     fixed_at_mm: int
     speed_mm_s: int
     stood_at_mm: int
@@ -45,9 +54,19 @@ class Ride:
     fell_back: bool
 
 
-def trams_do_not_run_backwards(way_mm: int) -> bool:
+def trams_do_not_run_backwards(system: Ride, way_mm: int) -> bool:
     """No tram runs against its way (G2)."""
-    return way_mm >= 0
+    return system.is_astray or way_mm >= 0
+
+
+def nobody_runs_along_a_way_that_he_is_not_on(system: Ride, way_mm: int) -> bool:
+    """Beside another way than its own a tram runs against that one, as on the other track of a street (G2, ours)."""
+    return not system.is_astray or way_mm <= 0
+
+
+def who_comes_round_to_a_way_had_no_place_there(system: Ride) -> bool:
+    """A tram that comes round to another part of a way that it is not on has had a fix without a place (G2, ours)."""
+    return system.is_astray and not system.has_place
 
 
 def a_place_is_within_its_error(site: Street, system: Ride, fix: Fix) -> bool:
@@ -70,29 +89,57 @@ def the_table_has_the_stops(system: Ride, here_mm: int, next_mm: int) -> bool:
     return here_mm == system.here_mm and next_mm == system.next_mm
 
 
-def it_begins_at_a_stop_that_it_has_come_to(site: Street, system: Ride, here_mm: int) -> bool:
+def it_begins_at_a_stop_that_it_has_come_to(site: Street, at_mm: int, is_astray: bool, here_mm: int) -> bool:
     """A unit begins at a stop that the tram is near, or beyond: that of its run, or the first of the way (G2)."""
-    return system.at_mm >= here_mm - site.limits.near_mm - site.error_mm
+    return is_astray or at_mm >= here_mm - site.limits.near_mm - site.error_mm
 
 
-def restart(site: Street, system: Ride, here: int, here_mm: int, next_mm: int) -> Ride:
-    """The unit starts anew, or a spare one takes its place, wherever the tram is (G2)."""
-    if not it_begins_at_a_stop_that_it_has_come_to(site, system, here_mm):
+def restart(site: Street, system: Ride, at_mm: int, is_astray: bool, here: int, here_mm: int, next_mm: int) -> Ride:
+    """The unit starts anew, or a spare one takes its place, wherever the tram is; its driver sets a way (G2).
+
+    Along that way it is at ``at_mm``, on it or beside it.
+    """
+    if not it_begins_at_a_stop_that_it_has_come_to(site, at_mm, is_astray, here_mm):
         return system
-    return replace(system, here=here, here_mm=here_mm, next_mm=next_mm, stopping=machine.begun(here))
+    return replace(
+        system,
+        at_mm=at_mm,
+        is_astray=is_astray,
+        here=here,
+        here_mm=here_mm,
+        next_mm=next_mm,
+        stopping=machine.begun(here),
+        has_place=False,
+    )
 
 
 def run_on(site: Street, system: Ride, way_mm: int) -> Ride:
     """The tram moves, or does not."""
-    if not trams_do_not_run_backwards(way_mm):
+    if not trams_do_not_run_backwards(system, way_mm):
+        return system
+    if not nobody_runs_along_a_way_that_he_is_not_on(system, way_mm):
         return system
     return replace(system, at_mm=system.at_mm + way_mm)
+
+
+def come_round(site: Street, system: Ride, at_mm: int) -> Ride:
+    """A tram that is not on the way that is set comes beside another part of it (G2)."""
+    if not who_comes_round_to_a_way_had_no_place_there(system):
+        return system
+    return replace(system, at_mm=at_mm)
+
+
+def turn_onto(site: Street, system: Ride) -> Ride:
+    """A tram comes onto the way that was set before it was there; its unit does not begin anew (G2)."""
+    if not it_begins_at_a_stop_that_it_has_come_to(site, system.at_mm, False, system.here_mm):
+        return system
+    return replace(system, is_astray=False)
 
 
 def take_fix(
     site: Street, system: Ride, fix: Fix, speed_mm_s: int, here_mm: int, next_mm: int, further_mm: int
 ) -> Ride:
-    """The unit takes a fix; ``further_mm``: the stop after the next one, wherever (G2).
+    """The unit takes a fix; ``further_mm``: the stop after the next one, or the second of the way, wherever (G2).
 
     With limits that do not pass their check for what places err it is not put to use, and takes none.
 
@@ -107,18 +154,21 @@ def take_fix(
     before = system.stopping
     now = machine.note_fix(site.limits, before, here_mm, next_mm, fix)
     has_come = now.stop > before.stop
+    was_astray = fix.is_placed and fix.place_mm < system.here_mm - site.limits.held_mm
+    stop_mm = site.first_mm if was_astray else system.here_mm
     is_still = before.stands and system.at_mm == system.stood_at_mm
     is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389
     begins = now.stands and (has_come or not before.stands)
     return replace(
         system,
-        here=system.here + 1 if has_come else system.here,
-        here_mm=system.next_mm if has_come else system.here_mm,
-        next_mm=further_mm if has_come else system.next_mm,
+        here=0 if was_astray else system.here + 1 if has_come else system.here,
+        here_mm=system.next_mm if has_come else stop_mm,
+        next_mm=further_mm if has_come or was_astray else system.next_mm,
         stopping=now,
+        has_place=fix.is_placed,
         fixed_at_mm=system.at_mm,
         speed_mm_s=speed_mm_s,
         stood_at_mm=system.at_mm if begins else system.stood_at_mm,
         wandered=system.wandered or (is_still and is_told and not (now.stands and not has_come)),
-        fell_back=system.fell_back or fell(before, now),
+        fell_back=system.fell_back or (not system.is_astray and fell(before, now)),
     )

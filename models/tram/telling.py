@@ -13,6 +13,7 @@ from models.compiled import packed
 from models.tram import tally
 from models.tram.given import (
     GPS_BEYOND,
+    LEAVES_AT_ONCE,
     NEVER_LOST,
     SPEED_ERROR_MM_S,
     STOP_LIMITS,
@@ -53,7 +54,11 @@ from models.tram.state import (
     NEVER_MS,
     PLACE,
     SPEED,
+    U_ASTRAY,
+    U_FOLLOWED,
+    U_LEAST,
     U_LEFT,
+    U_RUN,
     U_STANDS,
     U_STOOD,
     U_STOP,
@@ -69,6 +74,7 @@ SLOT = packed(SLOTS)
 Known, mark = MADE.dispatching.Known, MADE.dispatching.mark
 Display, begun, located, older = MADE.display.Display, MADE.display.begun, MADE.display.located, MADE.display.older
 Fix, Stopping, note_fix = MADE.stopping.Fix, MADE.stopping.Stopping, MADE.stopping.note_fix
+stops_begun = MADE.stopping.begun
 Heard, Answer = MADE.cycle.Heard, MADE.cycle.Answer
 note_answer, age_heard, note_cycle, is_heard, slot_begins_ms = (
     MADE.cycle.note_answer,
@@ -155,10 +161,31 @@ def is_behind(traffic: Traffic, tram: int, other: int) -> bool:
 
 
 @compiled
+def stopping_of(day: Given, body: Any) -> Any:
+    """What a unit tells, and has seen of the way that is set."""
+    has_run = body[U_RUN] == 1 or day.plant == LEAVES_AT_ONCE
+    return Stopping(body[U_STOP], body[U_LEFT] == 1, body[U_STANDS] == 1, body[U_FOLLOWED] == 1, body[U_LEAST], has_run)
+
+
+@compiled
+def keep_stopping(body: Any, told: Any) -> None:
+    """Keep it."""
+    body[U_STOP], body[U_LEFT], body[U_STANDS] = told.stop, told.left, told.stands
+    body[U_FOLLOWED], body[U_LEAST], body[U_RUN] = told.is_followed, told.least_mm, told.has_run
+
+
+@compiled
+def start_unit(body: Any, stop: int, now_ms: int, is_astray: bool) -> None:
+    """Start a unit: at the stop where a run begins, or anew; its driver sets the way that it is on, or the other."""
+    keep_display(body, begun(now_ms))
+    keep_stopping(body, stops_begun(stop))
+    body[U_STOOD], body[U_ASTRAY] = body[PLACE], is_astray
+
+
+@compiled
 def begin_unit(day: Given, body: Any, stop: int, now_ms: int) -> None:
     """Start a unit at the stop where a run begins."""
-    keep_display(body, begun(now_ms))
-    body[U_STOP], body[U_LEFT], body[U_STANDS], body[U_STOOD] = stop, 0, 0, body[PLACE]
+    start_unit(body, stop, now_ms, False)
     body[H_KNOWN], body[H_AGE], body[H_ANSWERED] = 0, 0, 0
     body[G_MARK], body[G_TOLD], body[G_BEHIND] = 2 * stop, NEVER_MS, 0
 
@@ -196,13 +223,23 @@ DRAWS_MULTIPATH = PLAN.multipath_m * float(np.sqrt(1 - KEEPS_MULTIPATH**2))
 
 
 @compiled
+def stop_set_mm(day: Given, body: Any, stop: int) -> int:
+    """Where a stop is along the way that a unit is set to."""
+    last = len(day.stops_mm) - 1
+    if stop > last:
+        return FAR_MM
+    return int(day.stops_mm[stop] if body[U_ASTRAY] == 0 else day.stops_mm[last] - day.stops_mm[last - stop])
+
+
+@compiled
 def see(day: Given, traffic: Traffic, tram: int, now_s: int, rng: np.random.Generator) -> None:
     """Let a unit take its fix, and what it shows grow older."""
     body = traffic.trams[tram]
     fix = fix_of(day, traffic, tram, now_s, rng)
-    before = Stopping(body[U_STOP], body[U_LEFT] == 1, body[U_STANDS] == 1)
-    here_mm = day.stops_mm[before.stop]
-    next_mm = day.stops_mm[before.stop + 1] if before.stop + 1 < len(day.stops_mm) else FAR_MM
+    if body[U_ASTRAY] == 1 and fix.is_placed:
+        fix = Fix(True, day.stops_mm[-1] - fix.place_mm, fix.has_speed, fix.speed_mm_s)
+    before = stopping_of(day, body)
+    here_mm, next_mm = stop_set_mm(day, body, before.stop), stop_set_mm(day, body, before.stop + 1)
     if day.plant == NEVER_LOST and not (fix.is_placed and fix.has_speed and fix.place_mm != 0):
         now = before
     else:
@@ -212,7 +249,7 @@ def see(day: Given, traffic: Traffic, tram: int, now_s: int, rng: np.random.Gene
     traffic.row[tally.WANDERED] += stood and is_known and fix.speed_mm_s < 1_389 and not now.stands
     if now.stands and not before.stands:
         body[U_STOOD] = body[PLACE]
-    body[U_STOP], body[U_LEFT], body[U_STANDS] = now.stop, now.left, now.stands
+    keep_stopping(body, now)
     traffic.row[tally.PLACE_LOST] += not fix.is_placed
     display = display_of(body)
     aged = older(day.limits, display, 1_000)
@@ -259,13 +296,19 @@ def send(box: Any, first_ms: Any, tram: int, due_ms: int, message: tuple[int, ..
 
 
 @compiled
-def ask(day: Given, traffic: Traffic, stop: int, now_s: int, rng: np.random.Generator) -> None:
-    """Let a station ask the first two trams of this way that it reaches: up 1, up 2; down 1, down 2 (table 1)."""
+def ask(day: Given, traffic: Traffic, there: Traffic, stop: int, now_s: int, rng: np.random.Generator) -> None:
+    """Let a station ask the first two trams of this way that it reaches: up 1, up 2; down 1, down 2 (table 1).
+
+    Whose unit is set to the other way is asked as one of that.
+    """
     slot = most = 2 if day.is_back else 0
     for place in range(traffic.size[0]):
         tram = traffic.line[place]
-        if slot < most + 2 and is_in_reach(day, traffic, tram, stop):
-            ask_one(day, traffic, tram, stop, slot, now_s, rng)
+        if traffic.trams[tram, U_ASTRAY] == 1:
+            if is_in_reach(day, traffic, tram, stop):
+                ask_one(day, traffic, there, tram, stop, 2 - most, now_s, rng)
+        elif slot < most + 2 and is_in_reach(day, traffic, tram, stop):
+            ask_one(day, traffic, traffic, tram, stop, slot, now_s, rng)
             slot += 1
 
 
@@ -282,9 +325,9 @@ def number_told(day: Given, traffic: Traffic, tram: int, now_s: int) -> int:
 
 @compiled
 def ask_one(
-    day: Given, traffic: Traffic, tram: int, stop: int, slot: int, now_s: int, rng: np.random.Generator
+    day: Given, traffic: Traffic, told: Traffic, tram: int, stop: int, slot: int, now_s: int, rng: np.random.Generator
 ) -> None:
-    """Let a station ask a tram in a slot; what comes back goes to the centre."""
+    """Let a station ask a tram in a slot; what comes back goes to the centre, as told of the way that is set."""
     body = traffic.trams[tram]
     at_ms = slot_begins_ms(SLOT, slot) + 50
     sound = not is_lost(day, tram, stop, now_s, rng)
@@ -298,12 +341,12 @@ def ask_one(
         due_ms = made_ms + at_ms + 1_500 + int(rng.random() * 2_000) + slower_ms(day, now_s)
         message = (body[U_STOP], body[U_LEFT], body[U_STANDS], leaves_at, made_ms, 0)
         number = number_told(day, traffic, tram, now_s)
-        send(traffic.reports[number], traffic.due_ms[0], number, due_ms, message)
+        send(told.reports[number], told.due_ms[0], number, due_ms, message)
         is_beyond = mark(body[U_STOP], body[U_LEFT] == 1) > true_mark(day, traffic.trams[number])
-        traffic.row[tally.REPORT_BROKEN] += is_beyond
+        traffic.row[tally.REPORT_BROKEN] += is_beyond and body[U_ASTRAY] == 0
         if rng.random() < day.repeats:
             again_ms = due_ms + int(1_000 * LATEST_S * rng.random())
-            send(traffic.reports[number], traffic.due_ms[0], number, again_ms, message)
+            send(told.reports[number], told.due_ms[0], number, again_ms, message)
     ended = note_cycle(heard)
     traffic.row[tally.UNHEARD] += body[DWELL_S] != FREE and not is_heard(ended)
     body[H_KNOWN], body[H_AGE], body[H_ANSWERED] = ended.is_known, ended.age_ms, ended.in_this_cycle

@@ -27,10 +27,12 @@ from models.tram.state import (
     PLACE,
     SPEED,
     TURN,
+    U_ASTRAY,
+    U_RIGHT_S,
     WAITS,
     Traffic,
 )
-from models.tram.telling import begin_unit, keep_known
+from models.tram.telling import begin_unit, keep_known, start_unit
 
 coming = MADE.dispatching.coming
 AWAITED_S = 10**9
@@ -39,6 +41,8 @@ NO_RUN = 1
 """`TURN` of a tram that is in no timetable: from the depot, or on its way back."""
 LATER_S = 120
 """Turning and the other line take so much longer at most than is drawn for the day; ours."""
+WRONG_FOR_S = 600
+"""So long after it was set a driver notices a wrong way; ours."""
 GIVES_UP_S = 1_800
 """So long after it was due a tram that is not confirmed goes to the depot; ours."""
 
@@ -70,6 +74,27 @@ def ask_anew(day: Given, traffic: Traffic, now_ms: int) -> bool:
     is_anew = confirm(traffic, tram, 0, destination(day, traffic, tram), now_ms)
     traffic.row[tally.NOT_TAKEN_UP_ANEW] += not is_anew
     return True
+
+
+@compiled
+def set_wrong(day: Given, traffic: Traffic, now_s: int) -> bool:
+    """Start the unit of one that is on the way anew, set to the other way; whether there was one (G6)."""
+    if traffic.size[0] == 0:
+        return False
+    body = traffic.trams[traffic.line[day.where.wrong_place % traffic.size[0]]]
+    start_unit(body, 0, 1_000 * now_s, True)
+    body[U_RIGHT_S] = now_s + WRONG_FOR_S
+    traffic.row[tally.SET_WRONG] += 1
+    return True
+
+
+@compiled
+def set_right(traffic: Traffic, now_s: int) -> None:
+    """Let drivers notice that the other way is set: the unit begins anew, at the first stop of this one (G6)."""
+    for place in range(traffic.size[0]):
+        body = traffic.trams[traffic.line[place]]
+        if body[U_ASTRAY] == 1 and now_s >= body[U_RIGHT_S]:
+            start_unit(body, 0, 1_000 * now_s, False)
 
 
 # ---- onto a way

@@ -26,6 +26,7 @@ from models.tram.state import (
     NEXT,
     ON,
     PLACE,
+    U_ASTRAY,
     U_LEFT,
     U_STOP,
     WAITS,
@@ -122,8 +123,9 @@ def watch(day: Given, traffic: Traffic, now_ms: int) -> None:
         row[tally.NOT_KNOWN_S] += body[K_IS] == 0
         row[tally.CLOCK_BROKEN] += body[D_NOW] != now_ms
         stop_mm = day.stops_mm[body[U_STOP]]
-        has_left = body[U_LEFT] == 1 and body[PLACE] <= stop_mm + AT_STOP_MM - BOUND_MM
-        row[tally.REACHED_TOO_SOON] += has_left or body[PLACE] < stop_mm - AT_STOP_MM - BOUND_MM
+        has_left = body[U_LEFT] == 1 and (body[PLACE] <= stop_mm + AT_STOP_MM - BOUND_MM or body[U_ASTRAY] == 1)
+        is_before = body[PLACE] < stop_mm - AT_STOP_MM - BOUND_MM and body[U_ASTRAY] == 0
+        row[tally.REACHED_TOO_SOON] += has_left or is_before
         watch_orders(day, traffic, tram, now_ms)
         if place > 0:
             leader = traffic.line[place - 1]

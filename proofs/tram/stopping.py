@@ -6,9 +6,11 @@ from models.measures import apart
 from models.tram.stopping import (
     Ride,
     Street,
+    come_round,
     restart,
     run_on,
     take_fix,
+    turn_onto,
 )
 from proofs.theory import Theory, by_name
 
@@ -16,11 +18,14 @@ from proofs.theory import Theory, by_name
 
 
 def it_begins_at_a_stop(site: Street, system: Ride) -> bool:
-    """The unit begins at a stop of its way, or behind it, and does not take itself to stand."""
+    """The unit begins at a stop of its way, or behind it, or set to another way; it has seen nothing of either."""
     return (
-        system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
+        (system.is_astray or system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm)
         and not system.stopping.left
         and not system.stopping.stands
+        and not system.stopping.is_followed
+        and not system.stopping.has_run
+        and not system.has_place
         and system.stopping.stop == system.here
         and not system.wandered
         and not system.fell_back
@@ -43,8 +48,8 @@ def who_stands_was_slow(site: Street, system: Ride) -> bool:
 
 
 def what_was_reached_was_reached(site: Street, system: Ride) -> bool:
-    """The tram is at the stop that it is said to have reached, or farther on (G2)."""
-    return system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
+    """On the way that is set the tram is at the stop that it is said to have reached, or farther on (G2)."""
+    return system.is_astray or system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
 
 
 def stops_are_counted_one_by_one(site: Street, system: Ride) -> bool:
@@ -57,14 +62,28 @@ def what_was_left_is_behind(site: Street, system: Ride) -> bool:
     return not system.stopping.left or system.at_mm > system.here_mm
 
 
+def who_has_left_a_stop_is_on_the_way(site: Street, system: Ride) -> bool:
+    """A tram on another way than its driver has set tells of none there that it has left (G3, G5, ours)."""
+    return not (system.stopping.left and system.is_astray)
+
+
 def a_standing_tram_never_seems_to_run(site: Street, system: Ride) -> bool:
     """No error of GPS moves a tram that has not moved (002, 3.1.2 and 5.1; G2)."""
     return not system.wandered
 
 
 def no_tram_falls_back(site: Street, system: Ride) -> bool:
-    """No fix puts a tram behind where it has been (002, 3.1.2; G2)."""
+    """No fix puts a tram behind where it has been, on the way that is set (002, 3.1.2; G2)."""
     return not system.fell_back
+
+
+def beside_another_way_none_is_told_far_beyond(site: Street, system: Ride) -> bool:
+    """Nor is one on another way told to have reached a stop beyond where it was seen, but for errors (G2, ours)."""
+    return (
+        not (system.is_astray and system.has_place)
+        or system.stopping.stop == 0
+        or system.fixed_at_mm >= system.here_mm - site.limits.held_mm - site.error_mm
+    )
 
 
 # ---- what it rests on
@@ -73,10 +92,25 @@ def no_tram_falls_back(site: Street, system: Ride) -> bool:
 def it_began_to_stand_near_the_stop(site: Street, system: Ride) -> bool:
     """Where a tram began to stand was near, and it was not told to have left (G2)."""
     return not system.stopping.stands or (
-        apart(system.stood_at_mm, system.here_mm) <= site.limits.near_mm + site.error_mm
-        and system.at_mm >= system.stood_at_mm
-        and not system.stopping.left
+        apart(system.stood_at_mm, system.here_mm) <= site.limits.near_mm + site.error_mm and not system.stopping.left
     )
+
+
+def who_was_seen_to_run_is_on_the_way(site: Street, system: Ride) -> bool:
+    """No tram on another way than is set is seen to run over a stop of that one (G2)."""
+    return not (system.stopping.has_run and system.is_astray)
+
+
+def who_is_astray_was_seen_no_farther_back(site: Street, system: Ride) -> bool:
+    """Beside a way that it is not on a tram was seen, since its last fix without a place, no farther back (G2)."""
+    return not (system.is_astray and system.stopping.is_followed) or (
+        system.stopping.least_mm >= system.at_mm - site.error_mm
+    )
+
+
+def the_unit_knows_whether_it_has_had_a_place(site: Street, system: Ride) -> bool:
+    """What was seen is forgotten with the first fix without a place (G2)."""
+    return system.stopping.is_followed == system.has_place
 
 
 INITIAL = (it_begins_at_a_stop,)
@@ -86,11 +120,19 @@ SAFETY = (
     what_was_reached_was_reached,
     stops_are_counted_one_by_one,
     what_was_left_is_behind,
+    who_has_left_a_stop_is_on_the_way,
     a_standing_tram_never_seems_to_run,
     no_tram_falls_back,
+    beside_another_way_none_is_told_far_beyond,
 )
-INVARIANTS = (*SAFETY, it_began_to_stand_near_the_stop)
-STEPS = (run_on, take_fix, restart)
+INVARIANTS = (
+    *SAFETY,
+    it_began_to_stand_near_the_stop,
+    who_was_seen_to_run_is_on_the_way,
+    who_is_astray_was_seen_no_farther_back,
+    the_unit_knows_whether_it_has_had_a_place,
+)
+STEPS = (run_on, come_round, turn_onto, take_fix, restart)
 
 THEORY = Theory(
     "stopping",

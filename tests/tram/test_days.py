@@ -89,6 +89,8 @@ def test_faults_are_drawn_by_their_chance() -> None:
         (plan.GPS_BEYOND, NONE, "place_broken"),
         (plan.GPS_BEYOND, NONE, "reached_too_soon"),
         (plan.TAKES_UP_ANEW, frozenset({"asked_anew"}), "order_turned"),
+        (plan.LEAVES_AT_ONCE, frozenset({"wrong_way"}), "reached_too_soon"),
+        (plan.LEAVES_AT_ONCE, frozenset({"wrong_way"}), "recovery_occupied"),
     ],
 )
 def test_what_is_planted_is_reported(plant: int, present: frozenset[str], broken: str) -> None:
@@ -107,10 +109,11 @@ def test_what_is_planted_is_reported(plant: int, present: frozenset[str], broken
         ("wrong_destination", "beyond_destination"),
         ("centre_restart", "not_known_s"),
         ("late_at_terminus", "confirmed_anew"),
+        ("wrong_way", "set_wrong"),
     ],
 )
 def test_what_an_ordinary_day_brings_is_noticed_and_breaks_no_claim(name: str, noticed: str) -> None:
-    """Orders of the future are refused, trams on the way are not taken up anew, wrong settings are seen (G5, G6)."""
+    """Trams on the way are not taken up anew, wrong settings are seen, or tell of no stop that was left (G5, G6)."""
     rows = np.array([one_day(3, number, present=frozenset({name}))[0] for number in range(4)])
     without = np.array([one_day(3, number, present=NONE)[0] for number in range(4)])
     assert column(rows, noticed) > column(without, noticed) == 0
@@ -127,9 +130,9 @@ def test_what_is_drawn_alone_changes_nothing_else_of_a_day() -> None:
             days.append(plan.given(np.random.default_rng(number), apart, present=present)[0])
             backs.append(plan.other_way(days[-1], apart))
         assert {day.where for day in days} == {days[0].where}
-        assert min(days[1].ahead_ms, days[2].asked_anew, days[3].number_told_s) > 0
+        assert min(days[1].ahead_ms, days[2].asked_anew, days[3].number_told_s, days[4].wrong_way) > 0
         for each in (days, backs):
-            rest = [day._replace(ahead_ms=0, asked_anew=0, number_told_s=0) for day in each]
+            rest = [day._replace(ahead_ms=0, asked_anew=0, number_told_s=0, wrong_way=0) for day in each]
             assert all(np.array_equal(one, first) for day in rest for one, first in zip(day, rest[0], strict=True))
 
 

@@ -45,10 +45,12 @@ EACH_S, FIX_S = 7, 3
 APPROACH_MM = 60_000
 """So far before a stop a tram waits, and from there comes to it: nearer its unit may tell that it stands there."""
 
-ORDINARY = ("units", "centres", "numbers", "bunching", "jitter")
+ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways")
 """Units start anew under way; the centre of each way does, several times; another car runs under the number of one that
-was taken off; doors jam, and trams bunch; cycles and answers come early and late, and another tram answers."""
-BEYOND = ("wrong_way", "fixes_beyond", "taken_off_on_the_way", "begins_ahead")
+was taken off; doors jam, and trams bunch; cycles and answers come early and late, and another tram answers; drivers set
+the way in the other direction where a unit starts, until they notice, and leave what is set when they turn, as it was
+or as it is to be."""
+BEYOND = ("runs_along", "fixes_beyond", "taken_off_on_the_way", "begins_ahead")
 """Each breaks an assumption: ``test_an_assumption_that_is_broken_matters`` says which, and that it matters."""
 
 
@@ -58,7 +60,7 @@ class Car:
 
     ``at``: its mark, since ``since_s``; ``until_s``: until then it stays at it.  ``place_mm``: along its way; it stands
     ``offset_mm`` beyond its stop.  ``comes_at``: where it wants to come, from ``due_s`` on.  ``asked_s``: when the
-    station asks it; ``heard``: what that has, of ``made_s``.
+    station asks it; ``heard``: what that has, of ``made_s``.  ``noticed_s``: when its driver notices a wrong setting.
     """
 
     name: Tram
@@ -76,6 +78,7 @@ class Car:
     confirmed_s: int = -(10**6)
     asked_s: int = 0
     made_s: int = 0
+    noticed_s: int = 0
     heard: Heard = field(default_factory=lambda: cycle.nothing_heard(0))
     unit: Unit = field(default_factory=Unit)
 
@@ -89,12 +92,13 @@ class World:
     """Two ways, each a centre's view and the trams on it, the first one in front.
 
     ``apart`` draws clocks that are ahead, whom the centre is asked for anew, the street and its fixes, and ``days``:
-    the rest is drawn as without.  ``restarts``: when the centre of which way starts anew.  ``happened`` and ``broken``
-    count what came about, and what must not.
+    the rest is drawn as without.  ``settings`` draws what drivers set wrong.  ``restarts``: when the centre of which
+    way starts anew.  ``happened`` and ``broken`` count what came about, and what must not.
     """
 
     chance: Random
     apart: Random
+    settings: Random
     days: frozenset[str] = frozenset()
     lost: float = 0.1
     late_s: int = 300
@@ -250,10 +254,17 @@ class World:
         unit, most_mm = car.unit, (2 if "fixes_beyond" in self.days else 0.999) * FIX_ERROR_MM
         along_mm, across_mm = (self.apart.uniform(-most_mm, most_mm) for _ in range(2))
         point = fix_at(self.tables[car.way], car.place_mm, along_mm, across_mm)
-        note(unit, self.tables[unit.chosen], point, 0 if car.is_slow else FAST_MM_S, self.now_s)
+        note(
+            unit,
+            self.tables[car.way if "runs_along" in self.days else unit.chosen],
+            point,
+            0 if car.is_slow else FAST_MM_S,
+            self.now_s,
+        )
         self.happened["fixes"] += 1
         self.happened["without a place"] += unit.place_mm is None
         if unit.chosen != car.way:
+            self.happened["fixes of another way"] += 1
             return
         told = mark(unit.stopping.stop, unit.stopping.left)
         self.broken["place"] += unit.place_mm is not None and abs(unit.place_mm - car.place_mm) > MATCH.most_mm
@@ -287,7 +298,19 @@ class World:
         car.way, car.at, car.confirmed_s = car.onto, 2 * car.comes_at, -(10**6)
         car.since_s, car.until_s, car.place_mm, car.offset_mm = self.now_s, self.now_s + 20, 0, 3_000
         car.leaves_at = JUNCTION if car.way == 0 and self.chance.random() < 0.4 else LAST
-        car.unit = unit_begun(car.way, car.comes_at, self.now_s, self.now_s)
+        was_set = car.unit.chosen == car.way and "ways" in self.days
+        self.happened["ways set too soon"] += was_set
+        if was_set or (car.unit.chosen >= 0 and self.is_set_wrong(car, 0.2)):
+            self.happened["ways left as they were"] += 1
+        else:
+            car.unit = unit_begun(car.way, car.comes_at, self.now_s, self.now_s)
+
+    def is_set_wrong(self, car: Car, share: float) -> bool:
+        """Tell whether a driver sets the way wrong, and when he notices."""
+        if "ways" not in self.days or self.settings.random() >= share:
+            return False
+        car.noticed_s = self.now_s + self.settings.randrange(10, self.settings.choice((60, 200, 900)))
+        return True
 
     # ---- what comes about now and then
 
@@ -300,9 +323,11 @@ class World:
 
     def start_unit(self, car: Car) -> None:
         """A unit starts anew: its driver chooses the way, and nobody sets a stop."""
-        chosen = 1 - car.way if "wrong_way" in self.days else car.way
+        is_wrong = self.is_set_wrong(car, 0.4) or "runs_along" in self.days
+        chosen = 1 - car.way if is_wrong else car.way
         stop = car.at // 2 + 2 if "begins_ahead" in self.days else 0
         self.happened["units begun"] += 1
+        self.happened["ways set wrong"] += is_wrong
         self.happened["units begun while it recovers"] += car.unit.display.recovers
         car.unit = unit_begun(chosen, stop, self.now_s, self.now_s + self.apart.choice((1, 5, 40)))
 
@@ -316,6 +341,11 @@ class World:
         other.onto = way
         self.cars[self.cars.index(car)] = other
         self.happened["numbers of another car"] += 1
+
+    def set_right(self, car: Car) -> None:
+        """A driver notices that another way is set: he sets his own, and the unit begins anew."""
+        if "ways" in self.days and car.unit.chosen != car.way and self.now_s >= car.noticed_s:
+            car.unit = unit_begun(car.way, 0, self.now_s, self.now_s)
 
     def now_and_then(self, way: int) -> None:
         line = self.lines[way]
@@ -349,6 +379,7 @@ class World:
             self.run(way)
             for place, car in enumerate(line):
                 self.move(car, line[place - 1] if place > 0 else None)
+                self.set_right(car)
                 if (self.now_s + int(car.name)) % FIX_S == 0 and self.now_s >= car.unit.starts_s:
                     self.fix(car)
             self.ask_anew(way)
@@ -379,10 +410,10 @@ class World:
 
 def random_world(number: int, days: frozenset[str] | None = None) -> World:
     """Draw a world and live an hour of it; without ``days`` they are drawn too, each of them in most worlds."""
-    chance, apart = Random(number), Random(10**6 + number)
+    chance, apart, settings = Random(number), Random(10**6 + number), Random(2 * 10**6 + number)
     lost, late_s = chance.choice((0.0, 0.1, 0.4)), chance.choice((10, 100, 600))
-    drawn = frozenset(day for day in ORDINARY if apart.random() < 0.7)
+    drawn = frozenset(day for day in ORDINARY if (settings if day == "ways" else apart).random() < 0.7)
     restarts = {(apart.randrange(1_100, 4_500), way) for way in range(2) for _ in range(apart.randrange(5))}
-    world = World(chance, apart, drawn if days is None else days, lost, late_s)
+    world = World(chance, apart, settings, drawn if days is None else days, lost, late_s)
     world.restarts = restarts if "centres" in world.days else set()
     return world.seconds(3_600, chance.choice((-1, chance.randrange(1_500, 3_500))))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping, begun
 from models.tram.stopping import Ride, Street, fell
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.stopping import THEORY
 
-SITE = Street(StopLimits(near_mm=20_000, held_mm=50_000), error_mm=15_000, speed_error_mm_s=100)
+SITE = Street(StopLimits(near_mm=20_000, held_mm=50_000), first_mm=0, error_mm=15_000, speed_error_mm_s=100)
 STOPS_MM = tuple(range(0, 4_000_001, 400_000))
 
 
@@ -16,13 +18,17 @@ class Along(Play[Street, Ride]):
 
     def __init__(self, at_mm: int = 0) -> None:
         """Begin."""
-        super().__init__(THEORY, SITE, Ride(at_mm, 0, 0, STOPS_MM[1], begun(0), at_mm, 0, at_mm, False, False))
+        first = Ride(at_mm, 0, 0, STOPS_MM[1], False, begun(0), False, at_mm, 0, at_mm, False, False)
+        super().__init__(THEORY, SITE, first)
 
-    def restart(self, here: int) -> None:
-        """The unit starts anew, with a stop of the way."""
-        self.step("restart", here=here, here_mm=STOPS_MM[here], next_mm=STOPS_MM[here + 1])
-        assert self.system.stopping == Stopping(here, False, False)
+    def restart(self, here: int, at_mm: int | None = None, *, is_astray: bool = False) -> None:
+        """The unit starts anew, with a stop of the way that its driver sets; along that it is at another place."""
+        at_mm = self.system.at_mm if at_mm is None else at_mm
+        event = {"at_mm": at_mm, "is_astray": is_astray, "here": here}
+        self.step("restart", **event, here_mm=STOPS_MM[here], next_mm=STOPS_MM[here + 1])
+        assert self.system.stopping == begun(here) == Stopping(here, False, False, False, 0, False)
         assert (self.system.here, self.system.here_mm, self.system.next_mm) == (here, *STOPS_MM[here : here + 2])
+        assert (self.system.at_mm, self.system.is_astray, self.system.has_place) == (at_mm, is_astray, False)
 
     def run(self, to_mm: int) -> None:
         """Run on to a place."""
@@ -41,9 +47,10 @@ class Along(Play[Street, Ride]):
             speed_mm_s=speed_mm_s,
             here_mm=before.here_mm,
             next_mm=before.next_mm,
-            further_mm=before.next_mm + 400_000,
+            further_mm=before.next_mm + 400_000 if fix.place_mm >= before.here_mm - 50_000 else STOPS_MM[1],
         )
         now = self.system
+        assert now.has_place == now.stopping.is_followed == is_placed
         assert (now.fixed_at_mm, now.speed_mm_s) == (before.at_mm, speed_mm_s)
         assert now.here_mm == STOPS_MM[now.stopping.stop]
         assert now.next_mm == now.here_mm + 400_000
@@ -53,6 +60,7 @@ class Along(Play[Street, Ride]):
 def a_tram_stands_at_its_stop() -> None:
     """Below 5 km/h and near it; GPS jitters, and nothing moves (3.1.2; G2)."""
     along = Along()
+    assert along.fix() == (0, False, True)
     along.run(395_000)
     assert along.fix(speed_mm_s=SLOW_MM_S) == (0, True, False)
     assert along.fix(speed_mm_s=SLOW_MM_S - 1) == (1, False, True)
@@ -82,7 +90,7 @@ def it_stands_where_it_begins() -> None:
     assert along.fix() == (0, False, True)
     assert along.fix(speed_mm_s=3_000) == (0, False, False)
     assert along.fix() == (0, False, True)
-    along.run(20_001)
+    along.run(30_001)
     assert along.fix(-1, speed_mm_s=3_000) == (0, False, False)
     assert along.fix(speed_mm_s=3_000) == (0, True, False)
     assert along.fix(-15_000) == (0, True, False)
@@ -92,6 +100,7 @@ def it_stands_where_it_begins() -> None:
 def a_stop_is_passed() -> None:
     """Nobody gets on: it is reached and left at once, once surely behind (G2, G5)."""
     along = Along()
+    assert along.fix() == (0, False, True)
     along.run(420_000)
     assert along.fix(speed_mm_s=8_000) == (0, True, False)
     assert along.fix(1, speed_mm_s=8_000) == (1, True, False)
@@ -107,6 +116,7 @@ def a_stop_is_passed() -> None:
 def at_a_signal_it_does_not_stand() -> None:
     """Between stops it is slow, and stands nowhere (G2)."""
     along = Along()
+    assert along.fix() == (0, False, True)
     along.run(200_000)
     assert along.fix(speed_mm_s=8_000) == (0, True, False)
     assert along.fix() == (0, True, False)
@@ -129,28 +139,130 @@ def what_is_lost_is_not_made_up() -> None:
 def a_unit_that_starts_anew_finds_its_stop_by_its_fixes() -> None:
     """At the third stop it begins with the first, and takes itself to stand nowhere until it has found it (G2, G6)."""
     along = Along()
+    assert along.fix() == (0, False, True)
     along.run(800_000)
     assert along.fix(speed_mm_s=8_000) == (1, True, False)
     assert along.fix() == (2, False, True)
     along.restart(0)
     assert along.fix() == (0, False, False)
     along.run(900_000)
-    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
     assert along.fix(speed_mm_s=8_000) == (2, True, False)
     along.restart(2)
-    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+    assert along.fix(speed_mm_s=8_000) == (2, False, False)
     before = along.system
-    event = {"here": 3, "here_mm": 1_200_000, "next_mm": 1_600_000}
-    assert along.step("restart", **event) == before
+    event = {"is_astray": False, "here": 3, "here_mm": 1_200_000, "next_mm": 1_600_000}
+    assert along.step("restart", **event, at_mm=before.at_mm) == before
     along.run(1_200_000 - 20_000 - 15_001)
     before = along.system
-    assert along.step("restart", **event) == before
+    assert along.step("restart", **event, at_mm=before.at_mm) == before
     along.run(1_200_000 - 20_000 - 15_000)
     along.restart(3)
 
 
+def after_a_start_a_stop_is_left_once_it_was_run_over() -> None:
+    """Seen at a stop, or before it, and then beyond, by more than GPS errs to one side and the other (G2, G5)."""
+    for least_mm, at_mm, has_run in (
+        (820_000, 850_000, False),
+        (820_000, 850_001, True),
+        (820_001, 900_000, False),
+        (785_000, 820_000, False),
+        (785_000, 820_001, True),
+    ):
+        along = Along(least_mm)
+        along.restart(2)
+        assert along.fix(speed_mm_s=8_000) == (2, False, False)
+        along.run(at_mm)
+        assert along.fix(speed_mm_s=8_000) == (2, has_run, False)
+        assert along.system.stopping.has_run == has_run
+        along.run(1_221_000)
+        assert along.fix(speed_mm_s=8_000) == (3, True, False)
+        along.fix(is_placed=False)
+        along.run(1_621_000)
+        assert along.fix(speed_mm_s=8_000) == (4, True, False)
+        along.run(2_000_000)
+        assert along.fix() == (5, False, True)
+        along.fix(is_placed=False)
+        along.run(2_100_000)
+        assert along.fix(speed_mm_s=8_000) == (5, True, False)
+    along = Along(830_000)
+    along.restart(2)
+    assert along.fix(speed_mm_s=8_000) == (2, False, False)
+    assert along.fix(-15_000, speed_mm_s=8_000) == (2, False, False)
+    along.run(846_000)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+
+
+def who_runs_over_no_stop_leaves_none() -> None:
+    """It set back to its stop, and its unit was set to the other way: that has risen, and not beyond a stop (G2)."""
+    along = Along(750_000)
+    along.restart(1)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    along.run(820_000)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    assert not along.system.stopping.has_run
+
+
+def a_tram_set_to_another_way_leaves_no_stop_there() -> None:
+    """It runs over the line the other way, stands, is lost, comes round: it tells where it is, and nothing left (G3).
+
+    A stop that it was said to have reached, and is seen before, it has not reached: its unit begins anew.
+    """
+    along = Along()
+    along.restart(0, 1_300_000, is_astray=True)
+    for stop in (1, 2, 3, 3):
+        assert along.fix(15_000, speed_mm_s=8_000) == (stop, False, False)
+    along.run(1_200_000)
+    assert along.fix() == (3, False, True)
+    along.run(1_165_000)
+    assert along.fix(-15_000, speed_mm_s=8_000) == (3, False, False)
+    assert along.fix(-15_001 + 15_000, speed_mm_s=8_000) == (3, False, False)
+    along.run(1_164_999)
+    assert along.fix(-15_000, speed_mm_s=8_000) == (0, False, False)
+    assert (along.system.here_mm, along.system.stopping.least_mm) == (0, 1_149_999)
+    assert not along.system.fell_back
+    for off_mm, stop in ((15_000, 1), (15_000, 2), (-15_000, 2)):
+        assert along.fix(off_mm, speed_mm_s=8_000) == (stop, False, False)
+    before = along.system
+    assert along.step("come_round", at_mm=3_000_000) == before
+    along.fix(is_placed=False)
+    along.step("come_round", at_mm=3_000_000)
+    assert (along.system.at_mm, along.system.is_astray) == (3_000_000, True)
+    for stop in (3, 4, 5):
+        assert along.fix(speed_mm_s=8_000) == (stop, False, False)
+    along.restart(3, 0, is_astray=True)
+    assert along.fix() == (0, False, False)
+
+
+def what_is_set_before_a_tram_turns_is_right_when_it_has_turned() -> None:
+    """A driver sets the way back two stops too soon; where that begins nothing is told of these stops (G2, G5)."""
+    along = Along()
+    along.restart(0, 900_000, is_astray=True)
+    for stop in (1, 2):
+        assert along.fix(speed_mm_s=8_000) == (stop, False, False)
+    along.run(0)
+    before = along.system
+    assert along.step("turn_onto") == before
+    assert along.fix() == (0, False, False)
+    along.step("turn_onto")
+    assert not along.system.is_astray
+    assert along.fix() == (0, False, True)
+    along.run(30_001)
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    before = along.system
+    assert along.step("come_round", at_mm=0) == before
+    along.fix(is_placed=False)
+    before = along.system
+    assert along.step("come_round", at_mm=0) == before
+
+
 def what_nature_does_not_do() -> None:
-    """Run back, err by more than is written, or move the stops (G1, G2)."""
+    """Run back, or along another way; err by more than is written, or move the stops (G1, G2)."""
+    along = Along()
+    along.restart(0, 900_000, is_astray=True)
+    before = along.system
+    assert along.step("run_on", way_mm=1) == before
     along = Along()
     before = along.system
     assert along.step("run_on", way_mm=-1) == before
@@ -175,7 +287,7 @@ def limits_that_places_may_undo_are_refused() -> None:
     ):
         along = Along()
         along.run(1)
-        along.site = Street(StopLimits(near_mm, held_mm), error_mm, 100)
+        along.site = Street(StopLimits(near_mm, held_mm), 0, error_mm, 100)
         event = {"fix": Fix(False, 0, False, 0), "speed_mm_s": 0, "here_mm": 0, "next_mm": 400_000}
         taken = along.step("take_fix", further_mm=800_000, **event)
         assert taken.fixed_at_mm == (1 if is_taken else 0)
@@ -183,12 +295,12 @@ def limits_that_places_may_undo_are_refused() -> None:
 
 def what_tells_less_of_the_way_has_fallen_back() -> None:
     """An earlier stop, or one that was left and is not any more; a later stop not yet left has not (G2)."""
-    left, at_it = Stopping(3, True, False), Stopping(3, False, False)
-    assert fell(at_it, Stopping(2, False, False))
-    assert fell(at_it, Stopping(2, True, False))
+    left, at_it = replace(begun(3), left=True, has_run=True), begun(3)
+    assert fell(at_it, begun(2))
+    assert fell(at_it, replace(left, stop=2))
     assert fell(left, at_it)
     assert not fell(at_it, left)
-    assert not fell(left, Stopping(4, False, False))
+    assert not fell(left, begun(4))
     assert not fell(at_it, at_it)
 
 
@@ -202,5 +314,9 @@ WITNESSES = (
     at_a_signal_it_does_not_stand,
     what_is_lost_is_not_made_up,
     a_unit_that_starts_anew_finds_its_stop_by_its_fixes,
+    after_a_start_a_stop_is_left_once_it_was_run_over,
+    who_runs_over_no_stop_leaves_none,
+    a_tram_set_to_another_way_leaves_no_stop_there,
+    what_is_set_before_a_tram_turns_is_right_when_it_has_turned,
     what_nature_does_not_do,
 )
