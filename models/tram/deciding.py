@@ -48,6 +48,7 @@ from models.tram.state import (
     O_TRAM,
     O_TRULY,
     ON,
+    R_BY,
     R_DUE,
     R_LEAVES,
     R_LEFT,
@@ -66,6 +67,7 @@ from models.tram.telling import (
     keep_display,
     keep_known,
     known_of,
+    number_told,
     send,
     slower_ms,
 )
@@ -281,7 +283,7 @@ def deliver_reports(
         message[R_DUE] = FREE
         hear_report(traffic, tram, report, now_ms)
         hear_of_the_other_way(day, there, tram, report.left, report.made_ms, now_ms)
-        by = traffic.trams[tram]
+        by = traffic.trams[message[R_BY]]
         if by[K_IS] == 1 and report.made_ms > by[K_SINCE]:
             by[G_MARK] = max(by[G_MARK], mark(report.stop, report.left))
             if report.stands:
@@ -303,16 +305,17 @@ def taken_now(day: Given, display: Any, order: Any) -> Any:
 def hear_order(day: Given, traffic: Traffic, tram: int, message: Any, now_s: int, rng: np.random.Generator) -> None:
     """Let a tram hear an order, for it or for another one; as :func:`kernel.tram.centre.received`.
 
-    One that is set to the other way hears nothing of this one.
+    A unit takes what is for the number that it tells; one that is set to the other way hears nothing of this one.
     """
     body = traffic.trams[tram]
     if body[ON] == 0 or body[U_ASTRAY] == 1 or is_lost(day, tram, message[O_STOP], now_s, rng):
         return
+    number = number_told(day, traffic, tram, now_s)
     before = display_of(body)
     order = Order(message[O_STOP], message[O_HOLDS] == 1, message[O_RECOVERS] == 1, message[O_MADE])
-    if message[O_TRAM] == tram or day.plant == NOT_ADDRESSED:
+    if message[O_TRAM] == number or day.plant == NOT_ADDRESSED:
         after = taken_now(day, before, order)
-        is_of_the_future = message[O_TRAM] == tram and order.made_ms > before.now_ms
+        is_of_the_future = message[O_TRAM] == number and order.made_ms > before.now_ms
         traffic.row[tally.OF_THE_FUTURE] += is_of_the_future and after.made_ms == before.made_ms
         traffic.row[tally.WRONG_TRAM] += message[O_TRAM] != tram and after.made_ms != before.made_ms
         if after.made_ms != before.made_ms:

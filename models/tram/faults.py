@@ -76,7 +76,7 @@ FAULTS = {
         "so often the dispatcher asks to take up a tram that is on the way", 1, 9, "1", 0.3, "practice: a wrong number"
     ),
     "number_of_another": Fault(
-        "one tram tells the number of the second one behind it for some time",
+        "one tram tells the number of the second one behind it for some time, and takes orders for that",
         600,
         7_200,
         "s",

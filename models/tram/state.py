@@ -54,7 +54,7 @@ G_MARK, G_TOLD, G_BEHIND, G_MADE = map(NAMES.index, GHOST)
 BOX = 8
 """So many messages to or from one tram are on their way at most; a later one is lost."""
 FREE = -1
-R_DUE, R_STOP, R_LEFT, R_STANDS, R_LEAVES, R_MADE = range(6)
+R_DUE, R_STOP, R_LEFT, R_STANDS, R_LEAVES, R_MADE, R_BY = range(7)
 O_DUE, O_TRAM, O_STOP, O_HOLDS, O_RECOVERS, O_MADE, O_STRAY, O_TRULY = range(8)
 NEVER_MS = -(10**9)
 LATE_MS = 10**12

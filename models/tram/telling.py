@@ -339,7 +339,7 @@ def ask_one(
         shown = day.wrong_destination > 0 and tram == day.where.destination_tram
         leaves_at = day.wrong_destination if shown else body[LEAVES]
         due_ms = made_ms + at_ms + 1_500 + int(rng.random() * 2_000) + slower_ms(day, now_s)
-        message = (body[U_STOP], body[U_LEFT], body[U_STANDS], leaves_at, made_ms, 0)
+        message = (body[U_STOP], body[U_LEFT], body[U_STANDS], leaves_at, made_ms, tram)
         number = number_told(day, traffic, tram, now_s)
         send(told.reports[number], told.due_ms[0], number, due_ms, message)
         is_beyond = mark(body[U_STOP], body[U_LEFT] == 1) > true_mark(day, traffic.trams[number])

@@ -171,6 +171,13 @@ def test_reports_that_contradict_each_other_are_counted_and_forbid_recovery() ->
     assert column(one_day(3, 72, present=NONE)[0], "contradicted") == 0
 
 
+def test_who_tells_the_number_of_another_takes_its_orders() -> None:
+    """And what it tells the other has not told: orders for that one are made by guess (G2, G6)."""
+    told, without = (one_day(3, 8, present=NONE, beyond=beyond)[0] for beyond in (("number_of_another",), ()))
+    for broken in ("wrong_tram", "order_by_guess"):
+        assert column(told, broken) > column(without, broken) == 0
+
+
 # ---- both directions, and a junction
 
 BACK, LATE_TELEGRAMS = frozenset({"both_ways"}), frozenset({"both_ways", "repeats"})
