@@ -72,6 +72,7 @@ def a_unit_that_starts_anew_shows_nothing() -> None:
     driver.wait(1)
     driver.step("restart")
     assert driver.system.display == machine.begun(made_ms + 1)
+    assert driver.system.display.stop == 0
     driver.step("take_place", is_located=True, told_stop=3, stands=True)
     assert driver.hear(made_ms) == NEITHER
     driver.wait(1)
