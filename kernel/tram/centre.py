@@ -104,7 +104,7 @@ def without(centre: Centre, tram: Tram, made_ms: int) -> Centre:
 
 
 def note_elsewhere(centre: Centre, tram: Tram, is_away: bool, made_ms: int) -> Centre:
-    """Take what a tram tells from elsewhere: its run has ended, if it was heard on it before (G5, ours).
+    """Take what a tram tells from elsewhere: its run has ended, if it was under way before (G5, ours).
 
     ``is_away``: it has left a stop of the other way, or is in its depot.  Who has not may stand at a platform of this
     way, where its driver has chosen the way back, or a wrong one.
@@ -122,7 +122,11 @@ def note_taken_off(centre: Centre, tram: Tram) -> Centre:
 
 
 def note_report(centre: Centre, tram: Tram, report: Report) -> Centre:
-    """Take a tram's report, if it counts; one of a tram that is not known does not (G2, G3, G6)."""
+    """Take a tram's report, if it counts; one of a tram that is not known does not (G2, G3, G6).
+
+    The way is cleared by what tells that a stop was left, and by nothing else: who has left this way, or has not come
+    yet, may tell of stops beside which it is (ours).
+    """
     if tram not in centre.trams or not machine.counts(centre.now_ms, centre.trams[tram], report):
         return centre
     known = centre.trams[tram]
@@ -132,13 +136,13 @@ def note_report(centre: Centre, tram: Tram, report: Report) -> Centre:
         else centre.left_ms
     )
     ahead = {(other, tram) for other, farther in centre.trams.items() if machine.was_beyond(farther, report)}
-    told = machine.mark(report.stop, report.left)
+    told = machine.mark(report.stop, True)
     return replace(
         centre,
         trams=centre.trams | {tram: machine.reported(known, report)},
         left_ms=left_ms,
         shown=centre.shown | ahead,
-        cleared=larger(centre.cleared, told) if known.clears else centre.cleared,
+        cleared=larger(centre.cleared, told) if report.left and machine.clears(known) else centre.cleared,
     )
 
 

@@ -48,7 +48,7 @@ class Known:
     ``stop``, ``left``: it has reached that stop, and left it.  ``stands``: it stood there.
     ``arrived_ms``: when it first told of that stop.  ``told_ms``: when it has told last.
     ``recovery_to``: the stop to which it was last ordered to recover; one that it has reached if to none.
-    ``clears``: it comes at the first stop, so all trams that the centre does not know run ahead of it.
+    ``comes_at``: the stop for which it was confirmed.
     """
 
     leaves_at: int
@@ -59,7 +59,7 @@ class Known:
     arrived_ms: int
     told_ms: int
     recovery_to: int
-    clears: bool
+    comes_at: int
 
 
 @dataclass(frozen=True)
@@ -136,20 +136,22 @@ def coming(now_ms: int, stop: int, leaves_at: int) -> Known:
         arrived_ms=now_ms,
         told_ms=now_ms,
         recovery_to=stop,
-        clears=stop == FIRST_STOP,
+        comes_at=stop,
     )
 
 
 def counts(now_ms: int, known: Known, report: Report) -> bool:
     """Tell whether a report is taken (G3, G6).
 
-    It must be of this run, no older than the last one, and not of the future; and trams do not run
-    backwards.  What is refused leaves the tram to become unknown.
+    It must be of this run, newer than the last one, and not of the future; and trams do not run
+    backwards.  Before the tram is known to be under way it is of the stop where it is to come, or says that it has
+    left one (ours): its driver may have set this way too soon, beside another stop of it.
+    What is refused leaves the tram to become unknown.
     """
     return (
-        report.made_ms > known.since_ms
-        and known.told_ms <= report.made_ms <= now_ms
+        known.told_ms < report.made_ms <= now_ms
         and mark(report.stop, report.left) >= mark(known.stop, known.left)
+        and (is_under_way(known) or report.left or report.stop == known.comes_at)
     )
 
 
@@ -189,22 +191,35 @@ def is_heard(known: Known) -> bool:
     return known.told_ms > known.since_ms
 
 
+def is_under_way(known: Known) -> bool:
+    """Tell whether a tram has told on this run that it left a stop: then it has come onto the way (G2, ours).
+
+    A unit tells so of none but the way that its tram is on; that it has come to a stop it tells beside it too.
+    """
+    return mark(known.stop, known.left) > mark(known.comes_at, False)
+
+
+def clears(known: Known) -> bool:
+    """Tell whether all trams that the centre does not know run ahead of this one: it came at the first stop (G5)."""
+    return known.comes_at == FIRST_STOP
+
+
 def was_beyond(ahead: Known, report: Report) -> bool:
     """Tell whether a tram had told that it was beyond a stop before another one stood there: so it is ahead (G2).
 
     None overtakes on one track, so it stays ahead (002, 3.1.2).
     """
     is_farther = mark(ahead.stop, ahead.left) > mark(report.stop, False)
-    return report.stands and is_farther and is_heard(ahead) and ahead.told_ms < report.made_ms
+    return report.stands and is_farther and is_under_way(ahead) and ahead.told_ms < report.made_ms
 
 
 def is_before_who_comes(known: Known, stop: int) -> bool:
     """Tell whether a tram on the way is ahead of one that is confirmed to come at a stop (G2, ours).
 
-    It has told that it is beyond that stop; at the first one a tram comes behind all others.
+    It has told that it is beyond that stop; and whoever is under way is beyond the first one.
     """
-    is_farther = stop == FIRST_STOP or mark(known.stop, known.left) > mark(stop, False)
-    return is_heard(known) and is_farther
+    is_farther = mark(known.stop, known.left) > mark(stop, False)
+    return is_under_way(known) and is_farther
 
 
 def is_ahead(own: Known, other: Known) -> bool:
@@ -253,8 +268,8 @@ def may_recover_over(own: Known, stop: int) -> bool:
 
 
 def is_off(known: Known, made_ms: int) -> bool:
-    """Tell whether what a tram tells from elsewhere ends its run: it was heard on the way before that (G5, ours)."""
-    return is_heard(known) and made_ms > known.told_ms
+    """Tell whether what a tram tells from elsewhere ends its run: it was under way before that (G5, ours)."""
+    return is_under_way(known) and made_ms > known.told_ms
 
 
 def is_known_since(known: Known, left_ms: int) -> bool:
@@ -280,14 +295,16 @@ def is_held_by_itself(limits: DispatchLimits, now_ms: int, own: Known, view: Vie
 def decided(limits: DispatchLimits, now_ms: int, own: Known, view: View, hand: Hand) -> Order:
     """Give the order for a tram (G4, G5): hold beats recovery; what is not known gives no command.
 
-    Nor is there one where a tram leaves the way: what is ahead of it there nobody here knows.
+    Nor is there one where a tram leaves the way: what is ahead of it there nobody here knows.  None recovers from the
+    stop where it comes: it may not have come yet, and another one before it (ours).
     """
     nothing = Order(stop=own.stop, holds=False, recovers=False, made_ms=now_ms)
     if not is_fresh(limits, now_ms, own) or hand == Hand.LIFT or own.stop >= own.leaves_at:
         return nothing
     if hand == Hand.HOLD or is_held_by_itself(limits, now_ms, own, view):
         return replace(nothing, holds=True)
-    return replace(nothing, recovers=view.is_clear and (view.ahead_is_far or hand == Hand.RECOVER))
+    may_recover = is_under_way(own) and view.is_clear
+    return replace(nothing, recovers=may_recover and (view.ahead_is_far or hand == Hand.RECOVER))
 
 
 def ordered(known: Known, order: Order) -> Known:

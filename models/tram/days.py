@@ -214,10 +214,10 @@ def run_day(day: Given, back: Given, traffic: Traffic, there: Traffic, rng: np.r
         if asked_anew > 0 and now_s >= anew_s and ask_anew(day, traffic, 1_000 * now_s):
             asked_anew -= 1
             anew_s = now_s + ASKED_ANEW_EACH_S
-        if wrong_way > 0 and now_s >= wrong_s and set_wrong(day, traffic, now_s):
+        if wrong_way > 0 and now_s >= wrong_s and set_wrong(day, traffic, there, now_s):
             wrong_way -= 1
             wrong_s = now_s + WRONG_WAY_EACH_S
-        set_right(traffic, now_s)
+        set_right(traffic, there, now_s)
         are_away = traffic.size[0] == 0 and there.size[0] == 0
         if are_away and traffic.size[1] >= len(day.begins_s) and none_to_come(traffic) and none_to_come(there):
             return

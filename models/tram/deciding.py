@@ -33,7 +33,6 @@ from models.tram.state import (
     G_MADE,
     G_MARK,
     G_TOLD,
-    K_CLEARS,
     K_ELSEWHERE,
     K_IS,
     K_SINCE,
@@ -82,6 +81,7 @@ has_passed, is_seen_in_the_way = MADE.dispatching.has_passed, MADE.dispatching.i
 may_recover_over, is_known_since = MADE.dispatching.may_recover_over, MADE.dispatching.is_known_since
 is_beyond_its_destination = MADE.dispatching.is_beyond_its_destination
 coming, is_before_who_comes = MADE.dispatching.coming, MADE.dispatching.is_before_who_comes
+clears = MADE.dispatching.clears
 was_beyond, is_cleared, is_off = MADE.dispatching.was_beyond, MADE.dispatching.is_cleared, MADE.dispatching.is_off
 decided, ordered, is_ahead = MADE.dispatching.decided, MADE.dispatching.ordered, MADE.dispatching.is_ahead
 taken, Display = MADE.display.taken, MADE.display.Display
@@ -167,8 +167,8 @@ def hear_report(traffic: Traffic, tram: int, report: Any, now_ms: int) -> None:
         if ahead[K_IS] == 1 and was_beyond(known_of(ahead), report):
             traffic.row[tally.CONTRADICTED] += traffic.shown[other, tram] == 0 and traffic.shown[tram, other] == 1
             traffic.shown[other, tram] = 1
-    if body[K_CLEARS] == 1:
-        traffic.known[1] = max(traffic.known[1], mark(report.stop, report.left))
+    if report.left and clears(known):
+        traffic.known[1] = max(traffic.known[1], mark(report.stop, True))
     keep_known(body, reported(known, report))
     traffic.row[tally.BEYOND_DESTINATION] += is_beyond_its_destination(known_of(body))
 

@@ -68,7 +68,8 @@ class Traffic:
     """One moment: GPS time, every tram on the way, what the centre knows, every message ever sent, and the last order.
 
     ``runs``: for each tram a run that was confirmed, until it comes.
-    ``told``, ``told_elsewhere``: what trams have told of the way, and when from elsewhere, that they were away.
+    ``told``, ``told_beside``: what trams have told of the way while they were on it, and while they were not.
+    ``told_elsewhere``: when they have told from elsewhere that they were away.
     """
 
     now_ms: int
@@ -76,6 +77,7 @@ class Traffic:
     runs: Map[Tram, Run]
     centre: Centre
     told: frozenset[tuple[Tram, Report]]
+    told_beside: frozenset[tuple[Tram, Report]]
     told_elsewhere: frozenset[tuple[Tram, int]]
     sent: frozenset[Command]
     given: Given
@@ -182,6 +184,11 @@ def a_report_tells_where_it_is(system: Traffic, tram: Tram, report: Report) -> b
     return mark(report.stop, report.left) <= place(body)
 
 
+def beside_the_way_no_stop_is_left(system: Traffic, tram: Tram, report: Report) -> bool:
+    """A tram that is not on the way, but set to it, tells of no stop of it that it has left, at the time that it is."""
+    return tram not in system.bodies and report.made_ms == system.now_ms and not report.left
+
+
 def only_who_is_elsewhere_tells_so(system: Traffic, tram: Tram) -> bool:
     """A tram that is on the way tells nothing of its depot, and of another way no stop that it has left (G3)."""
     return tram not in system.bodies
@@ -189,7 +196,7 @@ def only_who_is_elsewhere_tells_so(system: Traffic, tram: Tram) -> bool:
 
 def only_what_was_told_is_heard(system: Traffic, tram: Tram, told: Report) -> bool:
     """A report that passes the frame's checks was made by that tram (G3)."""
-    return (tram, told) in system.told
+    return (tram, told) in system.told or (tram, told) in system.told_beside
 
 
 def only_what_was_told_elsewhere_is_heard(system: Traffic, tram: Tram, is_away: bool, made_ms: int) -> bool:
@@ -241,15 +248,21 @@ def take_up(site: Way, system: Traffic, tram: Tram, stop: int, leaves_at: int) -
     )
 
 
-def come(site: Way, system: Traffic, tram: Tram, body: Body, now_ms: int) -> Traffic:
-    """A tram comes onto the way; its unit begins anew (G6)."""
-    if not clocks_keep_gps_time(system, now_ms):
+def come(site: Way, system: Traffic, tram: Tram, body: Body, now_ms: int, begun_ms: int) -> Traffic:
+    """A tram comes onto the way; its unit begins anew, or began when this way was set, too soon (G6).
+
+    It is shown no order yet, but may take one that was made for it since then; what was made before it was confirmed
+    has lapsed, since an order counts for seconds.
+    """
+    if not clocks_keep_gps_time(system, now_ms) or begun_ms > now_ms:
         return system
     if not a_tram_comes_where_and_when_it_was_confirmed(site, system, tram, body):
         return system
     if not who_begins_at_the_first_stop_is_last(system, tram, body) or not none_overtakes(system.bodies, tram, body):
         return system
-    fresh = replace(body, display=on_board.begun(now_ms))
+    if begun_ms < system.runs[tram].at_ms:
+        return system
+    fresh = replace(body, display=replace(on_board.begun(now_ms), made_ms=begun_ms))
     return replace(
         system,
         bodies=system.bodies | {tram: fresh},
@@ -311,6 +324,13 @@ def tell(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
     if not a_report_tells_where_it_is(system, tram, report):
         return system
     return replace(system, told=system.told | {(tram, report)})
+
+
+def tell_beside(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
+    """A tram that is not on the way tells of it: its driver has set it too soon, or has left it so (G2)."""
+    if not beside_the_way_no_stop_is_left(system, tram, report):
+        return system
+    return replace(system, told_beside=system.told_beside | {(tram, report)})
 
 
 def tell_elsewhere(site: Way, system: Traffic, tram: Tram) -> Traffic:

@@ -85,7 +85,7 @@ FAULTS = {
         "a_report_tells_where_it_is",
     ),
     "wrong_way": Fault(
-        "so often a unit starts anew under way, and is set to the other way for minutes",
+        "so often a unit starts anew under way, and is set to the other way for minutes, now and then too soon",
         1,
         9,
         "1",

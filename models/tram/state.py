@@ -33,7 +33,7 @@ UNIT_TIME = ("D_NOW", "H_KNOWN", "H_AGE", "H_ANSWERED")
 UNIT_WAY = ("U_RUN", "U_FOLLOWED", "U_LEAST", "U_ASTRAY", "U_RIGHT_S")
 """What a unit has seen of the way that is set, whether that is the other one, and when its driver notices."""
 CENTRE = ("K_IS", "K_LEAVES", "K_SINCE", "K_STOP", "K_LEFT", "K_STANDS", "K_ARRIVED", "K_TOLD", "K_RECOVERY")
-CENTRE_TOO = ("K_CLEARS", "K_ELSEWHERE")
+CENTRE_TOO = ("K_COMES", "K_ELSEWHERE")
 GHOST = ("G_MARK", "G_TOLD", "G_BEHIND", "G_MADE")
 """What a tram has truly told, by whatever number: the farthest mark of this run, when it stood last; whether one behind
 holds it.
@@ -48,7 +48,7 @@ U_STOP, U_LEFT, U_STANDS, U_STOOD, D_LOCATED, D_STOP, D_STANDS, D_HOLDS, D_RECOV
 D_NOW, H_KNOWN, H_AGE, H_ANSWERED = map(NAMES.index, UNIT_TIME)
 U_RUN, U_FOLLOWED, U_LEAST, U_ASTRAY, U_RIGHT_S = map(NAMES.index, UNIT_WAY)
 K_IS, K_LEAVES, K_SINCE, K_STOP, K_LEFT, K_STANDS, K_ARRIVED, K_TOLD, K_RECOVERY = map(NAMES.index, CENTRE)
-K_CLEARS, K_ELSEWHERE = map(NAMES.index, CENTRE_TOO)
+K_COMES, K_ELSEWHERE = map(NAMES.index, CENTRE_TOO)
 G_MARK, G_TOLD, G_BEHIND, G_MADE = map(NAMES.index, GHOST)
 
 BOX = 8

@@ -62,6 +62,7 @@ COUNTS: Mapping[str, str] = {
     "turned": "trams that turned at the far terminus and came back",
     "joined": "trams of the other line that joined at the junction",
     "set_wrong": "units that started anew under way and were set to the other way",
+    "set_too_soon": "of these, units of trams that had been confirmed for that one",
 }
 COLUMNS = (*CLAIMS, *ASSUMPTIONS, *MONITORS, *(f"fault_{name}" for name in FAULTS), *PRICES, *COUNTS)
 
@@ -75,4 +76,4 @@ CONFIRMED_ANEW, TAKEN_OFF, NOT_KNOWN_S, BEYOND_DESTINATION, GIVEN_UP = map(COLUM
 OF_THE_FUTURE, NOT_TAKEN_UP_ANEW, CONTRADICTED = map(COLUMNS.index, list(MONITORS)[10:])
 HELD_S, NEEDLESS_S, RECOVERIES_DUE, RECOVERIES_NOT_GIVEN, RECOVERY_S = map(COLUMNS.index, PRICES)
 RUNS, DEPARTURES, ORDERS, ORDERS_TO_HOLD, ORDERS_TO_RECOVER = map(COLUMNS.index, list(COUNTS)[:5])
-FRAMES, TRAM_S, STOOD_S, TURNED, JOINED, SET_WRONG = map(COLUMNS.index, list(COUNTS)[5:])
+FRAMES, TRAM_S, STOOD_S, TURNED, JOINED, SET_WRONG, SET_TOO_SOON = map(COLUMNS.index, list(COUNTS)[5:])

@@ -41,7 +41,7 @@ from models.tram.state import (
     H_ANSWERED,
     H_KNOWN,
     K_ARRIVED,
-    K_CLEARS,
+    K_COMES,
     K_IS,
     K_LEAVES,
     K_LEFT,
@@ -100,7 +100,7 @@ def known_of(body: Any) -> Any:
         body[K_ARRIVED],
         body[K_TOLD],
         body[K_RECOVERY],
-        body[K_CLEARS] == 1,
+        body[K_COMES],
     )
 
 
@@ -116,7 +116,7 @@ def keep_known(body: Any, known: Any) -> None:
     body[K_ARRIVED] = known.arrived_ms
     body[K_TOLD] = known.told_ms
     body[K_RECOVERY] = known.recovery_to
-    body[K_CLEARS] = known.clears
+    body[K_COMES] = known.comes_at
 
 
 @compiled

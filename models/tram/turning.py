@@ -77,11 +77,18 @@ def ask_anew(day: Given, traffic: Traffic, now_ms: int) -> bool:
 
 
 @compiled
-def set_wrong(day: Given, traffic: Traffic, now_s: int) -> bool:
-    """Start the unit of one that is on the way anew, set to the other way; whether there was one (G6)."""
+def set_wrong(day: Given, traffic: Traffic, there: Traffic, now_s: int) -> bool:
+    """Start the unit of one that is on the way anew, set to the other way; whether there was one (G6).
+
+    Where trams come back on that, it is set too soon: the tram was confirmed for its first stop, if it may be.
+    """
     if traffic.size[0] == 0:
         return False
-    body = traffic.trams[traffic.line[day.where.wrong_place % traffic.size[0]]]
+    tram = traffic.line[day.where.wrong_place % traffic.size[0]]
+    if day.turns_s > 0 and confirm(there, tram, 0, STOPS - 1, 1_000 * now_s):
+        there.trams[tram, CONFIRMED_S] = now_s
+        traffic.row[tally.SET_TOO_SOON] += 1
+    body = traffic.trams[tram]
     start_unit(body, 0, 1_000 * now_s, True)
     body[U_RIGHT_S] = now_s + WRONG_FOR_S
     traffic.row[tally.SET_WRONG] += 1
@@ -89,12 +96,17 @@ def set_wrong(day: Given, traffic: Traffic, now_s: int) -> bool:
 
 
 @compiled
-def set_right(traffic: Traffic, now_s: int) -> None:
-    """Let drivers notice that the other way is set: the unit begins anew, at the first stop of this one (G6)."""
+def set_right(traffic: Traffic, there: Traffic, now_s: int) -> None:
+    """Let drivers notice that the other way is set: the unit begins anew, at the first stop of this one (G6).
+
+    Who was confirmed there is taken off: that has lapsed.
+    """
     for place in range(traffic.size[0]):
-        body = traffic.trams[traffic.line[place]]
+        tram = traffic.line[place]
+        body = traffic.trams[tram]
         if body[U_ASTRAY] == 1 and now_s >= body[U_RIGHT_S]:
             start_unit(body, 0, 1_000 * now_s, False)
+            take_off_by_hand(there, tram, 1_000 * now_s)
 
 
 # ---- onto a way
@@ -145,7 +157,10 @@ def begin_runs(day: Given, traffic: Traffic, now_s: int, rng: np.random.Generato
 
 @compiled
 def go_over(day: Given, traffic: Traffic, there: Traffic, tram: int, now_s: int, rng: np.random.Generator) -> None:
-    """Let a tram that has left a way make for the other one, from the terminus or by the other line; or be free."""
+    """Let a tram that has left a way make for the other one, from the terminus or by the other line; or be free.
+
+    Who was confirmed there while it was on this one is awaited already.
+    """
     if day.is_back:
         there.trams[tram, OFF_S] = now_s
         return
@@ -158,6 +173,10 @@ def go_over(day: Given, traffic: Traffic, there: Traffic, tram: int, now_s: int,
         body = there.trams[tram]
         body[COMES_AT], body[TURN], body[LEAVES] = stop, NO_RUN, STOPS - 1
         body[DUE_S] = now_s + later_s + int(LATER_S * rng.random())
+        if body[K_IS] == 1:
+            body[OFF_S] = AWAITED_S
+    else:
+        take_off_by_hand(there, tram, 1_000 * now_s)
 
 
 @compiled

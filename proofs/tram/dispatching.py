@@ -5,10 +5,18 @@ Neither the timetable's order nor a destination is trusted, and the centre start
 
 from __future__ import annotations
 
-from kernel.tram.centre import Tram
 from models.tram import dispatching as world
 from models.tram.dispatching import Body, Traffic, Way, mark, may_still_come, place
 from proofs.theory import Theory, by_name
+from proofs.tram.beside import (
+    beside_the_way_no_stop_was_left,
+    is_of_this_run,
+    is_under_way,
+    what_was_told_beside_is_older,
+    what_was_told_beside_is_older_than_what_counts,
+    who_told_from_beyond_is_ahead_of_who_told_beside,
+    who_was_heard_beyond_is_ahead_of_who_told_beside,
+)
 from proofs.tram.recoveries import (
     nor_will_one_come_before_one_sent,
     nor_will_one_come_before_one_shown,
@@ -16,6 +24,7 @@ from proofs.tram.recoveries import (
     recoveries_sent_are_on_record,
     recoveries_sent_have_a_clear_way,
     recoveries_shown_are_on_record,
+    who_is_to_come_is_not_ordered_to_recover,
 )
 
 # ---- the start
@@ -33,6 +42,7 @@ def nothing_is_known_yet(site: Way, system: Traffic) -> bool:
         and all(False for _pair in system.centre.shown)
         and all(False for _tram in system.centre.elsewhere_ms)
         and all(False for _told in system.told)
+        and all(False for _told in system.told_beside)
         and all(False for _told in system.told_elsewhere)
         and all(False for _command in system.sent)
         and all(
@@ -113,11 +123,6 @@ def only_who_stands_is_held(site: Way, system: Traffic) -> bool:
     return all(not body.display.holds or body.display.stands for _tram, body in system.bodies.items())
 
 
-def is_of_this_run(system: Traffic, tram: Tram, made_ms: int) -> bool:
-    """Tell whether a tram is known, and was taken up before that."""
-    return tram in system.centre.trams and made_ms > system.centre.trams[tram].since_ms
-
-
 def the_order_shown_is_the_order_on_the_track(site: Way, system: Traffic) -> bool:
     """Of two trams the one that reports have shown ahead is ahead (002, 3.1.2; G2)."""
     return all(
@@ -162,6 +167,7 @@ def nothing_is_of_the_future(site: Way, system: Traffic) -> bool:
     return (
         all(command.made_ms <= system.now_ms for command in system.sent)
         and all(report.made_ms <= system.now_ms for _tram, report in system.told)
+        and all(report.made_ms <= system.now_ms for _tram, report in system.told_beside)
         and all(made_ms <= system.now_ms for _tram, made_ms in system.told_elsewhere)
         and all(run.at_ms <= system.now_ms for _tram, run in system.runs.items())
         and all(
@@ -205,18 +211,25 @@ def reports_of_this_run_were_true(site: Way, system: Traffic) -> bool:
 
 
 def who_is_to_come_has_told_nothing(site: Way, system: Traffic) -> bool:
-    """Of a run that was confirmed, and has not begun, nothing is known but what was confirmed (G2, G5)."""
+    """Of a run that was confirmed, and has not begun, the centre knows where it is to begin, and no more (G2, G5)."""
     return all(
         tram not in system.centre.trams
         or (
             system.centre.trams[tram].since_ms == run.at_ms
-            and system.centre.trams[tram].told_ms == run.at_ms
             and system.centre.trams[tram].stop == run.stop
             and not system.centre.trams[tram].left
-            and system.centre.trams[tram].clears == (run.stop == 0)
+            and system.centre.trams[tram].comes_at == run.stop
         )
         for tram, run in system.runs.items()
     ) and all(tram not in system.runs or report.made_ms <= system.runs[tram].at_ms for tram, report in system.told)
+
+
+def no_run_goes_back(site: Way, system: Traffic) -> bool:
+    """What is known of a tram is where it was to come, or farther on, and no more before it is under way (G2)."""
+    return all(
+        known.stop >= known.comes_at >= 0 and (known.stop == known.comes_at or is_under_way(known))
+        for _tram, known in system.centre.trams.items()
+    )
 
 
 def what_is_not_known_comes_no_more(site: Way, system: Traffic) -> bool:
@@ -257,10 +270,11 @@ def a_run_that_told_and_then_from_elsewhere_has_ended(site: Way, system: Traffic
 
 
 def a_run_that_was_heard_and_then_from_elsewhere_has_ended(site: Way, system: Traffic) -> bool:
-    """And so is one that the centre has heard before that (G5, ours)."""
+    """And so is one that the centre has known to be under way before that (G5, ours)."""
     return all(
         tram not in system.centre.trams
-        or not (system.centre.trams[tram].since_ms < system.centre.trams[tram].told_ms < made_ms)
+        or not is_under_way(system.centre.trams[tram])
+        or not system.centre.trams[tram].told_ms < made_ms
         or (tram not in system.bodies and tram not in system.runs)
         for tram, made_ms in system.told_elsewhere
     )
@@ -290,7 +304,8 @@ def who_was_heard_beyond_is_ahead(site: Way, system: Traffic) -> bool:
         not report.stands
         or not is_of_this_run(system, behind, report.made_ms)
         or not (mark(known.stop, known.left) > mark(report.stop, False))
-        or not known.since_ms < known.told_ms < report.made_ms
+        or not is_under_way(known)
+        or not known.told_ms < report.made_ms
         or ahead not in system.bodies
         or behind not in system.bodies
         or system.bodies[ahead].rank < system.bodies[behind].rank
@@ -321,7 +336,7 @@ def who_is_shown_ahead_of_one_to_come_is_beyond_where_it_comes(site: Way, system
 def what_is_not_known_runs_ahead_of_who_clears(site: Way, system: Traffic) -> bool:
     """Trams that the centre does not know are ahead of each that came at the first stop since it started (G5)."""
     return all(
-        not known.clears
+        known.comes_at != 0
         or tram not in system.bodies
         or other in system.centre.trams
         or stranger.rank < system.bodies[tram].rank
@@ -334,7 +349,7 @@ def what_is_not_known_is_beyond_what_such_a_tram_told(site: Way, system: Traffic
     """And so they are beyond what such a tram has told (G5)."""
     return all(
         tram not in system.centre.trams
-        or not system.centre.trams[tram].clears
+        or system.centre.trams[tram].comes_at != 0
         or report.made_ms <= system.centre.trams[tram].since_ms
         or other in system.centre.trams
         or place(stranger) >= mark(report.stop, report.left)
@@ -349,11 +364,6 @@ def the_way_is_cleared_of_what_is_not_known(site: Way, system: Traffic) -> bool:
         system.centre.cleared <= -1 or tram in system.centre.trams or place(body) >= system.centre.cleared
         for tram, body in system.bodies.items()
     )
-
-
-def stops_are_counted_from_0(site: Way, system: Traffic) -> bool:
-    """No tram is known before the first stop (G2)."""
-    return all(known.stop >= 0 for _tram, known in system.centre.trams.items())
 
 
 INITIAL = (nothing_is_known_yet,)
@@ -377,6 +387,10 @@ INVARIANTS = (
     trams_are_known_no_farther_on_than_they_are,
     reports_of_this_run_were_true,
     who_is_to_come_has_told_nothing,
+    beside_the_way_no_stop_was_left,
+    what_was_told_beside_is_older,
+    what_was_told_beside_is_older_than_what_counts,
+    no_run_goes_back,
     what_is_not_known_comes_no_more,
     who_comes_is_confirmed_once,
     what_told_from_elsewhere_was_off,
@@ -384,17 +398,19 @@ INVARIANTS = (
     a_run_that_was_heard_and_then_from_elsewhere_has_ended,
     who_told_from_beyond_is_ahead,
     who_was_heard_beyond_is_ahead,
+    who_told_from_beyond_is_ahead_of_who_told_beside,
+    who_was_heard_beyond_is_ahead_of_who_told_beside,
     who_is_shown_ahead_of_one_to_come_is_beyond_where_it_comes,
     what_is_not_known_runs_ahead_of_who_clears,
     what_is_not_known_is_beyond_what_such_a_tram_told,
     the_way_is_cleared_of_what_is_not_known,
-    stops_are_counted_from_0,
     recoveries_are_ordered_one_stop_on,
     recoveries_sent_are_on_record,
     recoveries_shown_are_on_record,
     recoveries_sent_have_a_clear_way,
     nor_will_one_come_before_one_sent,
     nor_will_one_come_before_one_shown,
+    who_is_to_come_is_not_ordered_to_recover,
 )
 STEPS = (
     world.pass_time,
@@ -406,6 +422,7 @@ STEPS = (
     world.take_place,
     world.restart_unit,
     world.tell,
+    world.tell_beside,
     world.tell_elsewhere,
     world.hear_report,
     world.hear_elsewhere,

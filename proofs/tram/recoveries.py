@@ -84,3 +84,11 @@ def nor_will_one_come_before_one_shown(site: Way, system: Traffic) -> bool:
         for _tram, body in system.bodies.items()
         for other, run in system.runs.items()
     )
+
+
+def who_is_to_come_is_not_ordered_to_recover(site: Way, system: Traffic) -> bool:
+    """No order to recover was made for a tram since it was confirmed, before it came (G5, ours)."""
+    return all(
+        not command.recovers or command.tram not in system.runs or command.made_ms <= system.runs[command.tram].at_ms
+        for command in system.sent
+    )

@@ -11,7 +11,7 @@ CLEAR = View(is_clear=True, is_present=False, ahead_is_far=True, ahead_is_near=F
 
 def known(stop: int, left: bool, stands: bool, told_ms: int) -> Known:
     """A tram of which this is known."""
-    return Known(20, 0, stop, left, stands, told_ms, told_ms, 0, False)
+    return Known(20, 0, stop, left, stands, told_ms, told_ms, 0, 0)
 
 
 def marks_follow_the_way(stop: int, other: int) -> None:
@@ -53,7 +53,7 @@ def no_report_puts_a_tram_back(stop: int, left: bool, told: int, gone: bool, mad
     assert counts(now_ms, known(stop, left, True, 0), Report(told, gone, not gone, 20, made_ms))
     after = reported(known(stop, left, True, 0), Report(told, gone, not gone, 20, made_ms))
     assert mark(after.stop, after.left) >= mark(stop, left)
-    assert not after.clears
+    assert after.comes_at == 0
 
 
 def shown(stop: int, stands: bool, made_ms: int, recovers: bool) -> Display:

@@ -180,6 +180,7 @@ def test_who_tells_the_number_of_another_takes_its_orders() -> None:
 
 # ---- both directions, and a junction
 
+TOO_SOON = frozenset({"both_ways", "wrong_way"})
 BACK, LATE_TELEGRAMS = frozenset({"both_ways"}), frozenset({"both_ways", "repeats"})
 JUNCTION = frozenset({"junction"})
 
@@ -199,6 +200,14 @@ def test_with_every_fault_at_once_both_ways_hold() -> None:
     for name in (*SYSTEM.claims, *SYSTEM.assumptions):
         assert column(rows, name) == 0, name
     assert min(column(rows, "turned"), column(rows, "joined")) > 40
+
+
+def test_trams_that_are_confirmed_and_set_too_soon_break_no_claim() -> None:
+    """They tell of stops of the way back beside them, while they are still on this one (G2, G5)."""
+    rows = np.array([one_day(3, number, present=TOO_SOON)[0] for number in range(4)])
+    assert column(rows, "set_too_soon") > 0
+    for name in (*SYSTEM.claims, *SYSTEM.assumptions):
+        assert column(rows, name) == 0, name
 
 
 @pytest.mark.parametrize(
@@ -301,7 +310,7 @@ def drawn(chance: Random) -> tuple[Centre, Traffic, list[Tram]]:
             arrived_ms=now_ms - chance.randrange(100_000),
             told_ms=now_ms - chance.choice((0, 11_000, 11_001)),
             recovery_to=chance.randrange(6),
-            clears=chance.random() < 0.5,
+            comes_at=0 if chance.random() < 0.5 else 2,
         )
         trams[Tram(str(number))] = known
         keep_known(traffic.trams[number], packed(known))
@@ -389,7 +398,7 @@ def test_arrays_say_what_maps_say() -> None:
 
 def test_a_tram_that_is_not_known_counts_nowhere() -> None:
     _, traffic, trams = drawn(Random(1))
-    own = Known(9, 0, 0, False, True, 0, 0, 0, False)
+    own = Known(9, 0, 0, False, True, 0, 0, 0, -1)
     traffic.known[1] = 9
     for number in range(len(trams)):
         traffic.trams[number, K_IS] = 0

@@ -174,7 +174,8 @@ class Drawn:
         self.recovered = self.held = 0
 
     def act(self) -> None:
-        """Let one thing happen, possible or not."""
+        """Let one thing happen, possible or not, each later than the one before."""
+        self.day.wait(1)
         chance, day, tram = self.chance, self.day, self.chance.choice(self.names)
         body, now_ms = day.system.bodies.get(tram), day.system.centre.now_ms
         drawn = chance.random()
@@ -193,6 +194,7 @@ class Drawn:
             told = Report(9, True, False, 9, now_ms)
             day.step("tell", tram=tram, report=told)
             day.step("hear_report", tram=tram, told=told)
+            self.tell_beside(tram, now_ms)
         elif drawn < 0.5:
             self.move(tram, body)
         elif drawn < 0.7:
@@ -204,6 +206,14 @@ class Drawn:
             day.step("hear_report", tram=tram, told=chance.choice(late))
         else:
             self.see_and_command(tram)
+
+    def tell_beside(self, tram: Tram, now_ms: int) -> None:
+        """Let a tram that is off the way tell of any stop of it, which is heard now or later."""
+        told = Report(self.chance.randrange(9), False, self.chance.random() < 0.5, 9, now_ms)
+        self.day.step("tell_beside", tram=tram, report=told)
+        late = sorted(self.day.system.told_beside, key=str)
+        heard, report = self.chance.choice([(tram, told), (tram, told), *late])
+        self.day.step("hear_report", tram=heard, told=report)
 
     def see_and_command(self, tram: Tram) -> None:
         """Let a tram, now and then, find its place and tell it just before the centre orders."""
@@ -229,7 +239,8 @@ class Drawn:
             last = max([0, *(other.rank for other in dict(day.system.bodies.items()).values())])
             rank = chance.randrange(-5, 40) if run.stop else 1 + last
             new = Body(rank, run.stop, False, begun(0), 0)
-            day.step("come", tram=tram, body=new, now_ms=day.system.now_ms)
+            begun_ms = chance.choice((run.at_ms, day.system.now_ms))
+            day.step("come", tram=tram, body=new, now_ms=day.system.now_ms, begun_ms=begun_ms)
 
     def move(self, tram: Tram, body: Body) -> None:
         """Let a tram move, or find its place, or lose it."""
@@ -238,6 +249,8 @@ class Drawn:
         day.step("take_place", tram=tram, is_located=noticed, told_stop=body.stop, stands=not body.left)
         if chance.random() < 0.5:
             day.step("depart", tram=tram)
+            day.see(tram, stands=not day.body(tram).left)
+            day.step("hear_report", tram=tram, told=day.report(tram))
         stands = chance.random() < 0.9
         day.step("arrive", tram=tram, noticed=noticed, told_stop=body.stop + 1, stands=stands)
 
@@ -271,7 +284,7 @@ def test_one_tram_more_never_clears_a_way(seed: int, place: int) -> None:
     for _ in range(60):
         drawn.act()
     centre = drawn.day.system.centre
-    known = Known(9, 0, place, True, True, 0, 0, 0, False)
+    known = Known(9, 0, place, True, True, 0, 0, 0, 0)
     more = replace(centre, trams={**dict(centre.trams.items()), Tram("more"): known})
     for tram, own in centre.trams.items():
         assert dispatcher.is_clear(centre, tram, own) or not dispatcher.is_clear(more, tram, own)

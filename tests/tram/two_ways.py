@@ -45,11 +45,11 @@ EACH_S, FIX_S = 7, 3
 APPROACH_MM = 60_000
 """So far before a stop a tram waits, and from there comes to it: nearer its unit may tell that it stands there."""
 
-ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways")
+ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways", "early")
 """Units start anew under way; the centre of each way does, several times; another car runs under the number of one that
 was taken off; doors jam, and trams bunch; cycles and answers come early and late, and another tram answers; drivers set
 the way in the other direction where a unit starts, until they notice, and leave what is set when they turn, as it was
-or as it is to be."""
+or as it is to be; a tram is confirmed for the way back while it is on this one, and its driver sets that at once."""
 BEYOND = ("runs_along", "fixes_beyond", "taken_off_on_the_way", "begins_ahead")
 """Each breaks an assumption: ``test_an_assumption_that_is_broken_matters`` says which, and that it matters."""
 
@@ -92,13 +92,15 @@ class World:
     """Two ways, each a centre's view and the trams on it, the first one in front.
 
     ``apart`` draws clocks that are ahead, whom the centre is asked for anew, the street and its fixes, and ``days``:
-    the rest is drawn as without.  ``settings`` draws what drivers set wrong.  ``restarts``: when the centre of which
-    way starts anew.  ``happened`` and ``broken`` count what came about, and what must not.
+    the rest is drawn as without.  ``settings`` draws what drivers set wrong, ``early`` who is confirmed too soon.
+    ``restarts``: when the centre of which way starts anew.  ``happened`` and ``broken`` count what came about, and what
+    must not.
     """
 
     chance: Random
     apart: Random
     settings: Random
+    early: Random
     days: frozenset[str] = frozenset()
     lost: float = 0.1
     late_s: int = 300
@@ -298,7 +300,7 @@ class World:
         car.way, car.at, car.confirmed_s = car.onto, 2 * car.comes_at, -(10**6)
         car.since_s, car.until_s, car.place_mm, car.offset_mm = self.now_s, self.now_s + 20, 0, 3_000
         car.leaves_at = JUNCTION if car.way == 0 and self.chance.random() < 0.4 else LAST
-        was_set = car.unit.chosen == car.way and "ways" in self.days
+        was_set = car.unit.chosen == car.way and bool(self.days & {"ways", "early"})
         self.happened["ways set too soon"] += was_set
         if was_set or (car.unit.chosen >= 0 and self.is_set_wrong(car, 0.2)):
             self.happened["ways left as they were"] += 1
@@ -331,6 +333,16 @@ class World:
         self.happened["units begun while it recovers"] += car.unit.display.recovers
         car.unit = unit_begun(chosen, stop, self.now_s, self.now_s + self.apart.choice((1, 5, 40)))
 
+    def confirm_early(self, car: Car) -> None:
+        """A tram is confirmed for the way back while it is on this one, and its driver sets that way too soon."""
+        centre = self.centres[1 - car.way]
+        if not dispatcher.may_come(centre, car.name, 0):
+            return
+        self.centres[1 - car.way] = dispatcher.note_coming(centre, car.name, 0, LAST)
+        self.happened["confirmed on the other way"] += 1
+        car.confirmed_s, car.noticed_s = self.now_s, self.now_s + self.early.choice((60, 200, 900))
+        car.unit = unit_begun(1 - car.way, 0, self.now_s, self.now_s)
+
     def change_car(self, way: int, car: Car) -> None:
         """A tram breaks down, is towed away and taken off; another car goes on under its number, from the terminus."""
         self.centres[way] = dispatcher.note_taken_off(self.centres[way], car.name)
@@ -344,7 +356,7 @@ class World:
 
     def set_right(self, car: Car) -> None:
         """A driver notices that another way is set: he sets his own, and the unit begins anew."""
-        if "ways" in self.days and car.unit.chosen != car.way and self.now_s >= car.noticed_s:
+        if self.days & {"ways", "early"} and car.unit.chosen != car.way and self.now_s >= car.noticed_s:
             car.unit = unit_begun(car.way, 0, self.now_s, self.now_s)
 
     def now_and_then(self, way: int) -> None:
@@ -356,6 +368,8 @@ class World:
             self.start_unit(self.apart.choice(line))
         if line and self.comes_about("numbers", 600):
             self.change_car(way, self.apart.choice(line))
+        if line and "early" in self.days and self.early.randrange(60) == 0:
+            self.confirm_early(self.early.choice(line))
         if line and self.comes_about("bunching", 300):
             jammed = self.apart.choice(line)
             jammed.until_s += self.apart.randrange(60, 300) if jammed.stands else 0
@@ -410,10 +424,11 @@ class World:
 
 def random_world(number: int, days: frozenset[str] | None = None) -> World:
     """Draw a world and live an hour of it; without ``days`` they are drawn too, each of them in most worlds."""
-    chance, apart, settings = Random(number), Random(10**6 + number), Random(2 * 10**6 + number)
+    chance, apart, settings, early = (Random(source * 10**6 + number) for source in range(4))
     lost, late_s = chance.choice((0.0, 0.1, 0.4)), chance.choice((10, 100, 600))
-    drawn = frozenset(day for day in ORDINARY if (settings if day == "ways" else apart).random() < 0.7)
+    by_day = {"ways": settings, "early": early}
+    drawn = frozenset(day for day in ORDINARY if by_day.get(day, apart).random() < 0.7)
     restarts = {(apart.randrange(1_100, 4_500), way) for way in range(2) for _ in range(apart.randrange(5))}
-    world = World(chance, apart, settings, drawn if days is None else days, lost, late_s)
+    world = World(chance, apart, settings, early, drawn if days is None else days, lost, late_s)
     world.restarts = restarts if "centres" in world.days else set()
     return world.seconds(3_600, chance.choice((-1, chance.randrange(1_500, 3_500))))

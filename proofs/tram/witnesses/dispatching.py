@@ -8,7 +8,7 @@ from kernel.tram import display as on_board
 from kernel.tram.centre import Tram
 from kernel.tram.dispatching import Hand, Order, Report, is_beyond_its_destination, mark
 from models.tram.dispatching import Body, Given, place
-from proofs.tram.witnesses import holds, ways
+from proofs.tram.witnesses import holds, too_soon, ways
 from proofs.tram.witnesses import on_board as orders_shown
 from proofs.tram.witnesses.line import (
     EARLY,
@@ -90,9 +90,9 @@ def a_lost_departure_counts_as_present() -> None:
 def turning_off(leaves_at: int) -> Day:
     """Two trams at one stop for minutes; the first one is set to leave so far on."""
     day = Day()
-    day.come(FIRST, 1, 1, leaves_at)
+    day.run_to(FIRST, 1, 1, leaves_at)
     day.wait(300_000)
-    day.come(SECOND, 2, 1)
+    day.run_to(SECOND, 2, 1)
     day.wait(60_000)
     day.tell(SECOND)
     return day
@@ -156,7 +156,7 @@ def a_tram_gets_no_order_where_it_leaves() -> None:
     """Beyond its last stop of this way nobody here knows what is ahead (4.2; G5)."""
     for leaves_at, says in ((1, NEITHER), (2, RECOVERS)):
         day = Day()
-        day.come(FIRST, 1, 1, leaves_at)
+        day.run_to(FIRST, 1, 1, leaves_at)
         assert day.says(FIRST) == says
         assert day.says(FIRST, Hand.HOLD) == (NEITHER if leaves_at == 1 else HELD)
 
@@ -209,6 +209,7 @@ def reports_show_who_is_ahead() -> None:
     assert day.says(FIRST, Hand.RECOVER) == RECOVERS
     day = Day()
     day.come(FIRST, 1, 0)
+    day.depart(FIRST)
     day.off(SECOND)
     day.off(THIRD)
     assert day.confirm(SECOND, 0)
@@ -218,7 +219,6 @@ def reports_show_who_is_ahead() -> None:
     assert {(FIRST, SECOND), (FIRST, THIRD)} == day.system.centre.shown
     for tram in (SECOND, THIRD):
         assert day.says(tram, Hand.RECOVER) != RECOVERS
-    day.depart(FIRST)
     day.arrive(FIRST)
     day.depart(FIRST)
     for tram in (SECOND, THIRD):
@@ -322,7 +322,7 @@ def after_a_start_nobody_recovers_until_the_way_is_known() -> None:
     assert not day.confirm(SECOND, 0)
     assert day.confirm(THIRD, 0)
     day.begin(THIRD, 3)
-    assert day.system.centre.cleared == mark(0, False)
+    assert day.system.centre.cleared == -1
     assert day.says(THIRD, Hand.RECOVER) == NEITHER
     for _ in range(2):
         day.depart(SECOND, tells=False)
@@ -331,10 +331,15 @@ def after_a_start_nobody_recovers_until_the_way_is_known() -> None:
     day.arrive(THIRD)
     assert day.says(THIRD, Hand.RECOVER) == NEITHER
     assert day.system.given.way_unknown is False
+    assert day.system.centre.cleared == mark(0, True)
     fourth = Tram("17")
-    day.come(fourth, 4, 0)
+    day.run_to(fourth, 4, 1)
     day.depart(THIRD)
     assert day.system.centre.cleared == mark(1, True)
+    day.arrive(THIRD)
+    assert day.system.centre.cleared == mark(1, True)
+    day.depart(THIRD)
+    assert day.system.centre.cleared == mark(2, True)
     day.wait(240_000)
     for tram in (fourth, SECOND):
         day.step("hear_report", tram=tram, told=day.report(tram))
@@ -357,7 +362,7 @@ def who_was_confirmed_before_a_start_still_comes() -> None:
         day.step("restart_centre", now_ms=day.system.now_ms)
         day.wait(waits_ms)
         body = Body(1, 1, False, display=on_board.begun(0), taken_at=1)
-        day.step("come", tram=FIRST, body=body, now_ms=day.system.now_ms)
+        day.step("come", tram=FIRST, body=body, now_ms=day.system.now_ms, begun_ms=day.system.now_ms)
         assert (FIRST in day.system.bodies) == comes
 
 
@@ -393,7 +398,7 @@ def a_stranger_gets_no_command() -> None:
 def what_contradicts_is_not_taken() -> None:
     """Of the run before, older than the last, of the future, or backwards (G3, G6)."""
     day = Day()
-    day.come(FIRST, 1, 1, 3)
+    day.run_to(FIRST, 1, 1, 3)
     day.wait(10)
     old = day.report(FIRST)
     day.leave(FIRST)
@@ -450,16 +455,17 @@ def when_it_stands_is_told_once() -> None:
     day.wait(10)
     day.tell(FIRST)
     assert day.known(FIRST).arrived_ms == first_ms
-    day.depart(FIRST, tells=False)
+    day.depart(FIRST)
     day.wait(10)
     day.arrive(FIRST)
-    assert day.known(FIRST).arrived_ms == first_ms + 30
+    assert day.known(FIRST).arrived_ms == first_ms + 32
 
 
 WITNESSES = (
     *orders_shown.WITNESSES,
     *holds.WITNESSES,
     *ways.WITNESSES,
+    *too_soon.WITNESSES,
     a_tram_recovers_to_the_next_stop,
     none_recovers_sooner,
     none_recovers_towards_a_tram_at_the_next_stop,

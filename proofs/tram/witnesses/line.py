@@ -43,7 +43,7 @@ class Day(Play[Way, Traffic]):
         nothing = frozenset[Any]()
         given = Given(holds=False, recovers=False, own_unknown=False, way_unknown=False)
         begun_centre = Centre(now_ms, now_ms + LIMITS.coming_ms, -1, {}, {}, nothing, {})
-        super().__init__(THEORY, SITE, Traffic(now_ms, {}, {}, begun_centre, nothing, nothing, nothing, given))
+        super().__init__(THEORY, SITE, Traffic(now_ms, {}, {}, begun_centre, nothing, nothing, nothing, nothing, given))
         if is_cleared:
             self.wait(LIMITS.coming_ms + 1)
             self.clear(EARLY)
@@ -61,6 +61,14 @@ class Day(Play[Way, Traffic]):
         self.leave(tram)
         self.wait(1)
         self.off(tram)
+
+    def tell_beside(self, tram: Tram, stop: int, *, stands: bool) -> Report:
+        """A tram that is not on the way tells of a stop of it, and the centre hears that."""
+        told = Report(stop, False, stands, TERMINUS, self.system.centre.now_ms)
+        self.step("tell_beside", tram=tram, report=told)
+        assert (tram, told) in self.system.told_beside
+        self.step("hear_report", tram=tram, told=told)
+        return told
 
     def leave(self, tram: Tram) -> None:
         """A tram leaves the way, and nobody is told."""
@@ -91,7 +99,7 @@ class Day(Play[Way, Traffic]):
             return False
         known, now_ms = self.known(tram), self.system.centre.now_ms
         assert (known.stop, known.leaves_at, known.since_ms) == (stop, leaves_at, now_ms)
-        assert (known.left, known.stands, known.recovery_to, known.clears) == (False, False, stop, stop == 0)
+        assert (known.left, known.stands, known.recovery_to, known.comes_at) == (False, False, stop, stop)
         assert known.arrived_ms == known.told_ms == now_ms
         assert self.system.runs[tram] == Run(stop, now_ms)
         return True
@@ -116,11 +124,17 @@ class Day(Play[Way, Traffic]):
         assert self.confirm(tram, stop, leaves_at)
         self.begin(tram, rank, tells=tells)
 
+    def run_to(self, tram: Tram, rank: int, stop: int, leaves_at: int = TERMINUS, *, tells: bool = True) -> None:
+        """A tram comes at the stop before that, tells that it leaves it, and arrives: it is known to be under way."""
+        self.come(tram, rank, stop - 1, leaves_at, tells=False)
+        self.depart(tram)
+        self.arrive(tram, tells=tells)
+
     def begin(self, tram: Tram, rank: int, *, tells: bool = True) -> None:
         """A tram that was confirmed comes, stands at its first stop, and tells that."""
         stop, now_ms = self.system.runs[tram].stop, self.system.centre.now_ms
         body = Body(rank, stop, False, display=begun(0), taken_at=stop)
-        self.step("come", tram=tram, body=body, now_ms=now_ms)
+        self.step("come", tram=tram, body=body, now_ms=now_ms, begun_ms=now_ms)
         assert self.body(tram).display == begun(now_ms)
         assert tram not in self.system.runs
         self.wait(1)
@@ -163,7 +177,9 @@ class Day(Play[Way, Traffic]):
         return told
 
     def tell(self, tram: Tram) -> None:
-        """A tram tells how it is now, and the centre notes it."""
+        """A tram tells how it is now, later than it told last, and the centre notes it."""
+        if tram in self.system.centre.trams and self.known(tram).told_ms == self.system.centre.now_ms:
+            self.wait(1)
         body, now_ms = self.body(tram), self.system.centre.now_ms
         told = self.report(tram)
         self.step("hear_report", tram=tram, told=told)
@@ -214,7 +230,7 @@ def two_stops_apart(ahead_stops: int = 3, since_ms: int = 240_000) -> Day:
         day.arrive(FIRST)
         day.wait(10)
         day.depart(FIRST)
-    day.come(SECOND, 2, 1, tells=False)
+    day.run_to(SECOND, 2, 1, tells=False)
     day.wait(left_ms + since_ms - day.system.centre.now_ms)
     day.tell(SECOND)
     return day

@@ -49,7 +49,7 @@ def orders_pass_only_where_they_are_for() -> None:
     day.wait(1)
     day.arrive(SECOND)
     assert day.deliver(SECOND, order) == NEITHER
-    assert day.body(SECOND).taken_at == 1
+    assert day.body(SECOND).taken_at == 0
 
 
 def a_hold_lapses_where_nothing_is_heard() -> None:
@@ -145,23 +145,23 @@ def what_nature_does_not_do() -> None:
     assert good.display.stop == 0
     before = day.system
     for bad in (replace(good, rank=2), replace(good, rank=0), replace(good, stop=0), replace(good, left=True)):
-        assert day.step("come", tram=THIRD, body=bad, now_ms=now_ms) == before
-    assert day.step("come", tram=THIRD, body=good, now_ms=now_ms + 1) == before
+        assert day.step("come", tram=THIRD, body=bad, now_ms=now_ms, begun_ms=now_ms) == before
+    assert day.step("come", tram=THIRD, body=good, now_ms=now_ms + 1, begun_ms=now_ms) == before
     assert day.step("depart", tram=THIRD) == before
-    assert day.step("come", tram=FIRST, body=replace(good, rank=9), now_ms=now_ms) == before
-    day.step("come", tram=THIRD, body=good, now_ms=now_ms)
+    assert day.step("come", tram=FIRST, body=replace(good, rank=9), now_ms=now_ms, begun_ms=now_ms) == before
+    day.step("come", tram=THIRD, body=good, now_ms=now_ms, begun_ms=now_ms)
     assert day.body(THIRD).rank == 3
     before = day.system
-    assert day.step("come", tram=THIRD, body=good, now_ms=now_ms) == before
+    assert day.step("come", tram=THIRD, body=good, now_ms=now_ms, begun_ms=now_ms) == before
     day.leave(FIRST)
     day.depart(SECOND)
     for stop, rank, comes in ((0, 4, True), (0, 1, False)):
         tram = Tram(str(rank))
         day.off(tram)
         assert day.confirm(tram, stop)
-        before = day.system
+        before, now_ms = day.system, day.system.now_ms
         body = replace(good, rank=rank, stop=stop)
-        assert (day.step("come", tram=tram, body=body, now_ms=now_ms) != before) == comes
+        assert (day.step("come", tram=tram, body=body, now_ms=now_ms, begun_ms=now_ms) != before) == comes
 
 
 def what_trams_do_not_tell() -> None:

@@ -23,7 +23,7 @@ def what_was_told_of_the_other_way_ends_no_run_on_this_one() -> None:
     for _ in range(2):
         before = day.system
         assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=told_ms) == before
-    day.come(SECOND, 2, 1, tells=False)
+    day.run_to(SECOND, 2, 1, tells=False)
     day.wait(240_000)
     day.tell(SECOND)
     assert day.says(SECOND) == NEITHER
@@ -123,7 +123,7 @@ def limits_below_zero_are_refused() -> None:
 
 def trams_that_reports_have_shown_in_either_order_do_not_recover() -> None:
     """Somebody tells what is not so: which of them is ahead nobody knows (G2, G6)."""
-    known = Known(9, 0, 3, False, True, 900, 900, 0, True)
+    known = Known(9, 0, 3, False, True, 900, 900, 0, 0)
     centre = Centre(1_000, 0, 19, {FIRST: known, SECOND: known}, {}, frozenset({(FIRST, SECOND)}), {})
     for shown, clear in (
         ({(FIRST, SECOND)}, True),

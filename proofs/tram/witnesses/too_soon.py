@@ -1,0 +1,149 @@
+"""Trams that tell of the way while they are not on it: its driver has set it too soon, or has left it so (G2, G5)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.tram.dispatching import Hand, mark
+from kernel.tram.display import begun
+from models.tram.dispatching import Body
+from proofs.tram.witnesses.line import FIRST, HELD, LIMITS, NEITHER, RECOVERS, SECOND, THIRD, Day, two_stops_apart
+
+
+def with_a_stranger() -> Day:
+    """A tram that the centre does not know stands at the second stop; another one is confirmed for the first."""
+    day = Day(is_cleared=False)
+    day.wait(LIMITS.coming_ms + 1)
+    day.run_to(FIRST, 1, 1)
+    day.step("restart_centre", now_ms=day.system.now_ms)
+    day.wait(LIMITS.coming_ms + 1)
+    day.off(SECOND)
+    assert day.confirm(SECOND, 0)
+    day.wait(10_000)
+    return day
+
+
+def who_is_to_come_clears_no_way_beside_it() -> None:
+    """Its driver sets the way at once, on the other one, beside a stop far on; a third comes at the first (G5)."""
+    day = with_a_stranger()
+    before = day.system.centre
+    day.tell_beside(SECOND, 3, stands=False)
+    assert day.system.centre == before
+    day.off(THIRD)
+    assert day.confirm(THIRD, 0)
+    day.begin(THIRD, 2)
+    assert day.says(THIRD, Hand.RECOVER) == NEITHER
+    day.depart(THIRD)
+    assert day.system.centre.cleared == mark(0, True)
+
+
+def a_run_that_is_still_to_come_stays_confirmed() -> None:
+    """It tells of the stop where it is to come, beside it, and then from the other way that it is away (G5)."""
+    day = Day()
+    day.off(FIRST)
+    assert day.confirm(FIRST, 0)
+    day.wait(1)
+    told = day.tell_beside(FIRST, 0, stands=True)
+    assert (day.known(FIRST).told_ms, day.known(FIRST).stands) == (told.made_ms, True)
+    day.wait(1)
+    day.step("tell_elsewhere", tram=FIRST)
+    before = day.system
+    assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=before.now_ms) == before
+    day.tell_beside(FIRST, 3, stands=True)
+    assert day.system.centre == before.centre
+    day.begin(FIRST, 1)
+    day.depart(FIRST)
+    assert (day.known(FIRST).stop, day.known(FIRST).left) == (0, True)
+
+
+def who_is_to_come_is_ahead_of_nobody() -> None:
+    """It stands beside the stop where it is to come; one that is behind that runs on, and is before it then (G2)."""
+    day = Day()
+    day.run_to(FIRST, 1, 1)
+    day.off(SECOND)
+    assert day.confirm(SECOND, 2)
+    day.wait(1)
+    day.tell_beside(SECOND, 2, stands=True)
+    day.wait(1)
+    day.tell(FIRST)
+    assert not day.system.centre.shown
+    day.off(THIRD)
+    assert day.confirm(THIRD, 0)
+    assert day.system.centre.shown == {(FIRST, THIRD)}
+
+
+def none_recovers_where_it_comes() -> None:
+    """Nothing is ahead, and by hand neither: another one may come before it; it may be held, and recover farther on."""
+    day = Day()
+    day.off(FIRST)
+    assert day.confirm(FIRST, 0)
+    day.wait(1)
+    day.tell_beside(FIRST, 0, stands=True)
+    for hand, says in ((Hand.NOTHING, NEITHER), (Hand.RECOVER, NEITHER), (Hand.HOLD, HELD)):
+        assert day.says(FIRST, hand) == says
+    day.begin(FIRST, 1)
+    assert day.says(FIRST, Hand.RECOVER) == NEITHER
+    day.depart(FIRST)
+    day.arrive(FIRST)
+    assert day.says(FIRST) == RECOVERS
+
+
+def who_comes_may_take_what_was_ordered_since_it_was_confirmed() -> None:
+    """Its unit began when the way was set, not before it was confirmed, nor later than now (G6)."""
+    day = Day()
+    day.off(FIRST)
+    assert day.confirm(FIRST, 0)
+    confirmed_ms = day.system.now_ms
+    day.wait(1)
+    day.tell_beside(FIRST, 0, stands=True)
+    hold = day.order(FIRST, Hand.HOLD)
+    day.wait(1)
+    now_ms = day.system.now_ms
+    event = {"tram": FIRST, "body": Body(1, 0, False, begun(0), 0), "now_ms": now_ms}
+    before = day.system
+    for begun_ms in (confirmed_ms - 1, now_ms + 1):
+        assert day.step("come", begun_ms=begun_ms, **event) == before
+    day.step("come", begun_ms=confirmed_ms, **event)
+    assert day.body(FIRST).display == replace(begun(now_ms), made_ms=confirmed_ms)
+    day.see(FIRST)
+    assert day.deliver(FIRST, hold) == HELD
+
+
+def who_has_left_the_way_clears_no_more_of_it() -> None:
+    """It has turned off, the way is still set, and it comes beside a stop farther on (G5)."""
+    day = with_a_stranger()
+    day.begin(SECOND, 2)
+    day.depart(SECOND)
+    day.leave(SECOND)
+    day.wait(1)
+    day.tell_beside(SECOND, 3, stands=True)
+    assert day.known(SECOND).stop == 3
+    assert day.system.centre.cleared == mark(0, True)
+    day.wait(1)
+    day.off(SECOND)
+
+
+def what_is_not_told_beside_the_way() -> None:
+    """That a stop was left, at another time than now, or of a tram that is on it (G2)."""
+    day = two_stops_apart()
+    now_ms = day.system.now_ms
+    good = day.tell_beside(THIRD, 1, stands=True)
+    before = day.system
+    for bad in (replace(good, left=True, stands=False), replace(good, made_ms=now_ms - 1)):
+        assert day.step("tell_beside", tram=THIRD, report=bad) == before
+        assert day.step("hear_report", tram=THIRD, told=bad) == before
+    assert day.step("tell_beside", tram=SECOND, report=good) == before
+    other = replace(good, stop=2)
+    day.step("tell_beside", tram=THIRD, report=other)
+    assert day.system.told_beside == before.told_beside | {(THIRD, other)}
+
+
+WITNESSES = (
+    who_is_to_come_clears_no_way_beside_it,
+    a_run_that_is_still_to_come_stays_confirmed,
+    who_is_to_come_is_ahead_of_nobody,
+    none_recovers_where_it_comes,
+    who_comes_may_take_what_was_ordered_since_it_was_confirmed,
+    who_has_left_the_way_clears_no_more_of_it,
+    what_is_not_told_beside_the_way,
+)
