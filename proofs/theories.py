@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from proofs.alarm import alarm_distance, alarm_tone
+from proofs.alarm import alarm_distance, alarm_network, alarm_tone
 from proofs.catalogue import INTERLOCKING
 from proofs.crossing import arrival, crossing, due, end_point, promise, ranging_schedule, start_point
 from proofs.onboard import (
@@ -53,6 +53,7 @@ IN_ORDER: tuple[Theory, ...] = (
     feature.THEORY,
     train.THEORY,
     alarm_distance.THEORY,
+    alarm_network.THEORY,
     alarm_tone.THEORY,
     arrival.THEORY,
     dispatching.THEORY,

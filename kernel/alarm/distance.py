@@ -145,8 +145,3 @@ def is_departing(bounds: AlarmBounds, train: TrainFix, worker: WorkerFix) -> boo
     if nearest_um(bounds, train, worker) < UM_A_MM * PAST_MM:
         return False
     return train.direction == (Direction.DOWN if train.place_mm > worker.place_mm else Direction.UP)
-
-
-def may_approach_within(bounds: AlarmBounds, train: TrainFix, worker: WorkerFix, limit_mm: int) -> bool:
-    """Tell whether a train may be that near, the limit included, and is not departing (A3)."""
-    return nearest_um(bounds, train, worker) <= UM_A_MM * limit_mm and not is_departing(bounds, train, worker)

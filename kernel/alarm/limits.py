@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from kernel.alarm.least_ways import Equation, Join, has_least_ways
 from kernel.alarm.tone import Register
+from kernel.maps import Map
 
 GREATEST_SERVER_MS = 3_600_000
 """A list counts as fresh for an hour at most (ours)."""
 
 
-def is_lawful(register: Register) -> bool:
+def is_lawful(register: Register, joins: Map[Join, Equation]) -> bool:
     """Tell whether a register may be used; if not, no handset is given out with it (A1).
 
     Nothing in it is below zero, and the server's list is fresh for an hour at most.
+
+    ``joins``: the places of its lines that have two figures; no way over them is missing or too long.
     """
     bounds, fresh = register.bounds, register.fresh
     return (
@@ -27,4 +31,5 @@ def is_lawful(register: Register) -> bool:
         and fresh.worker_ms >= 0
         and register.display_error_mm >= 0
         and register.tolerance_mm >= 0
+        and has_least_ways(register, joins)
     )

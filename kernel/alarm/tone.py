@@ -12,9 +12,10 @@ things that are registered beforehand, for the paper's reason that they happen e
 
 All three lie in sections that are not to be used: a handset there does not sound the normal tone.
 
-Distance is the difference of two kilometrages, so it is a way along the track only as far as figures run on.  Where
-they do not (the line's end, a line that joins, a break of kilometrage) stands an opening on the register: trains come
-by it that no list has, or that are told in other figures.  Near one the handset does not sound a mild tone (ours).
+Distance is the least way along the track that the register has: the difference of two figures, or over a connection
+from the figures of one line to those of another (`kernel.alarm.network`).  Where the register ends stands an opening:
+trains come by it that no list has, or that are told in other figures.  Near one the handset does not sound a mild tone
+(ours).
 
 A fix that its train cannot have reached since the one before, nor left before it, by the line's speed and what GPS
 errs, is not taken, and the fault tone sounds until one comes that fits: one of the two was wrong (ours).  Where either
@@ -40,20 +41,30 @@ from typing import NewType
 from kernel.alarm import distance
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
+    GREATEST_PLACE_MM,
     NO_TRAIN_FIX,
     NO_WORKER_FIX,
     UM_A_MM,
     AlarmBounds,
-    Direction,
     TrainFix,
     WorkerFix,
     is_fix,
-    nearest_um,
     older_ms,
+    train_off_um,
     worker_off_um,
 )
+from kernel.alarm.network import Connection, Opening, Way, jumps, may_come_over, may_have_passed_a_join
+from kernel.alarm.sections import (
+    NoUse,
+    Reason,
+    Section,
+    from_stretch_um,
+    from_way_through_um,
+    is_put_forward,
+    is_within,
+)
 from kernel.maps import Map
-from kernel.onboard.arithmetic import larger, magnitude
+from kernel.onboard.arithmetic import larger
 
 ALARM_MM = 1_500_000
 CAUTION_MM = 3_000_000
@@ -61,10 +72,6 @@ CAUTION_MM = 3_000_000
 
 Train = NewType("Train", str)
 """A train number (A2)."""
-Section = NewType("Section", str)
-"""The name of a section that is not to be used (A4, A5, A6)."""
-Opening = NewType("Opening", str)
-"""The name of a place where kilometrage does not run on (A1)."""
 
 
 class Tone(Enum):
@@ -74,27 +81,6 @@ class Tone(Enum):
     FAULT = 1
     CAUTION = 2
     NORMAL = 3
-
-
-class Reason(Enum):
-    """Why a section is registered as not to be used (004, 4)."""
-
-    WITHOUT_GPS = 0
-    SHUNTING = 1
-    STABLING = 2
-
-
-@dataclass(frozen=True)
-class NoUse:
-    """A section that is not to be used, from one kilometrage to a higher one (A4, A5, A6).
-
-    ``zone_mm``: without GPS, so long is the stretch at either end where there is GPS yet: zones A and B (004, 4.1).
-    """
-
-    reason: Reason
-    from_mm: int
-    to_mm: int
-    zone_mm: int
 
 
 @dataclass(frozen=True)
@@ -118,8 +104,7 @@ class Register:
     ``display_error_mm``: a train's antenna is no farther outside of the stretch that the display shows.
     ``tolerance_mm``: GPS and display agree when the fix is no farther outside.
     ``stabled``: which train may be stabled in which section: the roster.
-    ``openings``: where figures do not run on to trains of this list: the line's ends, lines that join, and both
-    figures of a break; of an adjoining line whose trains are on the list in these figures, the end of that.
+    ``ways``: from the figures of one line to those of another; ``openings``: where all that ends, on any of the lines.
     """
 
     bounds: AlarmBounds
@@ -128,16 +113,26 @@ class Register:
     tolerance_mm: int
     sections: Map[Section, NoUse]
     stabled: frozenset[tuple[Train, Section]]
+    ways: Map[Way, Connection]
     openings: Map[Opening, int]
+
+
+NO_FIGURE_MM = GREATEST_PLACE_MM + 1
+"""In the place of an end of a stretch's other part: it has none (A1)."""
 
 
 @dataclass(frozen=True)
 class Display:
-    """A train on the traffic display: the stretch that it occupied, lower end first, and how long ago (A1, A2)."""
+    """A train on the traffic display: the stretch that it occupied, lower end first, and how long ago (A1, A2).
+
+    ``other_from_mm``, ``other_to_mm``: of a stretch that reaches over a join its part in other figures.
+    """
 
     from_mm: int
     to_mm: int
     age_ms: int
+    other_from_mm: int = NO_FIGURE_MM
+    other_to_mm: int = NO_FIGURE_MM
 
 
 @dataclass(frozen=True)
@@ -225,15 +220,7 @@ def older_known(known: Known, elapsed_ms: int) -> Known:
     )
 
 
-def jumps(bounds: AlarmBounds, before: TrainFix, fix: TrainFix) -> bool:
-    """Tell whether a train cannot have been where both fixes say, when they say it (A1, ours)."""
-    if not is_fix(before.place_mm, before.age_ms):
-        return False
-    way_um = UM_A_MM * (magnitude(fix.place_mm - before.place_mm) - 2 * bounds.train_error_mm)
-    return way_um > bounds.train_mm_s * magnitude(fix.age_ms - before.age_ms)
-
-
-def note_fix(bounds: AlarmBounds, handset: Handset, train: Train, fix: TrainFix) -> Handset:
+def note_fix(register: Register, handset: Handset, train: Train, fix: TrainFix) -> Handset:
     """Note where GPS says that a train is; one that is not on the list stays unknown (A2).
 
     A fix that jumps is not taken, and it is kept that it did.  What is no fix, as a unit tells after its start, changes
@@ -242,7 +229,7 @@ def note_fix(bounds: AlarmBounds, handset: Handset, train: Train, fix: TrainFix)
     if train not in handset.trains or not is_fix(fix.place_mm, fix.age_ms):
         return handset
     known = handset.trains[train]
-    if jumps(bounds, known.fix, fix):
+    if jumps(register.bounds, register.ways, known.fix, fix):
         return replace(handset, trains=handset.trains | {train: replace(known, jumped=True, newest=fix)})
     return replace(handset, trains=handset.trains | {train: replace(known, fix=fix, jumped=False, newest=fix)})
 
@@ -272,15 +259,25 @@ def has_fix(register: Register, known: Known) -> bool:
     return is_fix(known.fix.place_mm, known.fix.age_ms) and known.fix.age_ms <= register.fresh.fix_ms
 
 
-def is_display(display: Display) -> bool:
-    """Tell whether a record of the display is a stretch, lower end first, within the ranges of reports (A1).
+def is_stretch(from_mm: int, to_mm: int) -> bool:
+    """Tell whether two ends are a stretch, lower end first, within the ranges of reports (A1).
 
     Told in running order, as of an up train, it would be measured to its far ends.
     """
+    return is_fix(from_mm, 0) and is_fix(to_mm, 0) and from_mm <= to_mm
+
+
+def has_other_part(display: Display) -> bool:
+    """Tell whether a record of the display has a part in other figures, or in what are none (A1)."""
+    return display.other_from_mm != NO_FIGURE_MM or display.other_to_mm != NO_FIGURE_MM
+
+
+def is_display(display: Display) -> bool:
+    """Tell whether a record of the display shows a train: each part that it has is a stretch (A1)."""
     return (
         is_fix(display.from_mm, display.age_ms)
-        and is_fix(display.to_mm, display.age_ms)
-        and display.from_mm <= display.to_mm
+        and is_stretch(display.from_mm, display.to_mm)
+        and (not has_other_part(display) or is_stretch(display.other_from_mm, display.other_to_mm))
     )
 
 
@@ -290,22 +287,17 @@ def has_display(register: Register, known: Known) -> bool:
 
 
 def agree(register: Register, known: Known) -> bool:
-    """Tell whether GPS puts a train where the display does (A2)."""
-    return (
-        known.display.from_mm - register.tolerance_mm
-        <= known.fix.place_mm
-        <= known.display.to_mm + register.tolerance_mm
+    """Tell whether GPS puts a train where the display does, in either part of what it shows (A2)."""
+    display, place_mm, tolerance_mm = known.display, known.fix.place_mm, register.tolerance_mm
+    return display.from_mm - tolerance_mm <= place_mm <= display.to_mm + tolerance_mm or (
+        has_other_part(display)
+        and display.other_from_mm - tolerance_mm <= place_mm <= display.other_to_mm + tolerance_mm
     )
 
 
 def is_matched(register: Register, known: Known) -> bool:
     """Tell whether both sources are fresh and agree (A2)."""
     return has_fix(register, known) and has_display(register, known) and agree(register, known)
-
-
-def is_within(section: NoUse, place_mm: int) -> bool:
-    """Tell whether a place is in a section (A4, A5)."""
-    return section.from_mm <= place_mm <= section.to_mm
 
 
 def is_shunting(register: Register, known: Known) -> bool:
@@ -327,26 +319,10 @@ def is_registered(register: Register, train: Train, known: Known) -> bool:
             and (train, name) in register.stabled
             and is_within(section, known.display.from_mm)
             and is_within(section, known.display.to_mm)
+            and not has_other_part(known.display)
             for name, section in register.sections.items()
         )
     )
-
-
-def runs(fix: TrainFix, way: Direction) -> bool:
-    """Tell whether a train ran that way at its last fix; of one that stands it is not known (A3)."""
-    return fix.is_running and fix.direction == way
-
-
-def is_in_zone_b(section: NoUse, fix: TrainFix) -> bool:
-    """Tell whether GPS sees a train in the zone by which it leaves a section without GPS (004, 4.1; A4)."""
-    return (runs(fix, Direction.DOWN) and fix.place_mm > section.to_mm - section.zone_mm) or (
-        runs(fix, Direction.UP) and fix.place_mm < section.from_mm + section.zone_mm
-    )
-
-
-def is_put_forward(section: NoUse, fix: TrainFix) -> bool:
-    """Tell whether a train is on its way through a section without GPS: entered, and not seen in zone B (A4)."""
-    return section.reason == Reason.WITHOUT_GPS and is_within(section, fix.place_mm) and not is_in_zone_b(section, fix)
 
 
 def was_lost_without_gps(register: Register, known: Known) -> bool:
@@ -356,29 +332,42 @@ def was_lost_without_gps(register: Register, known: Known) -> bool:
     )
 
 
-def from_stretch_um(bounds: AlarmBounds, from_mm: int, to_mm: int, worker: WorkerFix) -> int:
-    """Give how far a stretch is from the worker at the least, less a train's length; below 0 inside (A4, A6)."""
-    apart_mm = larger(from_mm - worker.place_mm, worker.place_mm - to_mm)
-    return UM_A_MM * apart_mm - UM_A_MM * bounds.length_mm - worker_off_um(bounds, worker)
-
-
-def nearest_by_display_um(register: Register, display: Display, worker: WorkerFix) -> int:
-    """Give the least distance that a train may have to the worker, by the display (A4, A6)."""
-    return (
-        from_stretch_um(register.bounds, display.from_mm, display.to_mm, worker)
-        - UM_A_MM * register.display_error_mm
-        - register.bounds.train_mm_s * display.age_ms
+def stretch_may_be_near(register: Register, from_mm: int, to_mm: int, worker: WorkerFix, within_um: int) -> bool:
+    """Tell whether any part of a train may be that near the worker, if it is in a stretch (A3, A4, A6)."""
+    return from_stretch_um(register.bounds, from_mm, to_mm, worker) <= within_um or may_come_over(
+        register.bounds, register.ways, from_mm, to_mm, worker, within_um
     )
 
 
-def from_way_through_um(bounds: AlarmBounds, section: NoUse, fix: TrainFix, worker: WorkerFix) -> int:
-    """Give how far a train on its way through is at the least: from its last fix to the outer end of zone B (A4).
+def shown_may_be_near(register: Register, display: Display, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train may be that near the worker, by the display (A4, A6)."""
+    within_um = UM_A_MM * (limit_mm + register.display_error_mm) + register.bounds.train_mm_s * display.age_ms
+    return stretch_may_be_near(register, display.from_mm, display.to_mm, worker, within_um) or (
+        has_other_part(display)
+        and stretch_may_be_near(register, display.other_from_mm, display.other_to_mm, worker, within_um)
+    )
 
-    Of one that stood, or whose direction is unknown, either end may be the outer one.
+
+def told_may_be_near(register: Register, fix: TrainFix, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train may be that near the worker, by a fix, whichever way it runs (A3)."""
+    reckoned_um = distance.nearest_um(register.bounds, fix, worker)
+    return reckoned_um <= UM_A_MM * limit_mm or comes_over(register, fix, worker, limit_mm)
+
+
+def comes_over(register: Register, fix: TrainFix, worker: WorkerFix, limit_mm: int) -> bool:
+    """Tell whether a train may be that near over a connection, by a fix, whichever way it runs (A3)."""
+    within_um = UM_A_MM * limit_mm + train_off_um(register.bounds, fix)
+    return may_come_over(register.bounds, register.ways, fix.place_mm, fix.place_mm, worker, within_um)
+
+
+def is_departing(register: Register, fix: TrainFix, worker: WorkerFix) -> bool:
+    """Tell whether a train is past the worker, all of it, and runs on away along his line (A3).
+
+    That it runs away is not believed where lines may join: see `kernel.alarm.network.may_have_passed_a_join`.
     """
-    from_mm = fix.place_mm - bounds.train_error_mm if runs(fix, Direction.DOWN) else section.from_mm
-    to_mm = fix.place_mm + bounds.train_error_mm if runs(fix, Direction.UP) else section.to_mm
-    return from_stretch_um(bounds, from_mm, to_mm, worker)
+    return distance.is_departing(register.bounds, fix, worker) and not may_have_passed_a_join(
+        register.bounds, register.ways, fix
+    )
 
 
 def may_be_on_its_way_through(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
@@ -393,19 +382,19 @@ def may_be_on_its_way_through(register: Register, known: Known, worker: WorkerFi
 def may_be_near(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:
     """Tell whether a train may be that near and not departing, as far as a source is fresh (A3 to A6).
 
-    The direction counts only where both sources agree.  Of a fix that jumped the place alone counts.
+    The direction counts only where both sources agree, and on the worker's line.  Of a fix that jumped the place alone
+    counts.
     """
-    if known.jumped and nearest_um(register.bounds, known.newest, worker) <= UM_A_MM * limit_mm:
+    if known.jumped and told_may_be_near(register, known.newest, worker, limit_mm):
         return True
-    if is_matched(register, known):
-        return distance.may_approach_within(register.bounds, known.fix, worker, limit_mm) or (
-            may_be_on_its_way_through(register, known, worker, limit_mm)
-            and not distance.is_departing(register.bounds, known.fix, worker)
-        )
+    if is_matched(register, known) and is_departing(register, known.fix, worker):
+        return comes_over(register, known.fix, worker, limit_mm)
     if has_fix(register, known):
-        return nearest_um(register.bounds, known.fix, worker) <= UM_A_MM * limit_mm
+        return told_may_be_near(register, known.fix, worker, limit_mm) or (
+            is_matched(register, known) and may_be_on_its_way_through(register, known, worker, limit_mm)
+        )
     return has_display(register, known) and (
-        nearest_by_display_um(register, known.display, worker) <= UM_A_MM * limit_mm
+        shown_may_be_near(register, known.display, worker, limit_mm)
         or may_be_on_its_way_through(register, known, worker, limit_mm)
     )
 
@@ -448,19 +437,16 @@ def has_a_section_backwards(register: Register) -> bool:
 
 
 def is_near_an_opening(register: Register, worker: WorkerFix) -> bool:
-    """Tell whether a train may be within 3000 m of the worker by an opening, unknown or in other figures (A1, A3).
+    """Tell whether a train may be within 3000 m of the worker by an opening, unknown or in foreign figures (A1, A3).
 
     Beyond it any train may stand.  One that has come by it may be told in the figures from before as long as those
     are fresh, and has run on meanwhile.
     """
     bounds, fresh = register.bounds, register.fresh
-    within_um = (
-        UM_A_MM * (CAUTION_MM + bounds.length_mm)
-        + bounds.train_mm_s * larger(fresh.fix_ms, fresh.display_ms)
-        + worker_off_um(bounds, worker)
-    )
+    within_um = UM_A_MM * CAUTION_MM + bounds.train_mm_s * larger(fresh.fix_ms, fresh.display_ms)
     return any(
-        UM_A_MM * magnitude(place_mm - worker.place_mm) <= within_um for _name, place_mm in register.openings.items()
+        stretch_may_be_near(register, place_mm, place_mm, worker, within_um)
+        for _name, place_mm in register.openings.items()
     )
 
 

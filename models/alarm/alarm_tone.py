@@ -4,8 +4,11 @@ Any number of trains; they run at once: each intends something, and when time pa
 either source come late, again, out of order or not at all.  A fix may be wrong, as long as the traffic
 display contradicts it then: that is what there are two sources for.
 
-The line is as far as figures run on, from opening to opening.  What is beyond is any network whatever; of a train there
-it matters only by which opening its shortest way to the worker leads, and how far it is from that.
+The worker's line is as far as its figures run on.  The other lines are any network whatever: of a train there it
+matters only how far it is, along the track, from each place where it can come onto the line, and what is told of it.
+The register's ways are no longer than those of the network; that is assumed of every report, and `alarm_network` says
+why.  Where the register ends is an opening; of a train beyond it matters only to which opening its shortest way leads,
+and how far it is from there.
 """
 
 from __future__ import annotations
@@ -15,7 +18,10 @@ from dataclasses import replace
 from kernel.alarm import tone as machine
 from kernel.alarm import train_list
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import Display, Opening, Train
+from kernel.alarm.network import Opening, Way
+from kernel.alarm.tone import Display, Train
+from kernel.maps import Map
+from models.alarm.along import is_beyond_within
 from models.alarm.lists import a_train_comes_after_it_was_let_on, lists_after
 from models.alarm.tone_assumptions import (
     a_train_fix_is_within_its_error,
@@ -31,7 +37,13 @@ from models.alarm.tone_assumptions import (
     the_train_keeps_the_lines_speed,
     the_worker_keeps_a_walking_speed,
     trains_come_by_openings,
+    trains_pass_in_where_connections_end,
+    trains_pass_out_where_connections_end,
+    what_a_fix_says_is_along_the_register,
+    what_has_passed_a_join_was_shown_so,
+    what_has_passed_a_join_was_told_so,
     what_is_made_up_is_new_on_the_list,
+    what_the_display_says_is_along_the_register,
 )
 from models.alarm.worksite import (
     Body,
@@ -44,13 +56,12 @@ from models.alarm.worksite import (
     has_just_come,
     has_place,
     is_between_the_ends,
-    is_beyond_within,
     is_in_a_stretch,
     is_known,
     is_known_by_one,
     is_list_fresh,
     is_listed,
-    is_of_the_line,
+    is_of_the_register,
     is_report,
     is_told_alike,
     may_be_within,
@@ -64,28 +75,51 @@ from models.alarm.worksite import (
 
 
 def come(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
-    """A train is made up on the line, anywhere (A2)."""
+    """A train is made up on the register's lines, anywhere (A2)."""
     if not a_train_comes_after_it_was_let_on(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
     if not what_is_made_up_is_new_on_the_list(system, train):
         return system
-    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=True, came_ms=3_600_001)})
+    made = replace(body, fix_is_right=True, passed_ms=3_600_001, came_ms=3_600_001)
+    return replace(system, bodies=system.bodies | {train: made})
 
 
 def come_by(site: Railway, system: Worksite, train: Train, body: Body) -> Worksite:
-    """A train comes onto the line by an opening; whatever was told of it until now was of other figures (A1, A2).
+    """A train comes onto the register's lines by an opening; what was told until now was in foreign figures (A1, A2).
 
-    One that passes a break of kilometrage comes so again, from the one figure to the other.
+    One that passes a break of kilometrage that is not on the register comes so again, by the figure beyond it.
     """
     if not a_train_comes_after_it_was_let_on(site, system, train) or not no_train_is_longer_than_written(site, body):
         return system
     if not trains_come_by_openings(site, body):
         return system
-    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=False, came_ms=0)})
+    return replace(system, bodies=system.bodies | {train: replace(body, fix_is_right=False, passed_ms=0, came_ms=0)})
+
+
+def pass_out(site: Railway, system: Worksite, train: Train, way: Way) -> Worksite:
+    """A train passes from the worker's line to another one, where they join (A1)."""
+    if train not in system.bodies:
+        return system
+    body = system.bodies[train]
+    if not trains_pass_out_where_connections_end(site, body, way):
+        return system
+    out = replace(body, is_on=False, ways_um=body.ways_um | {way: 0}, passed_ms=0)
+    return replace(system, bodies=system.bodies | {train: out})
+
+
+def pass_in(site: Railway, system: Worksite, train: Train, way: Way, at_um: int, heading: Direction) -> Worksite:
+    """A train passes from another line onto the worker's, where they join (A1)."""
+    if train not in system.bodies:
+        return system
+    body = system.bodies[train]
+    if not trains_pass_in_where_connections_end(site, body, way, at_um):
+        return system
+    on = replace(body, is_on=True, antenna_um=at_um, heading=heading, passed_ms=0)
+    return replace(system, bodies=system.bodies | {train: on})
 
 
 def leave(site: Railway, system: Worksite, train: Train) -> Worksite:
-    """A train leaves the line; its dispatcher knows, whenever the server may."""
+    """A train leaves the register's lines; its dispatcher knows, whenever the server may."""
     return replace(
         system,
         bodies={other: body for other, body in system.bodies.items() if other != train},
@@ -115,11 +149,13 @@ def couple_or_part(site: Railway, system: Worksite, train: Train, below_mm: int,
     return replace(system, bodies=system.bodies | {train: body})
 
 
-def intend(site: Railway, system: Worksite, train: Train, to_um: int, heading: Direction) -> Worksite:
-    """A driver intends something, anything at all."""
+def intend(
+    site: Railway, system: Worksite, train: Train, to_um: int, heading: Direction, ways_um: Map[Way, int]
+) -> Worksite:
+    """A driver intends something, anything at all; ``ways_um``: how far that will be from the line, by each way."""
     if train not in system.bodies:
         return system
-    body = replace(system.bodies[train], next_um=to_um, next_heading=heading)
+    body = replace(system.bodies[train], next_um=to_um, next_heading=heading, next_ways_um=ways_um)
     return replace(system, bodies=system.bodies | {train: body})
 
 
@@ -139,6 +175,8 @@ def pass_time(site: Railway, system: Worksite, elapsed_ms: int, worker_to_um: in
                 body,
                 antenna_um=body.next_um,
                 heading=body.next_heading,
+                ways_um=body.next_ways_um,
+                passed_ms=age_after_ms(body.passed_ms, elapsed_ms),
                 came_ms=age_after_ms(body.came_ms, elapsed_ms),
             )
             for train, body in system.bodies.items()
@@ -163,7 +201,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
 
     A fix that jumps from the one before may say anything; so may what is no report.
     """
-    handset = machine.note_fix(site.register.bounds, system.handset, train, fix)
+    handset = machine.note_fix(site.register, system.handset, train, fix)
     if not is_listed(system.told, train):
         return replace(system, handset=handset)
     of = with_fix(site, system.told.trains[train], fix)
@@ -171,7 +209,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
     if train not in system.bodies:
         return replace(system, told=told, handset=handset)
     body = system.bodies[train]
-    is_of_now = is_right and is_of_the_line(body, fix.age_ms)
+    is_of_now = is_right and is_of_the_register(body, fix.age_ms)
     is_taken = is_report(fix.place_mm, fix.age_ms) and not of.jumped
     is_taken_right = is_of_now if is_taken else body.fix_is_right
     if not no_train_turns_sooner(site, of, body):
@@ -179,9 +217,17 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
     if not a_wrong_fix_is_contradicted(site, of, body, is_taken_right):
         return system
     counts = is_taken and is_of_now
-    if counts and not (
-        a_train_fix_is_within_its_error(site, fix, at_um)
-        and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)
+    if counts and not what_a_fix_says_is_along_the_register(site, body, fix):
+        return system
+    if (
+        counts
+        and body.is_on
+        and not (
+            fix.age_ms < body.passed_ms
+            and a_train_fix_is_within_its_error(site, fix, at_um)
+            and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, fix.age_ms)
+        )
+        and not what_has_passed_a_join_was_told_so(site, body, fix)
     ):
         return system
     bodies = system.bodies | {train: replace(body, fix_is_right=is_taken_right)}
@@ -202,10 +248,17 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
         return system
     if not a_wrong_fix_is_contradicted(site, of, body, body.fix_is_right):
         return system
-    counts = is_in_a_stretch(display) and is_of_the_line(body, display.age_ms)
-    if counts and not (
-        the_display_shows_where_the_train_was(site, display, at_um)
-        and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, display.age_ms)
+    counts = is_in_a_stretch(display) and is_of_the_register(body, display.age_ms)
+    if counts and not what_the_display_says_is_along_the_register(site, body, display):
+        return system
+    if (
+        counts
+        and body.is_on
+        and not (
+            the_display_shows_where_the_train_was(site, display, at_um)
+            and the_train_keeps_the_lines_speed(site, at_um, body.antenna_um, display.age_ms)
+        )
+        and not what_has_passed_a_join_was_shown_so(site, body, display)
     ):
         return system
     return replace(system, told=told, handset=handset)
@@ -235,7 +288,7 @@ def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) ->
     """The worker hears the tone, at any moment; what is so then goes into history (A3).
 
     3000 m, 1500 m and 100 m are the paper's (004, 3.3).  ``opening``, ``beyond_um``: where a train is then that is not
-    on the line, if one is: by which opening its way leads, and how far from there.
+    on the register's lines, if one is: to which opening its way leads, and how far from there.
     """
     told, worker_um = system.told, system.worker_um
     has_fix = is_report(told.worker.place_mm, told.worker.age_ms)
@@ -243,16 +296,16 @@ def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) ->
         system,
         heard=Heard(
             tone=machine.tone(site.register, system.handset),
-            within_3000=is_beyond_within(site, opening, beyond_um, worker_um, 3_000_000)
-            or any(approaches_within(body, worker_um, 3_000_000) for _train, body in system.bodies.items()),
-            within_1500=is_beyond_within(site, opening, beyond_um, worker_um, 1_500_000)
-            or any(approaches_within(body, worker_um, 1_500_000) for _train, body in system.bodies.items()),
+            within_3000=is_beyond_within(site.register, opening, beyond_um, worker_um, 3_000_000)
+            or any(approaches_within(site, body, worker_um, 3_000_000) for _train, body in system.bodies.items()),
+            within_1500=is_beyond_within(site.register, opening, beyond_um, worker_um, 1_500_000)
+            or any(approaches_within(site, body, worker_um, 1_500_000) for _train, body in system.bodies.items()),
             matched_within_1500=has_fix
             and any(
                 train in told.trains
                 and not has_just_come(site, body)
                 and is_told_alike(site, told.trains[train])
-                and approaches_within(body, worker_um, 1_500_000)
+                and approaches_within(site, body, worker_um, 1_500_000)
                 for train, body in system.bodies.items()
             ),
             unknown=not told.battery_well

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from kernel.alarm.limits import is_lawful
-from kernel.alarm.tone import Opening
+from kernel.alarm.network import Opening
 from kernel.maps import Map
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.alarm.draws import HOURS, Drawn, drawn
@@ -35,7 +35,7 @@ def one_day(
 
     ``register`` and ``sounds`` are the handset's own: tests plant faults there.
     """
-    assert is_lawful(REGISTER)
+    assert is_lawful(REGISTER, {})
     out = np.zeros(len(COLUMNS), np.int64)
     began = drawn(seed, day, beyond)
     watch(began, with_openings(REGISTERED, began), with_openings(register, began), sounds, NOTHING, out, trace())

@@ -8,7 +8,8 @@ that is worse for a handset than trains that wait for one another.
 from __future__ import annotations
 
 from kernel.alarm.distance import AlarmBounds
-from kernel.alarm.tone import Freshness, NoUse, Reason, Register, Section, Train
+from kernel.alarm.sections import NoUse, Reason, Section
+from kernel.alarm.tone import Freshness, Register, Train
 
 KM = 1_000_000
 LENGTH_MM = 40 * KM
@@ -81,6 +82,7 @@ REGISTER = Register(
         section(SIDING): NoUse(Reason.STABLING, *SIDING_MM, 0),
     },
     stabled=frozenset({(name(STABLED), section(SIDING))}),
+    ways={},
     openings={},
 )
 """The line with its sections; trains and sections are numbered, as compiled code needs it."""

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
+from kernel.alarm.network import Way
 from kernel.alarm.tone import Display, Train
+from models.alarm.along import far_um, is_along, is_at_a_join, is_by_figures, is_over
 from models.alarm.worksite import (
     NOTHING_TOLD,
     Body,
     OfTrain,
     Railway,
     Worksite,
+    has_another_part,
     has_fresh_fix,
     has_just_come,
     is_shown,
@@ -52,18 +55,25 @@ def the_train_keeps_the_lines_speed(site: Railway, from_um: int, to_um: int, ela
 
 
 def all_trains_keep_the_lines_speed(site: Railway, system: Worksite, elapsed_ms: int) -> bool:
-    """None is faster, while time passes (A1)."""
+    """None is faster, while time passes, so none comes nearer by any way than it can have run (A1)."""
     return all(
-        the_train_keeps_the_lines_speed(site, body.antenna_um, body.next_um, elapsed_ms)
+        not body.is_on or the_train_keeps_the_lines_speed(site, body.antenna_um, body.next_um, elapsed_ms)
         for _train, body in system.bodies.items()
+    ) and all(
+        way in body.ways_um and next_um >= body.ways_um[way] - site.register.bounds.train_mm_s * elapsed_ms
+        for _train, body in system.bodies.items()
+        for way, next_um in body.next_ways_um.items()
     )
 
 
 def all_trains_run_as_they_head(system: Worksite) -> bool:
     """A train gets nowhere but the way that it heads; one that turns takes a step each way (A3)."""
     return all(
-        (body.next_heading != Direction.DOWN or body.next_um >= body.antenna_um)
-        and (body.next_heading != Direction.UP or body.next_um <= body.antenna_um)
+        not body.is_on
+        or (
+            (body.next_heading != Direction.DOWN or body.next_um >= body.antenna_um)
+            and (body.next_heading != Direction.UP or body.next_um <= body.antenna_um)
+        )
         for _train, body in system.bodies.items()
     )
 
@@ -106,10 +116,12 @@ def no_train_turns_sooner(site: Railway, of: OfTrain, body: Body) -> bool:
     """A train on the display that was told to run one way does not run the other before it can have turned (A3).
 
     One that shunts, and so is not on the display, may turn at any time (A5); one that has just come may have turned
-    before.
+    before; and one that has been where lines join may have come back round a loop.
     """
     fix = of.fix
     if has_just_come(site, body) or not is_told_alike(site, of) or not fix.is_running:
+        return True
+    if not body.is_on or fix.age_ms >= body.passed_ms:
         return True
     if fix.age_ms > site.register.bounds.turning_ms:
         return True
@@ -118,8 +130,10 @@ def no_train_turns_sooner(site: Railway, of: OfTrain, body: Body) -> bool:
 
 def the_display_shows_where_the_train_was(site: Railway, display: Display, at_um: int) -> bool:
     """The antenna was in the stretch that the display shows, within the error of its boundaries (A2)."""
-    error_mm = site.register.display_error_mm
-    return UM_A_MM * (display.from_mm - error_mm) <= at_um <= UM_A_MM * (display.to_mm + error_mm)
+    error_um = UM_A_MM * site.register.display_error_mm
+    return is_by_figures(display.from_mm, display.to_mm, at_um, error_um) or (
+        has_another_part(display) and is_by_figures(display.other_from_mm, display.other_to_mm, at_um, error_um)
+    )
 
 
 def sources_do_not_fail_together(site: Railway, later: Worksite) -> bool:
@@ -145,7 +159,89 @@ def what_is_made_up_is_new_on_the_list(system: Worksite, train: Train) -> bool:
     return train not in system.told.trains or system.told.trains[train] == NOTHING_TOLD
 
 
+def what_a_fix_says_is_along_the_register(site: Railway, body: Body, fix: TrainFix) -> bool:
+    """Whatever way there is from a train to the line, no way on the register from where it was told is longer (A1).
+
+    But by its error, and what it has run since.  A train that was told on the line, and has passed a join since, or is
+    where lines join, need not have come from there over a connection.
+    """
+    register, place_mm, run_um = site.register, fix.place_mm, site.register.bounds.train_mm_s * fix.age_ms
+    off_um = UM_A_MM * register.bounds.train_error_mm + run_um
+    is_at = is_at_a_join(register, place_mm, off_um)
+    return all(
+        way_um + run_um > far_um(register)
+        or is_over(register, place_mm, place_mm, UM_A_MM * register.ways[way].to_mm, way_um + off_um)
+        or (is_at and is_by_figures(place_mm, place_mm, UM_A_MM * register.ways[way].to_mm, way_um + off_um))
+        for way, way_um in body.ways_um.items()
+        if way in register.ways
+    )
+
+
+def what_has_passed_a_join_was_told_so(site: Railway, body: Body, fix: TrainFix) -> bool:
+    """A train on the line that was told elsewhere, or has passed a join since, is where that lets it be (A1)."""
+    register, place_mm, run_um = site.register, fix.place_mm, site.register.bounds.train_mm_s * fix.age_ms
+    off_um = UM_A_MM * register.bounds.train_error_mm + run_um
+    return (
+        run_um > far_um(register)
+        or is_over(register, place_mm, place_mm, body.antenna_um, off_um)
+        or (is_at_a_join(register, place_mm, off_um) and is_by_figures(place_mm, place_mm, body.antenna_um, off_um))
+    )
+
+
+def what_has_passed_a_join_was_shown_so(site: Railway, body: Body, display: Display) -> bool:
+    """So is one that the display showed (A1)."""
+    run_um = site.register.bounds.train_mm_s * display.age_ms
+    return run_um > far_um(site.register) or is_shown_within(
+        site, display, body.antenna_um, UM_A_MM * site.register.display_error_mm + run_um
+    )
+
+
+def what_the_display_says_is_along_the_register(site: Railway, body: Body, display: Display) -> bool:
+    """Nor is any way longer from the stretch that the display shows (A1)."""
+    register, run_um = site.register, site.register.bounds.train_mm_s * display.age_ms
+    off_um = UM_A_MM * register.display_error_mm + run_um
+    return all(
+        way_um + run_um > far_um(register)
+        or is_shown_within(site, display, UM_A_MM * register.ways[way].to_mm, way_um + off_um)
+        for way, way_um in body.ways_um.items()
+        if way in register.ways
+    )
+
+
+def is_shown_within(site: Railway, display: Display, place_um: int, within_um: int) -> bool:
+    """Tell whether the stretch shown, or its part on another line, is that near a place along the register (A1)."""
+    return is_along(site.register, display.from_mm, display.to_mm, place_um, within_um) or (
+        has_another_part(display)
+        and is_along(site.register, display.other_from_mm, display.other_to_mm, place_um, within_um)
+    )
+
+
 def trains_come_by_openings(site: Railway, body: Body) -> bool:
-    """A train that is not made up on the line comes onto it where an opening is registered (A1)."""
-    openings = site.register.openings
-    return body.came_by in openings and body.antenna_um == UM_A_MM * openings[body.came_by]
+    """A train that is not made up on the register's lines comes onto them where an opening is registered (A1)."""
+    register = site.register
+    if body.came_by not in register.openings:
+        return False
+    place_mm = register.openings[body.came_by]
+    return (not body.is_on or body.antenna_um == UM_A_MM * place_mm) and all(
+        way_um > far_um(register) or is_over(register, place_mm, place_mm, UM_A_MM * register.ways[way].to_mm, way_um)
+        for way, way_um in body.ways_um.items()
+        if way in register.ways
+    )
+
+
+def trains_pass_out_where_connections_end(site: Railway, body: Body, way: Way) -> bool:
+    """A train gets from the worker's line to another of the register where a connection ends (A1)."""
+    ways = site.register.ways
+    return body.is_on and way in ways and body.antenna_um == UM_A_MM * ways[way].to_mm
+
+
+def trains_pass_in_where_connections_end(site: Railway, body: Body, way: Way, at_um: int) -> bool:
+    """And from there onto the worker's line, once nothing of the way to that place is left (A1)."""
+    ways = site.register.ways
+    return (
+        not body.is_on
+        and way in ways
+        and at_um == UM_A_MM * ways[way].to_mm
+        and way in body.ways_um
+        and body.ways_um[way] <= 0
+    )

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from kernel.alarm.distance import Direction
-from kernel.alarm.tone import Tone, switched_on
+from kernel.alarm.tone import NO_FIGURE_MM, Tone, switched_on
 from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.draws import SECONDS
@@ -57,7 +57,6 @@ SERVER_RESTARTS = KIND["server_restarts"]
 MESSAGES, JUMPED, TURNED = (NUMBER[name] for name in ("messages", "jumped", "turned"))
 AGE_BROKEN, DISPLAY_BROKEN = NUMBER["age_broken"], NUMBER["display_broken"]
 SPEED_MM_S, ERROR_MM, TURNING_MS = BOUNDS.train_mm_s, BOUNDS.train_error_mm, BOUNDS.turning_ms
-HELD_TO = packed(BOUNDS)
 SHOWN_OFF_MM = REGISTER.display_error_mm
 
 
@@ -215,11 +214,13 @@ def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second:
     behind_s = max(0, min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S))
     place = sent.place_m[train, (sent_s - behind_s) % RING]
     from_mm, to_mm = stretch_mm(place)
-    return Display(from_mm, to_mm, 1_000 * (second - sent_s))
+    return Display(from_mm, to_mm, 1_000 * (second - sent_s), NO_FIGURE_MM, NO_FIGURE_MM)
 
 
 @compiled(forceinline=True)
-def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any) -> Any:
+def take_fix(
+    register: Any, day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
+) -> Any:
     """A fix reaches the handset (A1)."""
     if not sent.has_fix[train, sent_s % RING] or is_of(day, TRAIN_SILENT, train, sent_s):
         return handset
@@ -240,7 +241,7 @@ def take_fix(day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s
             both = before.is_running and fix.is_running and before.direction != fix.direction
             if both and apart_ms <= TURNING_MS:
                 out[TURNED] += 1
-    return note_fix(HELD_TO, handset, name, fix)
+    return note_fix(register, handset, name, fix)
 
 
 @compiled(forceinline=True)
@@ -276,19 +277,30 @@ def say(day: Any, sent: Sent, server: Any, second: int) -> None:
 
 
 @compiled(forceinline=True)
-def take_entry(day: Any, trains: Any, handset: Any, sent: Sent, entry: Any, sent_s: int, second: int, out: Any) -> Any:
+def take_entry(
+    register: Any, day: Any, trains: Any, handset: Any, sent: Sent, entry: Any, sent_s: int, second: int, out: Any
+) -> Any:
     """An entry reaches the handset; what comes onto its list by it comes with its reports (A1, A2)."""
     was_there, train = has(handset, entry.train), entry.train % TRAINS
     handset = note_entry(handset, entry)
     if not was_there and has(handset, entry.train) and sent.number[train, sent_s % RING] == entry.train:
-        handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
+        handset = take_fix(register, day, trains, handset, sent, train, sent_s, second, out)
         handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
     return handset
 
 
 @compiled(forceinline=True)
 def take_list(
-    day: Any, trains: Any, handset: Any, sent: Sent, server: Any, before: Any, sent_s: int, second: int, out: Any
+    register: Any,
+    day: Any,
+    trains: Any,
+    handset: Any,
+    sent: Sent,
+    server: Any,
+    before: Any,
+    sent_s: int,
+    second: int,
+    out: Any,
 ) -> Any:
     """A list reaches the handset: what the server said of it, and the entries that the handset has not (A1, A2).
 
@@ -308,23 +320,25 @@ def take_list(
     for number in range(taken + 1, entries_that_come(day, sent_s, taken, sent.count[at]) + 1):
         for key, entry in written.entries:
             if key == number:
-                handset = take_entry(day, trains, handset, sent, entry, sent_s, second, out)
+                handset = take_entry(register, day, trains, handset, sent, entry, sent_s, second, out)
     return handset
 
 
 @compiled(forceinline=True)
-def hear(day: Any, trains: Any, handset: Any, sent: Sent, server: Any, before: Any, second: int, out: Any) -> Any:
+def hear(
+    register: Any, day: Any, trains: Any, handset: Any, sent: Sent, server: Any, before: Any, second: int, out: Any
+) -> Any:
     """Take everything that arrives in this second, the oldest first (A1)."""
     late = is_late(day, second) or is_late(day, max(0, second - LATEST_S))
     for back in range(min(LATEST_S if late else SOON_S, second), 0, -1):
         sent_s = second - back
         at = sent_s % RING
         if sent.list_s[at, 0] == second or sent.list_s[at, 1] == second:
-            handset = take_list(day, trains, handset, sent, server, before, sent_s, second, out)
+            handset = take_list(register, day, trains, handset, sent, server, before, sent_s, second, out)
         for index in range(trains.switched_on[TRAINS]):
             train = trains.switched_on[index]
             if sent.fix_s[train, at, 0] == second or sent.fix_s[train, at, 1] == second:
-                handset = take_fix(day, trains, handset, sent, train, sent_s, second, out)
+                handset = take_fix(register, day, trains, handset, sent, train, sent_s, second, out)
             if sent.shown_s[train, at, 0] == second or sent.shown_s[train, at, 1] == second:
                 handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
     return handset
@@ -375,7 +389,7 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
         say(day, sent, server, second)
         handset = begun() if is_on(day, RESTARTS, second) else older(handset, 1_000)
         if not is_on(day, HANDSET_SILENT, second):
-            handset = hear(day, trains, handset, sent, server, former, second, out)
+            handset = hear(register, day, trains, handset, sent, server, former, second, out)
         error_m = wanders(error_m, day.key, second, TRAINS, WORKER_M, WORKER_MOST_M)
         handset = own_fix(day, handset, worker_m, error_m, second)
         heard = sounds(register, handset)

@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
-from kernel.alarm.tone import Display, Handset, NoUse, Opening, Reason, Register, Tone, Train
+from kernel.alarm.network import Opening, Way
+from kernel.alarm.sections import NoUse, Reason
+from kernel.alarm.tone import Display, Handset, Register, Tone, Train
 from kernel.alarm.train_list import Entry, Server
 from kernel.maps import Map
+from models.alarm.along import is_along, is_over
 from models.measures import UM_A_MM, apart, greater
 
 
@@ -22,21 +25,30 @@ class Railway:
 class Body:
     """A train as it is.
 
+    ``is_on``: its antenna is on the worker's line; else on another line of the register, and neither place nor heading
+    says anything.
     ``antenna_um``, ``heading``: where its antenna is, and which way it runs, or ran last if it stands.
     ``below_mm``, ``above_mm``: how far it reaches from there.
-    ``next_um``, ``next_heading``: what it will have done when time has passed.
-    ``fix_is_right``: the last fix told of those that fitted was within its error, and in this line's figures.
-    ``came_by``, ``came_ms``: by which opening it came onto the line, and how long ago; more than an hour where it was
-    made up on the line, or came longer ago.
+    ``ways_um``: how far its antenna is from where connections end, along lines of the register and onto his line there.
+    ``next_um``, ``next_heading``, ``next_ways_um``: what it will have done when time has passed.
+    ``fix_is_right``: the last fix told of those that fitted was within its error, and in figures of the register.
+    ``passed_ms``: how long ago it was last where lines join; more than an hour where it never was.
+    ``came_by``, ``came_ms``: by which opening it came onto the register's lines, and how long ago; more than an hour
+    where it was made up on them, or came longer ago.
     """
+
+    is_on: bool
 
     antenna_um: int
     heading: Direction
     below_mm: int
     above_mm: int
+    ways_um: Map[Way, int]
     next_um: int
     next_heading: Direction
+    next_ways_um: Map[Way, int]
     fix_is_right: bool
+    passed_ms: int
     came_by: Opening
     came_ms: int
 
@@ -56,7 +68,7 @@ class OfTrain:
 
 NOTHING_TOLD = OfTrain(
     fix=TrainFix(place_mm=1_000_000_001, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
-    display=Display(from_mm=0, to_mm=0, age_ms=3_600_001),
+    display=Display(from_mm=0, to_mm=0, age_ms=3_600_001, other_from_mm=1_000_000_001, other_to_mm=1_000_000_001),
     jumped=False,
     newest=TrainFix(place_mm=1_000_000_001, age_ms=3_600_001, direction=Direction.UNKNOWN, is_running=False),
 )
@@ -106,7 +118,8 @@ def nothing_told_to_the_handset() -> Told:
 class Heard:
     """A history: a tone, and what was so when the worker heard it.
 
-    ``within_3000``, ``within_1500``: some train was, and had not departed, or was that near beyond an opening.
+    ``within_3000``, ``within_1500``: some train was, by any way, and had not departed on the worker's line, or was that
+    near beyond an opening.
     ``matched_within_1500``: one of which both sources agreed, while the worker had a fix; none that had just come.
     ``unknown``: some train was not on the list, or not known as it should be, or the worker's place was not.
     ``astray``: of some train on the list the last fix jumped, or the last that fitted is too old, and the display alone
@@ -192,32 +205,29 @@ def has_departed(body: Body, worker_um: int) -> bool:
     return gap_um(body, worker_um) >= UM_A_MM * 100_000 and body.heading == away
 
 
-def approaches_within(body: Body, worker_um: int, limit_mm: int) -> bool:
-    """Tell whether a train is that near, the limit included, and has not departed (A3)."""
-    return gap_um(body, worker_um) <= UM_A_MM * limit_mm and not has_departed(body, worker_um)
-
-
-def is_beyond_within(site: Railway, opening: Opening, beyond_um: int, worker_um: int, limit_mm: int) -> bool:
-    """Tell whether a train is that near which is not on the line, by the opening over which its way leads (A3).
-
-    ``beyond_um``: how far its nearest part is from there; below 0 where it stands astride, by no more than its length.
-    """
-    openings = site.register.openings
-    return (
-        opening in openings
-        and beyond_um >= -UM_A_MM * site.register.bounds.length_mm
-        and apart(worker_um, UM_A_MM * openings[opening]) + beyond_um <= UM_A_MM * limit_mm
+def comes_within(site: Railway, body: Body, worker_um: int, limit_mm: int) -> bool:
+    """Tell whether a train's nearest part may be that near, the limit included, over other lines (A3)."""
+    reach_um = UM_A_MM * limit_mm + UM_A_MM * greater(body.below_mm, body.above_mm)
+    return any(
+        way in site.register.ways and apart(worker_um, UM_A_MM * site.register.ways[way].to_mm) + way_um <= reach_um
+        for way, way_um in body.ways_um.items()
     )
 
 
+def approaches_within(site: Railway, body: Body, worker_um: int, limit_mm: int) -> bool:
+    """Tell whether a train is that near, the limit included, by any way, and has not departed on the line (A3)."""
+    on_the_line = body.is_on and gap_um(body, worker_um) <= UM_A_MM * limit_mm and not has_departed(body, worker_um)
+    return on_the_line or comes_within(site, body, worker_um, limit_mm)
+
+
 def has_just_come(site: Railway, body: Body) -> bool:
-    """Tell whether what was told of a train before it came onto the line may still be fresh (A1)."""
+    """Tell whether what was told of a train before it came onto the register's lines may still be fresh (A1)."""
     fresh = site.register.fresh
     return body.came_ms <= 3_600_000 and body.came_ms <= greater(fresh.fix_ms, fresh.display_ms)
 
 
-def is_of_the_line(body: Body, age_ms: int) -> bool:
-    """Tell whether a report was made while its train was on the line, and so is in the line's figures (A1)."""
+def is_of_the_register(body: Body, age_ms: int) -> bool:
+    """Tell whether a report was made while its train was on the register's lines, and so is in their figures (A1)."""
     return age_ms < body.came_ms
 
 
@@ -258,9 +268,12 @@ def fits(site: Railway, before: TrainFix, fix: TrainFix) -> bool:
     """Tell whether a train can have been near both places, as far as fixes err, within the line's speed (A1)."""
     if not is_report(before.place_mm, before.age_ms):
         return True
-    bounds = site.register.bounds
-    run_um = bounds.train_mm_s * apart(fix.age_ms, before.age_ms)
-    return UM_A_MM * apart(fix.place_mm, before.place_mm) <= run_um + 2 * UM_A_MM * bounds.train_error_mm
+    register, then_mm, now_mm = site.register, before.place_mm, fix.place_mm
+    run_um = register.bounds.train_mm_s * apart(fix.age_ms, before.age_ms)
+    within_um = run_um + 2 * UM_A_MM * register.bounds.train_error_mm
+    return is_along(register, then_mm, then_mm, UM_A_MM * now_mm, within_um) or is_over(
+        register, now_mm, now_mm, UM_A_MM * then_mm, within_um
+    )
 
 
 def may_be_within(site: Railway, fix: TrainFix, worker: WorkerFix, limit_mm: int) -> bool:
@@ -268,8 +281,9 @@ def may_be_within(site: Railway, fix: TrainFix, worker: WorkerFix, limit_mm: int
     bounds = site.register.bounds
     train_um = UM_A_MM * (bounds.train_error_mm + bounds.length_mm) + bounds.train_mm_s * fix.age_ms
     worker_um = UM_A_MM * bounds.worker_error_mm + bounds.worker_mm_s * worker.age_ms
+    within_um = UM_A_MM * limit_mm + train_um + worker_um
     return is_report(fix.place_mm, fix.age_ms) and (
-        UM_A_MM * apart(fix.place_mm, worker.place_mm) <= UM_A_MM * limit_mm + train_um + worker_um
+        is_along(site.register, fix.place_mm, fix.place_mm, UM_A_MM * worker.place_mm, within_um)
     )
 
 
@@ -291,10 +305,20 @@ def has_fresh_fix(site: Railway, of: OfTrain) -> bool:
     return is_report(of.fix.place_mm, of.fix.age_ms) and of.fix.age_ms <= site.register.fresh.fix_ms
 
 
+def has_another_part(display: Display) -> bool:
+    """Tell whether the display shows a stretch in two parts, each in the figures of its line (A1)."""
+    return display.other_from_mm != 1_000_000_001 or display.other_to_mm != 1_000_000_001
+
+
 def is_in_a_stretch(display: Display) -> bool:
-    """Tell whether the display shows a stretch of a line, lower end first (A1)."""
+    """Tell whether the display shows a stretch of a line, or of two, lower ends first (A1)."""
     is_of_a_line = is_report(display.from_mm, display.age_ms) and is_report(display.to_mm, display.age_ms)
-    return is_of_a_line and display.from_mm <= display.to_mm
+    is_of_another = is_report(display.other_from_mm, 0) and is_report(display.other_to_mm, 0)
+    return (
+        is_of_a_line
+        and display.from_mm <= display.to_mm
+        and (not has_another_part(display) or (is_of_another and display.other_from_mm <= display.other_to_mm))
+    )
 
 
 def is_shown(site: Railway, of: OfTrain) -> bool:
@@ -304,8 +328,10 @@ def is_shown(site: Railway, of: OfTrain) -> bool:
 
 def is_where_shown(site: Railway, of: OfTrain) -> bool:
     """Tell whether the fix is in the stretch shown, or as near to it as is written (A2)."""
-    tolerance_mm = site.register.tolerance_mm
-    return of.display.from_mm - tolerance_mm <= of.fix.place_mm <= of.display.to_mm + tolerance_mm
+    shown, place_mm, tolerance_mm = of.display, of.fix.place_mm, site.register.tolerance_mm
+    return shown.from_mm - tolerance_mm <= place_mm <= shown.to_mm + tolerance_mm or (
+        has_another_part(shown) and shown.other_from_mm - tolerance_mm <= place_mm <= shown.other_to_mm + tolerance_mm
+    )
 
 
 def is_told_alike(site: Railway, of: OfTrain) -> bool:
@@ -361,6 +387,7 @@ def is_known_by_one(site: Railway, train: Train, of: OfTrain) -> bool:
         and (train, name) in site.register.stabled
         and is_in(section, of.display.from_mm)
         and is_in(section, of.display.to_mm)
+        and not has_another_part(of.display)
         for name, section in site.register.sections.items()
     )
     return is_shown(site, of) and (is_lost or is_stabled)

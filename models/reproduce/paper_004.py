@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from kernel.alarm.tone import Reason, Register, Tone
+from kernel.alarm.sections import Reason
+from kernel.alarm.tone import Register, Tone
 from models.alarm.columns import COLUMNS, NUMBER
 from models.alarm.days import SYSTEM, one_day
 from models.alarm.draws import HOURS, SECONDS, drawn

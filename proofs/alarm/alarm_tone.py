@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
-from kernel.alarm.distance import train_off_um, worker_off_um
+from kernel.alarm.distance import worker_off_um
 from kernel.alarm.tone import Tone
 from models.alarm import alarm_tone as world
 from models.alarm import lists as lists_of_trains
 from models.alarm import tone_assumptions as assumed
+from models.alarm.along import far_um, is_along
 from models.alarm.tone_assumptions import (
     a_wrong_fix_is_contradicted,
     no_train_is_longer_than_written,
     no_train_turns_sooner,
+    what_a_fix_says_is_along_the_register,
+    what_has_passed_a_join_was_shown_so,
+    what_has_passed_a_join_was_told_so,
+    what_the_display_says_is_along_the_register,
 )
 from models.alarm.worksite import (
     NOTHING_LISTED,
     Railway,
     Worksite,
+    has_another_part,
     is_in_a_stretch,
-    is_of_the_line,
+    is_of_the_register,
     is_report,
     is_told_alike,
 )
@@ -62,7 +68,7 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
 def the_normal_tone_means_no_train_within_3000_m(site: Railway, system: Worksite) -> bool:
     """While the normal tone sounds each train is farther than 3000 m, or of the line and has departed (A3).
 
-    Of any network: also a train beyond the line's end, on a line that joins, or beyond a break of kilometrage.
+    Of any network: also a train on a line that joins, beyond a break of kilometrage, or where the register ends.
     """
     return system.heard.tone != Tone.NORMAL or not system.heard.within_3000
 
@@ -109,18 +115,26 @@ def agreement_is_worth_the_stretch(site: Railway, system: Worksite) -> bool:
     """A fix that the display agrees with is off by the stretch shown at the most, whatever GPS did (A2).
 
     By its length, and what may be outside of it: the tolerance, the display's error and the way since.  That is
-    kilometres where a stretch is; no more is claimed of a fix that nothing else contradicts.
+    kilometres where a stretch is; no more is claimed of a fix that nothing else contradicts.  Off along the track, of a
+    train on the worker's line, and of a stretch that is told in one part.
     """
-    register = site.register
+    register, trains = site.register, system.told.trains
     return all(
-        apart(body.antenna_um, UM_A_MM * system.told.trains[train].fix.place_mm)
-        <= UM_A_MM * (system.told.trains[train].display.to_mm - system.told.trains[train].display.from_mm)
-        + UM_A_MM * (register.tolerance_mm + register.display_error_mm)
-        + register.bounds.train_mm_s * system.told.trains[train].display.age_ms
+        is_along(
+            register,
+            trains[train].fix.place_mm,
+            trains[train].fix.place_mm,
+            body.antenna_um,
+            UM_A_MM * (trains[train].display.to_mm - trains[train].display.from_mm)
+            + UM_A_MM * (register.tolerance_mm + register.display_error_mm)
+            + register.bounds.train_mm_s * trains[train].display.age_ms,
+        )
         for train, body in system.bodies.items()
-        if train in system.told.trains
-        and is_told_alike(site, system.told.trains[train])
-        and is_of_the_line(body, system.told.trains[train].display.age_ms)
+        if train in trains
+        and body.is_on
+        and not has_another_part(trains[train].display)
+        and is_told_alike(site, trains[train])
+        and is_of_the_register(body, trains[train].display.age_ms)
     )
 
 
@@ -161,41 +175,95 @@ def the_worker_is_within_reach_of_his_fix(site: Railway, system: Worksite) -> bo
 
 
 def trains_are_within_reach_of_right_fixes(site: Railway, system: Worksite) -> bool:
-    """No antenna has got farther from where it was told than error and age allow (A1)."""
+    """No antenna has got farther from where it was told than error and age allow, by figures or over a join (A1)."""
+    bounds, trains = site.register.bounds, system.handset.trains
     return all(
-        apart(body.antenna_um, UM_A_MM * system.handset.trains[train].fix.place_mm)
-        <= train_off_um(site.register.bounds, system.handset.trains[train].fix)
+        (
+            trains[train].fix.age_ms < body.passed_ms
+            and apart(body.antenna_um, UM_A_MM * trains[train].fix.place_mm)
+            <= UM_A_MM * bounds.train_error_mm + bounds.train_mm_s * trains[train].fix.age_ms
+        )
+        or what_has_passed_a_join_was_told_so(site, body, trains[train].fix)
         for train, body in system.bodies.items()
-        if train in system.handset.trains
+        if train in trains
+        and body.is_on
         and body.fix_is_right
-        and is_report(system.handset.trains[train].fix.place_mm, system.handset.trains[train].fix.age_ms)
+        and is_report(trains[train].fix.place_mm, trains[train].fix.age_ms)
+    )
+
+
+def trains_are_no_nearer_by_other_lines_than_right_fixes(site: Railway, system: Worksite) -> bool:
+    """Nor has it got nearer over other lines than the register's ways from there, but by error and age (A1)."""
+    trains = system.handset.trains
+    return all(
+        what_a_fix_says_is_along_the_register(site, body, trains[train].fix)
+        for train, body in system.bodies.items()
+        if train in trains and body.fix_is_right and is_report(trains[train].fix.place_mm, trains[train].fix.age_ms)
     )
 
 
 def trains_are_within_reach_of_the_display(site: Railway, system: Worksite) -> bool:
-    """Nor from the stretch that the display shows (A1, A2)."""
+    """No antenna has got farther from the stretch that the display shows, by figures or over a join (A1, A2)."""
+    trains = system.handset.trains
     return all(
-        UM_A_MM * (system.handset.trains[train].display.from_mm - site.register.display_error_mm)
-        - site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
-        <= body.antenna_um
-        <= UM_A_MM * (system.handset.trains[train].display.to_mm + site.register.display_error_mm)
-        + site.register.bounds.train_mm_s * system.handset.trains[train].display.age_ms
+        what_has_passed_a_join_was_shown_so(site, body, trains[train].display)
         for train, body in system.bodies.items()
-        if train in system.handset.trains
-        and is_in_a_stretch(system.handset.trains[train].display)
-        and is_of_the_line(body, system.handset.trains[train].display.age_ms)
+        if train in trains
+        and body.is_on
+        and is_in_a_stretch(trains[train].display)
+        and is_of_the_register(body, trains[train].display.age_ms)
+    )
+
+
+def trains_are_no_nearer_by_other_lines_than_the_display(site: Railway, system: Worksite) -> bool:
+    """Nor has it got nearer over other lines than the register's ways from there (A1, A2)."""
+    trains = system.handset.trains
+    return all(
+        what_the_display_says_is_along_the_register(site, body, trains[train].display)
+        for train, body in system.bodies.items()
+        if train in trains
+        and is_in_a_stretch(trains[train].display)
+        and is_of_the_register(body, trains[train].display.age_ms)
     )
 
 
 def a_train_is_near_the_opening_that_it_came_by(site: Railway, system: Worksite) -> bool:
     """A train that came by an opening this hour has got no farther from it than the line's speed lets it (A1)."""
+    register = site.register
     return all(
-        body.came_by in site.register.openings
+        body.came_by in register.openings
         and body.came_ms >= 0
-        and apart(body.antenna_um, UM_A_MM * site.register.openings[body.came_by])
-        <= site.register.bounds.train_mm_s * body.came_ms
+        and (
+            not body.is_on
+            or register.bounds.train_mm_s * body.came_ms > far_um(register)
+            or is_along(
+                register,
+                register.openings[body.came_by],
+                register.openings[body.came_by],
+                body.antenna_um,
+                register.bounds.train_mm_s * body.came_ms,
+            )
+        )
         for _train, body in system.bodies.items()
         if body.came_ms <= 3_600_000
+    )
+
+
+def a_train_is_no_nearer_by_other_lines_than_its_opening(site: Railway, system: Worksite) -> bool:
+    """Nor has it got nearer over other lines than the register's ways from there (A1)."""
+    register = site.register
+    return all(
+        way_um + register.bounds.train_mm_s * body.came_ms > far_um(register)
+        or is_along(
+            register,
+            register.openings[body.came_by],
+            register.openings[body.came_by],
+            UM_A_MM * register.ways[way].to_mm,
+            way_um + register.bounds.train_mm_s * body.came_ms,
+        )
+        for _train, body in system.bodies.items()
+        for way, way_um in body.ways_um.items()
+        if body.came_ms <= 3_600_000 and body.came_by in register.openings and way in register.ways
     )
 
 
@@ -240,8 +308,11 @@ INVARIANTS = (
     the_handset_has_what_was_told,
     the_worker_is_within_reach_of_his_fix,
     trains_are_within_reach_of_right_fixes,
+    trains_are_no_nearer_by_other_lines_than_right_fixes,
     trains_are_within_reach_of_the_display,
+    trains_are_no_nearer_by_other_lines_than_the_display,
     a_train_is_near_the_opening_that_it_came_by,
+    a_train_is_no_nearer_by_other_lines_than_its_opening,
     wrong_fixes_are_contradicted,
     told_directions_still_hold,
     no_train_of_the_line_is_longer,
@@ -255,6 +326,8 @@ PREMISES = (
 STEPS = (
     world.come,
     world.come_by,
+    world.pass_out,
+    world.pass_in,
     world.leave,
     world.intend,
     world.pass_time,

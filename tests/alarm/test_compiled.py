@@ -19,13 +19,13 @@ import numba
 import pytest
 from numba.core.errors import NumbaError
 
-from kernel.alarm import distance, tone, train_list
+from kernel.alarm import distance, network, sections, tone, train_list
 from models.compiled import NotCompilable, compile_machines, loops, maps, packed, unpacked
 from models.compiled import machines as rewriting
 from models.compiled.records import is_map, is_name, is_set
 from tests.onboard.agree import Draw, functions, types_of
 
-MODULES = (distance, tone, train_list)
+MODULES = (distance, network, sections, tone, train_list)
 FUNCTIONS = {f"{each.__name__}.{name}": (each, name) for each in MODULES for name in functions(each)}
 SAMPLES = 400
 
@@ -233,7 +233,8 @@ def test_maps_sets_and_names_come_back_as_they_went() -> None:
         7,
         8,
         {},
-        frozenset({(tone.Train(9), tone.Section(1)), (tone.Train(2), tone.Section(0))}),  # type: ignore[arg-type]
+        frozenset({(tone.Train(9), sections.Section(1)), (tone.Train(2), sections.Section(0))}),  # type: ignore[arg-type]
+        {},
         {},
     )
     assert list(packed(register).sections) == []

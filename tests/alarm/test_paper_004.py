@@ -7,7 +7,8 @@ import json
 import numpy as np
 import pytest
 
-from kernel.alarm.tone import Reason, Tone
+from kernel.alarm.sections import Reason
+from kernel.alarm.tone import Tone
 from models.compiled import packed
 from models.reproduce import PAPERS, paper_004
 from models.reproduce.pictures import png

@@ -68,7 +68,7 @@ def test_a_crossing_has_one_warning_time_and_one_cycle() -> None:
 
 def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     """Nothing in it is below zero; what fits the line is another matter (A1)."""
-    assert is_lawful(REGISTER)
+    assert is_lawful(REGISTER, {})
     premises = (
         tone_assumptions.the_alarm_limit_is_within_an_hour,
         tone_assumptions.the_error_is_not_negative,
@@ -76,7 +76,7 @@ def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     )
     verdicts = set()
     for each in spoilt(REGISTER, (*VALUES, GREATEST_SERVER_MS, GREATEST_SERVER_MS + 1)):
-        verdict = is_lawful(each)
+        verdict = is_lawful(each, {})
         numbers = [*vars(each.bounds).values(), *vars(each.fresh).values(), each.display_error_mm, each.tolerance_mm]
         assert verdict == (min(numbers) >= 0 and each.fresh.server_ms <= 3_600_000)
         assert not verdict or all(premise(Railway(each)) for premise in premises)

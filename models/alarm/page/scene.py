@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from kernel.alarm import sections
 from kernel.alarm import tone as machine
-from kernel.alarm.distance import Direction, TrainFix, WorkerFix, is_departing, nearest_um
-from kernel.alarm.tone import ALARM_MM, CAUTION_MM, Display, Handset, Known, Listing, Reason, Register, Tone
+from kernel.alarm.distance import Direction, TrainFix, WorkerFix, nearest_um
+from kernel.alarm.sections import Reason
+from kernel.alarm.tone import ALARM_MM, CAUTION_MM, Display, Handset, Known, Listing, Register, Tone
 from models.alarm.columns import COLUMNS
 from models.alarm.draws import SECONDS, Drawn, drawn, scheduled_s
 from models.alarm.line import (
@@ -123,10 +125,10 @@ def placed(told: Known, worker: WorkerFix) -> tuple[int, int | None]:
     fix, shown_at = told.fix, told.display
     if machine.has_fix(REGISTER, told):
         return fix.place_mm, nearest_um(REGISTER.bounds, fix, worker)
-    through = [each for _name, each in REGISTER.sections.items() if machine.is_put_forward(each, fix)]
+    through = [each for _name, each in REGISTER.sections.items() if sections.is_put_forward(each, fix)]
     if through and machine.was_lost_without_gps(REGISTER, told):
-        outer_mm = through[0].from_mm if machine.runs(fix, Direction.UP) else through[0].to_mm
-        return outer_mm, machine.from_way_through_um(REGISTER.bounds, through[0], fix, worker)
+        outer_mm = through[0].from_mm if sections.runs(fix, Direction.UP) else through[0].to_mm
+        return outer_mm, sections.from_way_through_um(REGISTER.bounds, through[0], fix, worker)
     return (shown_at.from_mm + shown_at.to_mm) // 2, None
 
 
@@ -147,7 +149,7 @@ def train_shown(scene: Shown, second: int, train: int, told: Known, worker: Work
         "distance_m": None if apart_um is None else max(0, apart_um // 10**6),
         "at_m": at_mm // 1_000,
         "is_placed": has_fix,
-        "departs": machine.is_matched(REGISTER, told) and is_departing(REGISTER.bounds, told.fix, worker),
+        "departs": machine.is_matched(REGISTER, told) and machine.is_departing(REGISTER, told.fix, worker),
         "tone": severity(REGISTER, told, worker),
     }
 

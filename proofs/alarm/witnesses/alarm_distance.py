@@ -78,7 +78,7 @@ class Watch(Play[Line, Lookout]):
 
     def within(self, limit_mm: int) -> bool:
         """Whether it may be that near."""
-        return machine.may_approach_within(BOUNDS, self.system.train, self.system.worker, limit_mm)
+        return self.nearest_um() <= UM_A_MM * limit_mm and not self.departs()
 
 
 def told(train_mm: int, heading: Direction = DOWN, running: bool = True) -> Watch:
@@ -242,7 +242,7 @@ def every_number_fits_into_64_bits() -> None:
             for elapsed_ms in (-HUGE, 0, GREATEST_AGE_MS, HUGE):
                 train = TrainFix(Checked(place_mm), Checked(age_ms), DOWN, True)
                 worker = WorkerFix(Checked(-place_mm), Checked(age_ms))
-                assert machine.may_approach_within(bounds, train, worker, Checked(10**9)) is not None
+                assert machine.is_departing(bounds, train, worker) is not None
                 older = machine.older_train(train, Checked(elapsed_ms))
                 assert (
                     machine.nearest_um(bounds, older, machine.older_worker(worker, Checked(elapsed_ms))) <= 2 * 10**12

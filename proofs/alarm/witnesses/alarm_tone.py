@@ -15,6 +15,7 @@ from kernel.alarm.distance import (
     fix_of_the_unit,
     nearest_um,
 )
+from kernel.alarm.network import jumps
 from kernel.alarm.tone import (
     NO_DISPLAY,
     NOTHING_KNOWN,
@@ -22,8 +23,8 @@ from kernel.alarm.tone import (
     Tone,
 )
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Body, Heard, Railway, gap_um, has_departed, may_be_within
-from proofs.alarm.witnesses import lists, one_decision, openings, what_is_known
+from models.alarm.worksite import Heard, Railway, gap_um, has_departed, may_be_within
+from proofs.alarm.witnesses import joins, lists, one_decision, openings, what_is_known
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     CAUTION,
@@ -33,7 +34,6 @@ from proofs.alarm.witnesses.worksite import (
     HUGE,
     KM,
     NORMAL,
-    NOWHERE,
     OFF_MM,
     OTHER,
     REGISTER,
@@ -43,6 +43,7 @@ from proofs.alarm.witnesses.worksite import (
     WORKER_MM,
     Day,
     known,
+    on_the_line,
 )
 
 # ---- days
@@ -145,7 +146,7 @@ def a_tunnel_goes_into_history_by_its_outer_end() -> None:
 
 def a_train_reaches_from_end_to_end() -> None:
     """The gap is to its nearer end; it has departed when all of it is past (A3)."""
-    body = Body(0, DOWN, 58_000, 2_000, 0, DOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1)
+    body = on_the_line(0, DOWN)
     assert gap_um(body, UM_A_MM * 500_000) == UM_A_MM * 498_000
     assert gap_um(body, -UM_A_MM * 500_000) == UM_A_MM * 442_000
     assert gap_um(body, 0) == -UM_A_MM * 2_000
@@ -181,9 +182,9 @@ def a_fix_that_jumps_is_a_fault_until_one_fits() -> None:
     for off_mm, tone in ((67_000, NORMAL), (67_001, FAULT), (-1 * KM, FAULT), (4 * KM, FAULT), (5 * KM, ALARM)):
         fix = replace(held, place_mm=held.place_mm + off_mm, age_ms=0)
         at_um = day.system.bodies[FIRST].antenna_um
-        jumps = machine.jumps(BOUNDS, held, fix)
-        assert jumps == (tone != NORMAL)
-        if jumps:
+        is_jump = jumps(BOUNDS, {}, held, fix)
+        assert is_jump == (tone != NORMAL)
+        if is_jump:
             told = day.step("take_fix", train=FIRST, fix=fix, at_um=at_um, is_right=False).handset.trains[FIRST]
             assert (told.fix, told.jumped, told.newest) == (held, True, fix)
             assert day.tone() == tone
@@ -236,7 +237,7 @@ def a_fix_too_old_is_a_fault() -> None:
         day.hear()
         assert day.tone() == tone
         assert day.system.heard.astray == (tone == FAULT)
-    assert not machine.jumps(BOUNDS, known(0, age_ms=GREATEST_AGE_MS + 1).fix, known(5 * KM).fix)
+    assert not jumps(BOUNDS, {}, known(0, age_ms=GREATEST_AGE_MS + 1).fix, known(5 * KM).fix)
 
 
 def what_is_no_fix_hides_no_jump() -> None:
@@ -266,9 +267,7 @@ def a_list_that_is_not_heard_is_the_fault_tone() -> None:
     day.locate()
     assert day.tone() == NORMAL
     at_um = UM_A_MM * WORKER_MM
-    body = Body(
-        at_um, DOWN, 58_000, 2_000, at_um, DOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1
-    )
+    body = on_the_line(at_um, DOWN)
     before = day.system
     assert day.step("come", train=FIRST, body=body) == before
     day.run(1)
@@ -295,7 +294,7 @@ def what_is_not_on_the_list_stays_unknown() -> None:
     before = day.system
     assert day.step("take_fix", train=FIRST, fix=known(0).fix, at_um=0, is_right=True) == before
     assert day.step("take_display", train=FIRST, display=known(0).display, at_um=0) == before
-    assert day.step("intend", train=FIRST, to_um=0, heading=DOWN) == before
+    assert day.intend(FIRST, 0, DOWN) == before
     day.name(FIRST)
     day.step("take_fix", train=FIRST, fix=known(5).fix, at_um=0, is_right=True)
     day.step("take_display", train=FIRST, display=known(5).display, at_um=0)
@@ -382,10 +381,10 @@ def what_nature_does_not_do_does_not_happen() -> None:
         assert day.step("pass_time", elapsed_ms=1_000, worker_to_um=to_um) == before
     day.run(1_000, walks_mm_s=-2_000)
     for to_um, heading in ((at_um + 27_000_001, DOWN), (at_um - 27_000_001, DOWN), (at_um, UP), (at_um, UNKNOWN)):
-        day.step("intend", train=FIRST, to_um=to_um, heading=heading)
+        day.intend(FIRST, to_um, heading)
         before = day.system
         assert day.step("pass_time", elapsed_ms=1_000, worker_to_um=before.worker_um) == before
-    day.step("intend", train=FIRST, to_um=at_um, heading=DOWN)
+    day.intend(FIRST, at_um, DOWN)
     day.run(8_000)
 
 
@@ -427,7 +426,7 @@ def a_train_runs_as_it_heads() -> None:
     day.come(FIRST, WORKER_MM)
     here_um = day.system.bodies[FIRST].antenna_um
     for to_um, heading in ((here_um - 1, DOWN), (here_um + 1, UP)):
-        day.step("intend", train=FIRST, to_um=to_um, heading=heading)
+        day.intend(FIRST, to_um, heading)
         before = day.system
         assert day.step("pass_time", elapsed_ms=1, worker_to_um=before.worker_um) == before
     day.run(1, (FIRST, UP))
@@ -439,7 +438,7 @@ def no_train_longer_than_written_comes() -> None:
     day = Day()
     day.let_on(FIRST)
     before = day.system
-    body = Body(0, UNKNOWN, 60_000, 60_000, 0, UNKNOWN, fix_is_right=True, came_by=NOWHERE, came_ms=GREATEST_AGE_MS + 1)
+    body = on_the_line(0, UNKNOWN, 60_000, 60_000)
     for below_mm, above_mm in ((60_001, 0), (0, 60_001), (-1, 0), (0, -1)):
         bad = replace(body, below_mm=below_mm, above_mm=above_mm)
         assert day.step("come", train=FIRST, body=bad) == before
@@ -488,5 +487,6 @@ WITNESSES = (
     *one_decision.WITNESSES,
     *what_is_known.WITNESSES,
     *openings.WITNESSES,
+    *joins.WITNESSES,
     *lists.WITNESSES,
 )

@@ -15,20 +15,13 @@ from kernel.alarm.distance import (
     TrainFix,
     WorkerFix,
 )
-from kernel.alarm.tone import (
-    NO_DISPLAY,
-    NOTHING_KNOWN,
-    Display,
-    Freshness,
-    Handset,
-    Known,
-    NoUse,
-    Reason,
-    Register,
-)
+from kernel.alarm.network import Connection
+from kernel.alarm.sections import NoUse, Reason
+from kernel.alarm.tone import NO_DISPLAY, NOTHING_KNOWN, Display, Freshness, Handset, Known, Register
 from models.alarm import worksite as world
 from models.alarm.line import FRESH
 from proofs.alarm.witnesses.worksite import (
+    ACROSS,
     ALARM,
     BRANCH,
     CAUTION,
@@ -317,6 +310,7 @@ def every_number_fits_into_64_bits() -> None:
         tolerance_mm=edge,
         sections={name: NoUse(reason, -edge, edge, edge) for name, reason in zip((TUNNEL, YARD), Reason, strict=False)},
         stabled=frozenset(),
+        ways={ACROSS: Connection(edge, -edge, edge)},
         openings={BRANCH: -edge},
     )
     numbers = [Checked(number) for number in (-HUGE, -GREATEST_PLACE_MM, 0, GREATEST_AGE_MS, GREATEST_PLACE_MM, HUGE)]

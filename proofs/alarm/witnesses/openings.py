@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, TrainFix
-from kernel.alarm.tone import Display, NoUse, Reason
+from kernel.alarm.sections import NoUse, Reason
+from kernel.alarm.tone import Display
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Body
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     BRANCH,
@@ -24,15 +24,14 @@ from proofs.alarm.witnesses.worksite import (
     UP,
     Day,
     handset,
+    on_the_line,
     tone,
 )
 
 JOINT_MM = 90 * KM
 REACH_MM = 3_000_000 + 60_000 + 27 * 12_000 + 15_000
 """3000 m, a train's length, its way while a display is fresh, and the error of the worker's own fix."""
-AT_THE_JOINT = Body(
-    UM_A_MM * JOINT_MM, UP, 2_000, 58_000, UM_A_MM * JOINT_MM, UP, fix_is_right=True, came_by=BRANCH, came_ms=7
-)
+AT_THE_JOINT = replace(on_the_line(UM_A_MM * JOINT_MM, UP, 2_000, 58_000), came_by=BRANCH, came_ms=7)
 ELSEWHERE = TrainFix(12 * KM, 0, DOWN, is_running=True)
 """What the branch's own figures say of a train before the joint."""
 
@@ -75,7 +74,7 @@ def a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew() -> None:
     day.step("take_fix", train=FIRST, fix=ELSEWHERE, at_um=0, is_right=True)
     day.step("take_display", train=FIRST, display=Display(11 * KM, 13 * KM, 0), at_um=0)
     day.step("come_by", train=FIRST, body=AT_THE_JOINT)
-    assert day.system.bodies == {FIRST: replace(AT_THE_JOINT, fix_is_right=False, came_ms=0)}
+    assert day.system.bodies == {FIRST: replace(AT_THE_JOINT, fix_is_right=False, passed_ms=0, came_ms=0)}
     assert day.tone() == NORMAL
     for elapsed_ms, expected in ((8_000, NORMAL), (2_000, NORMAL), (1, FAULT)):
         day.run(elapsed_ms, (FIRST, UP))

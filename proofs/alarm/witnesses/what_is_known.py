@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.alarm.distance import TrainFix, WorkerFix
-from kernel.alarm.tone import NO_DISPLAY, Display, Reason
+from kernel.alarm.sections import Reason
+from kernel.alarm.tone import NO_DISPLAY, Display
 from models.alarm.line import FRESH
 from models.alarm.worksite import (
     NOTHING_TOLD,

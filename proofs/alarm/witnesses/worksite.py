@@ -14,21 +14,10 @@ from kernel.alarm.distance import (
     TrainFix,
     WorkerFix,
 )
-from kernel.alarm.tone import (
-    NO_DISPLAY,
-    NOTHING_KNOWN,
-    Display,
-    Handset,
-    Known,
-    Listing,
-    NoUse,
-    Opening,
-    Reason,
-    Register,
-    Section,
-    Tone,
-    Train,
-)
+from kernel.alarm.network import Opening, Way
+from kernel.alarm.sections import NoUse, Reason, Section
+from kernel.alarm.tone import NO_DISPLAY, NOTHING_KNOWN, Display, Handset, Known, Listing, Register, Tone, Train
+from kernel.maps import Map
 from models.alarm.line import BOUNDS, FRESH
 from models.alarm.worksite import Body, Heard, Lists, Railway, Worksite, nothing_told_to_the_handset
 from proofs.alarm.alarm_tone import THEORY
@@ -38,6 +27,7 @@ DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
 ALARM, FAULT, CAUTION, NORMAL = Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL
 TUNNEL, YARD, SIDING = Section("tunnel"), Section("yard"), Section("siding")
 BRANCH, NOWHERE = Opening("branch"), Opening("nowhere")
+ACROSS = Way("across")
 KM = 1_000_000
 REGISTER = Register(
     BOUNDS,
@@ -50,6 +40,7 @@ REGISTER = Register(
         SIDING: NoUse(Reason.STABLING, 60 * KM, 61 * KM, zone_mm=0),
     },
     stabled=frozenset({(Train("9D"), SIDING)}),
+    ways={},
     openings={BRANCH: 90 * KM},
 )
 SITE = Railway(REGISTER)
@@ -91,6 +82,14 @@ def stabled(display: Display, fix: TrainFix = NO_TRAIN_FIX, name: Train = STABLE
         REGISTER,
         replace(handset(worker_mm=worker_mm), trains={name: Known(fix, display, jumped=False, newest=NO_TRAIN_FIX)}),
     )
+
+
+def on_the_line(at_um: int, heading: Direction, below_mm: int = 58_000, above_mm: int = 2_000) -> Body:
+    """A train that was made up on the worker's line, and comes to it over no other one."""
+    return Body(
+        True, at_um, heading, below_mm, above_mm, {}, at_um, heading, {}, True, GREATEST_AGE_MS + 1, NOWHERE,
+        GREATEST_AGE_MS + 1,
+    )  # fmt: skip
 
 
 class Day(Play[Railway, Worksite]):
@@ -166,9 +165,9 @@ class Day(Play[Railway, Worksite]):
         """A train is made up on the line, after it was let on."""
         self.let_on(train)
         at_um = UM_A_MM * at_mm
-        body = Body(at_um, heading, 58_000, 2_000, at_um, heading, fix_is_right=False, came_by=NOWHERE, came_ms=0)
+        body = replace(on_the_line(at_um, heading), fix_is_right=False, passed_ms=0, came_ms=0)
         self.step("come", train=train, body=body)
-        assert self.system.bodies[train] == replace(body, fix_is_right=True, came_ms=GREATEST_AGE_MS + 1)
+        assert self.system.bodies[train] == on_the_line(at_um, heading)
 
     def go(self, train: Train) -> None:
         """A train leaves, is reported to have left, and neither source tells of it; others stand meanwhile."""
@@ -196,13 +195,21 @@ class Day(Play[Railway, Worksite]):
         assert self.system.bodies[train].fix_is_right == (was_right if jumped else right)
         return self.system.handset.trains[train]
 
+    def intend(self, train: Train, to_um: int, heading: Direction, ways_um: Map[Way, int] | None = None) -> Worksite:
+        """A driver intends something; from the line no other leads back to it, if nothing else is said."""
+        body = self.system.bodies.get(train)
+        stays = {} if body is None or body.is_on else body.ways_um
+        return self.step(
+            "intend", train=train, to_um=to_um, heading=heading, ways_um=stays if ways_um is None else ways_um
+        )
+
     def run(self, elapsed_ms: int, *moves: tuple[Train, Direction], walks_mm_s: int = 0) -> None:
         """Time passes; trains named run at the line's speed."""
         for train, way in moves:
             heading = self.system.bodies[train].heading if way == UNKNOWN else way
             way_um = {DOWN: 27_000, UP: -27_000, UNKNOWN: 0}[way] * elapsed_ms
             to_um = self.system.bodies[train].antenna_um + way_um
-            self.step("intend", train=train, to_um=to_um, heading=heading)
+            self.intend(train, to_um, heading)
             assert self.system.bodies[train].next_um == to_um
             assert self.system.bodies[train].next_heading == heading
         worker_to_um = self.system.worker_um + walks_mm_s * elapsed_ms
@@ -213,4 +220,4 @@ class Day(Play[Railway, Worksite]):
             assert (body.antenna_um, body.heading) == (body.next_um, body.next_heading)
         for train, _ in moves:
             body = self.system.bodies[train]
-            self.step("intend", train=train, to_um=body.antenna_um, heading=body.heading)
+            self.intend(train, body.antenna_um, body.heading)

@@ -106,7 +106,7 @@ class Worker:
             self.start()
         for word, age_ms in self.air.come(now_ms):
             if not isinstance(word, Told) or self.takes(word, now_ms - age_ms):
-                self.handset = take(register.bounds, self.handset, word, age_ms)
+                self.handset = take(register, self.handset, word, age_ms)
         for number in [each for each in self.ear.fixes if each not in self.handset.trains]:
             del self.ear.fixes[number]
         self.handset = tone.note_battery(self.handset, is_well=True)

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from random import Random
 
 from kernel.alarm import distance, tone, train_list
-from kernel.alarm.distance import AlarmBounds, TrainFix
-from kernel.alarm.tone import Display, Handset, Train
+from kernel.alarm.distance import TrainFix
+from kernel.alarm.tone import Display, Handset, Register, Train
 from kernel.alarm.train_list import Entry, Server, Summary
 
 FRESH_MS, QUIET_MS, LONGEST_STEP_MS = 8_000, 6_000, 1_500
@@ -160,14 +160,14 @@ class Air:
         return come
 
 
-def take(bounds: AlarmBounds, handset: Handset, word: Word, age_ms: int) -> Handset:
+def take(register: Register, handset: Handset, word: Word, age_ms: int) -> Handset:
     """Give the handset after a word that is so old."""
     if isinstance(word, Entry):
         return train_list.note_entry(handset, word)
     if isinstance(word, Summary):
         return train_list.note_summary(handset, replace(word, age_ms=word.age_ms + age_ms), servers_well=True)
     if word.fix is not None:
-        handset = tone.note_fix(bounds, handset, word.number, distance.older_train(word.fix, age_ms))
+        handset = tone.note_fix(register, handset, word.number, distance.older_train(word.fix, age_ms))
     if word.display is not None:
         display = replace(word.display, age_ms=word.display.age_ms + age_ms)
         handset = tone.note_display(handset, word.number, display)

@@ -126,10 +126,6 @@ def however_old_the_place(register: Register, handset: tone.Handset) -> bool:
     return is_fix(handset.worker.place_mm, handset.worker.age_ms)
 
 
-def far_by_the_display(*_of: object) -> int:
-    return 10**12
-
-
 def without_age(bounds: AlarmBounds, fix: TrainFix) -> int:
     return 1_000 * bounds.train_error_mm
 
@@ -151,7 +147,7 @@ PLANTED: dict[str, tuple[Kind, Any, str, Any]] = {
     "no fix jumps": (GOES_OFF, tone, "jumps", nothing),
     "sources always agree": (GOES_OFF, tone, "agree", always),
     "a train that shunts runs as it was told": (SILENT, tone, "is_matched", or_shunting),
-    "a lost train is where it was": (CALM, tone, "nearest_by_display_um", far_by_the_display),
+    "a lost train is where it was": (CALM, tone, "shown_may_be_near", nothing),
     "a tunnel has no outer end": (CALM, tone, "may_be_on_its_way_through", nothing),
     "trains have no length": (CALM, distance, "nearest_um", of_no_length),
     "a fix is never too old": (SILENT, tone, "has_fix", however_old),

@@ -11,7 +11,8 @@ from random import Random
 
 from kernel.alarm import distance
 from kernel.alarm.distance import NO_TRAIN_FIX, AlarmBounds, Direction, TrainFix
-from kernel.alarm.tone import Display, Freshness, NoUse, Reason, Register, Section, Train
+from kernel.alarm.sections import NoUse, Reason, Section
+from kernel.alarm.tone import Display, Freshness, Register, Train
 from tests.independent.alarm.office import FRESH_MS
 
 LINE_M, FASTEST_M_S, LENGTH_M = 30_000.0, 26.5, 120.0
@@ -44,6 +45,7 @@ def registered(turning_ms: int, with_cutting: bool = False) -> Register:
         tolerance_mm=150_000,
         sections=sections,
         stabled=frozenset({(STABLED, Section("siding"))}),
+        ways={},
         openings={},
     )
 

@@ -33,6 +33,7 @@ REGISTER = Register(
     tolerance_mm=100_000,
     sections={},
     stabled=frozenset(),
+    ways={},
     openings={},
 )
 DUTIES = (ENTERS, CONFIRMS, REPORTS, CUTS_OFF)
@@ -98,7 +99,7 @@ class Line:
         if self.chance.random() < 0.001 and self.broken != CUTS_OFF:
             self.handset = tone.switched_on()
         for word, age_ms in self.air.come(1_000 * self.second):
-            self.handset = take(BOUNDS, self.handset, word, age_ms)
+            self.handset = take(REGISTER, self.handset, word, age_ms)
         worker_mm = round(1_000 * self.worker_m)
         self.handset = tone.note_worker(tone.note_battery(self.handset, is_well=True), WorkerFix(worker_mm, 0))
 

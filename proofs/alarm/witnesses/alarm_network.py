@@ -1,0 +1,100 @@
+"""Registers that are loaded or refused, and walks from line to line (A1)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.alarm.distance import UM_A_MM
+from kernel.alarm.least_ways import Equation, Join, far_um, has_least_ways
+from kernel.alarm.network import Connection, Way
+from kernel.alarm.tone import Register
+from models.alarm.alarm_network import Tracks, Walk
+from models.alarm.along import far_um as far_by_the_requirement_um
+from models.alarm.line import REGISTER as LINE
+from proofs.alarm.alarm_network import THEORY
+from proofs.onboard.witnesses.play import Play
+
+KM = 1_000_000
+WEST, EAST = Join("west"), Join("east")
+JOINS = {WEST: Equation(10 * KM, 100 * KM), EAST: Equation(102 * KM, 14 * KM)}
+"""A loop of 2 km leaves a line at 10 km and comes back at 14 km."""
+WAYS = {
+    Way("in at west"): Connection(100 * KM, 10 * KM, 0),
+    Way("out at west"): Connection(10 * KM, 100 * KM, 0),
+    Way("in at east"): Connection(102 * KM, 14 * KM, 0),
+    Way("out at east"): Connection(14 * KM, 102 * KM, 0),
+    Way("round to west"): Connection(14 * KM, 10 * KM, 2 * KM),
+    Way("round to east"): Connection(10 * KM, 14 * KM, 2 * KM),
+}
+REGISTER = replace(LINE, ways=WAYS)
+SITE = Tracks(REGISTER, JOINS)
+
+
+class Walking(Play[Tracks, Walk]):
+    """A walk, before it begins."""
+
+    def __init__(self, register: Register = REGISTER) -> None:
+        """Begin with nothing loaded."""
+        super().__init__(THEORY, Tracks(register, JOINS), Walk(False, False, 0, 0, 0))
+
+
+def round_the_loop_and_back() -> None:
+    """In at the west, over the loop, out at the east, on along the line: never nearer than the register has it."""
+    walk = Walking()
+    assert walk.step("load").is_accepted
+    walk.step("begin", join=WEST, is_turned=False)
+    assert walk.system == Walk(True, True, 10 * KM, UM_A_MM * 100 * KM, 0)
+    before = walk.system
+    assert walk.step("cross", join=EAST, is_turned=False) == before
+    walk.step("walk_on", to_um=UM_A_MM * 102 * KM)
+    walk.step("cross", join=EAST, is_turned=False)
+    assert walk.system == Walk(True, True, 10 * KM, UM_A_MM * 14 * KM, UM_A_MM * 2 * KM)
+    walk.step("walk_on", to_um=UM_A_MM * 13 * KM)
+    assert walk.system.walked_um == UM_A_MM * 3 * KM
+    walk.step("walk_on", to_um=UM_A_MM * 10 * KM)
+    assert walk.system.walked_um > far_um(REGISTER)
+    walk.step("begin", join=WEST, is_turned=False)
+    walk.step("cross", join=WEST, is_turned=True)
+    assert walk.system == Walk(True, False, 10 * KM, UM_A_MM * 10 * KM, 0)
+    walk.step("begin", join=EAST, is_turned=True)
+    assert (walk.system.start_mm, walk.system.at_um) == (14 * KM, UM_A_MM * 102 * KM)
+    assert walk.step("begin", join=Join("nowhere"), is_turned=True).start_mm == 14 * KM
+
+
+def what_is_missing_or_too_long_is_refused() -> None:
+    """Each connection that another does not make up for, to the mm (A1)."""
+    assert has_least_ways(REGISTER, JOINS)
+    assert has_least_ways(REGISTER, {})
+    for way, connection in WAYS.items():
+        longer = replace(connection, between_mm=connection.between_mm + 1)
+        fewer = {other: each for other, each in WAYS.items() if other != way}
+        for ways in (WAYS | {way: longer}, fewer):
+            assert not has_least_ways(replace(REGISTER, ways=ways), JOINS), way
+            walk = Walking(replace(REGISTER, ways=ways))
+            assert not walk.step("load").is_accepted
+        shorter = replace(connection, between_mm=connection.between_mm - 1)
+        assert shorter not in WAYS.values()
+
+
+def what_is_far_need_not_be_written() -> None:
+    """3000 m, a train's length and what it runs while it is told (A1)."""
+    assert far_um(REGISTER) == far_by_the_requirement_um(REGISTER) == UM_A_MM * (3_060_000 + 27 * 12_000)
+    fresh = replace(REGISTER.fresh, fix_ms=20_000)
+    assert far_um(replace(REGISTER, fresh=fresh)) == UM_A_MM * (3_060_000 + 27 * 20_000)
+    joins = {WEST: Equation(10 * KM, 100 * KM), EAST: Equation(103_384_000, 200 * KM)}
+    ways = {
+        Way("in"): Connection(100 * KM, 10 * KM, 0),
+        Way("out"): Connection(10 * KM, 100 * KM, 0),
+        Way("in beyond"): Connection(200 * KM, 103_384_000, 0),
+        Way("out beyond"): Connection(103_384_000, 200 * KM, 0),
+    }
+    assert not has_least_ways(replace(REGISTER, ways=ways), joins)
+    farther = joins | {EAST: Equation(103_384_001, 200 * KM)}
+    beyond = {
+        Way("in beyond"): Connection(200 * KM, 103_384_001, 0),
+        Way("out beyond"): Connection(103_384_001, 200 * KM, 0),
+    }
+    assert has_least_ways(replace(REGISTER, ways=ways | beyond), farther)
+
+
+WITNESSES = (round_the_loop_and_back, what_is_missing_or_too_long_is_refused, what_is_far_need_not_be_written)
