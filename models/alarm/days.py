@@ -12,7 +12,7 @@ from kernel.maps import Map
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.alarm.draws import HOURS, Drawn, drawn
 from models.alarm.faults import BEYOND, FAULTS
-from models.alarm.line import REGISTER
+from models.alarm.figures import figure_mm, joins, with_break, written
 from models.alarm.moving import joint_m
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
 from models.compiled import packed
@@ -21,11 +21,11 @@ from models.days.system import Numbers, System
 FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
 
 
-def with_openings(register: Any, began: Drawn) -> Any:
-    """Give a register with the opening of the day, if a line joins (A1)."""
+def of_the_day(register: Any, began: Drawn) -> Any:
+    """Give a register with the opening of the day, if a line joins, and with the break, if kilometrage has one (A1)."""
     place_m = joint_m(began)
-    openings = {} if place_m < 0 else {0: int(1_000 * place_m)}
-    return register._replace(openings=packed(openings, Map[Opening, int]))
+    openings = {} if place_m < 0 else {0: figure_mm(began, int(1_000 * place_m))}
+    return with_break(register._replace(openings=packed(openings, Map[Opening, int])), began)
 
 
 def one_day(
@@ -35,10 +35,10 @@ def one_day(
 
     ``register`` and ``sounds`` are the handset's own: tests plant faults there.
     """
-    assert is_lawful(REGISTER, {})
     out = np.zeros(len(COLUMNS), np.int64)
     began = drawn(seed, day, beyond)
-    watch(began, with_openings(REGISTERED, began), with_openings(register, began), sounds, NOTHING, out, trace())
+    assert is_lawful(written(began), joins(began))
+    watch(began, of_the_day(REGISTERED, began), of_the_day(register, began), sounds, NOTHING, out, trace())
     out[FIRST_FAULT : FIRST_FAULT + len(FAULTS)] = began.begin_s >= 0
     return out
 

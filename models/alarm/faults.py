@@ -45,6 +45,8 @@ FAULTS = (
     Fault("renumbered", "a train changed its number on its way", 0.3, 600, 2_400, "-", 0, 0,
           "practice: a train that goes on as another"),
     Fault("handset_restarts", "the handset restarted", 0.2, 1, 1, "-", 0, 0, "practice: its program ends"),
+    Fault("broken", "kilometrage broke, by an equation of the register", 0.1, 61_200, 61_200, "m", 1_500, 38_500,
+          "practice: a line that was moved, or joined from two"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
@@ -55,7 +57,7 @@ OF_A_TRAIN = (
 """Those that begin while the train is under way."""
 OF_THEIR_OWN = frozenset({
     "gps_frozen", "joined", "gps_creeps", "gps_parallel", "server_restarts", "list_cut", "renumbered",
-    "handset_restarts",
+    "handset_restarts", "broken",
 })  # fmt: skip
 """Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from models.alarm.faults import KIND
+from models.alarm.figures import figure_mm
 from models.alarm.line import STABLED, STATION_MM, STATIONS_MM, TUNNELS_MM
 from models.alarm.moving import noise
 from models.alarm.network import is_of
@@ -48,7 +49,7 @@ def sees(day: Any, train: int, place_m: float, second: int) -> bool:
 
 @compiled(forceinline=True)
 def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -> int:
-    """Give where GPS puts a train."""
+    """Give the figure of where GPS puts a train."""
     off_m = error_m
     for kind in (JUMP, DRIFT):
         if is_of(day, kind, train, second):
@@ -57,7 +58,7 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
         off_m += day.size[CREEPS] * (second - day.begin_s[CREEPS]) / (day.end_s[CREEPS] - day.begin_s[CREEPS])
     if is_of(day, PARALLEL, train, second):
         off_m += day.size[PARALLEL] * (place_m - stretch_mm(place_m)[0] / 1_000) / 100
-    return int(np.floor(1_000 * (place_m + off_m) + 0.5))
+    return int(figure_mm(day, int(np.floor(1_000 * (place_m + off_m) + 0.5))))
 
 
 @compiled(forceinline=True)

@@ -10,6 +10,7 @@ from kernel.alarm.distance import Direction
 from kernel.alarm.tone import Tone
 from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
+from models.alarm.figures import falls, place_mm
 from models.alarm.line import BOUNDS, REGISTER, TRAINS
 from models.alarm.moving import gap_m, has_departed, joint_m, stranger_m
 from models.compiled import compiled, packed
@@ -91,17 +92,17 @@ def hold_claims(heard: int, least_m: float, any_m: float, unknown: bool, no_use:
 
 
 @compiled(forceinline=True)
-def hold_train(register: Any, trains: Any, train: int, known: Any, out: Any) -> None:
+def hold_train(register: Any, day: Any, trains: Any, train: int, known: Any, out: Any) -> None:
     """Hold the assumptions on what is known of a train against where it is (A2, A3)."""
     fix = known.fix
-    off_mm = abs(1_000 * trains.place_m[train] - fix.place_mm)
+    off_mm = abs(1_000 * trains.place_m[train] - place_mm(day, fix.place_mm))
     wrong = has_fix(register, known) and off_mm > ERROR_MM + SPEED_MM_S * fix.age_ms / 1_000
     if wrong:
         believed = agree(register, known) if has_display(register, known) else is_shunting(register, known)
         if believed:
             out[WRONG_FIX_BELIEVED] += 1
     if is_matched(register, known) and fix.is_running and fix.age_ms <= TURNING_MS:
-        down = trains.heading[train] > 0
+        down = (trains.heading[train] > 0) != falls(day, fix.place_mm)
         if fix.direction == (UP if down else DOWN):
             out[TURNING_BROKEN] += 1
 
@@ -114,7 +115,7 @@ def hold_trains(register: Any, day: Any, trains: Any, now: Any, handset: Any, se
         train = number % TRAINS
         if number == now[train] and trains.came_s[train] <= second < trains.left_s[train]:
             named += 1
-            hold_train(register, trains, train, known, out)
+            hold_train(register, day, trains, train, known, out)
             if known.jumped or (not is_matched(register, known) and not is_registered(register, number, known)):
                 unknown = True
     there = 0
@@ -137,7 +138,7 @@ def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: An
     """Hold what the handset knows of itself against the truth; tell whether something is missing (A8)."""
     fix = handset.worker
     if is_fix(fix.place_mm, fix.age_ms):
-        off_mm = abs(1_000 * worker_m - fix.place_mm)
+        off_mm = abs(1_000 * worker_m - place_mm(day, fix.place_mm))
         if off_mm > OWN_ERROR_MM + WALK_MM_S * fix.age_ms / 1_000 + 1:
             out[OWN_FIX_BROKEN] += 1
     if day.walk_m_s * 1_000 > WALK_MM_S:

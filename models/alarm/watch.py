@@ -15,6 +15,7 @@ from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.draws import SECONDS
 from models.alarm.faults import KIND
+from models.alarm.figures import THERE_MM, break_mm, falls, figure_mm, place_mm
 from models.alarm.gps import (
     BACKWARDS,
     TRAIN_M,
@@ -181,6 +182,7 @@ def observe(day: Any, trains: Any, sent: Sent, numbers: Any, second: int) -> Non
         sent.told_mm[train, now] = told_mm(day, train, place, sent.error_m[train], second)
         sent.has_fix[train, now] = sees(day, train, place, second)
         heading = -heading if is_of(day, BACKWARDS, train, second) else heading
+        heading = -heading if falls(day, sent.told_mm[train, now]) else heading
         if (second + train) % 2 == 0:
             send(day, second, FIX + train, sent.fix_s[train])
         if (second + train) % 3 == 0:
@@ -210,11 +212,20 @@ def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
 @compiled(forceinline=True)
 def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a record of the display as it arrives: it follows a train within 2 s (A1)."""
+    from_mm, to_mm = stretch_of(day, trains, sent, train, sent_s)
+    break_at_mm, age_ms = break_mm(day), 1_000 * (second - sent_s)
+    one_mm, other_mm = figure_mm(day, from_mm), figure_mm(day, to_mm)
+    if from_mm <= break_at_mm < to_mm:
+        return Display(one_mm, break_at_mm, age_ms, min(THERE_MM, other_mm), max(THERE_MM, other_mm))
+    return Display(min(one_mm, other_mm), max(one_mm, other_mm), age_ms, NO_FIGURE_MM, NO_FIGURE_MM)
+
+
+@compiled(forceinline=True)
+def stretch_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int) -> Any:
+    """Give the stretch in which the display has a train."""
     behind_s = noise(day.key, sent_s, 4_000 + train) % 3
     behind_s = max(0, min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S))
-    place = sent.place_m[train, (sent_s - behind_s) % RING]
-    from_mm, to_mm = stretch_mm(place)
-    return Display(from_mm, to_mm, 1_000 * (second - sent_s), NO_FIGURE_MM, NO_FIGURE_MM)
+    return stretch_mm(sent.place_m[train, (sent_s - behind_s) % RING])
 
 
 @compiled(forceinline=True)
@@ -235,7 +246,8 @@ def take_fix(
     for number, known in handset.trains:
         before = known.fix
         if number == name and before.age_ms <= 60_000:
-            way_mm, apart_ms = abs(before.place_mm - fix.place_mm), abs(before.age_ms - fix.age_ms)
+            way_mm = abs(place_mm(day, before.place_mm) - place_mm(day, fix.place_mm))
+            apart_ms = abs(before.age_ms - fix.age_ms)
             if way_mm > SPEED_MM_S * apart_ms // 1_000 + 2 * ERROR_MM:
                 out[JUMPED] += 1
             both = before.is_running and fix.is_running and before.direction != fix.direction
@@ -254,7 +266,8 @@ def take_display(
     display = shown_of(day, trains, sent, train, sent_s, second)
     out[MESSAGES] += 1
     at_mm = 1_000 * sent.place_m[train, sent_s % RING]
-    if not display.from_mm - SHOWN_OFF_MM <= at_mm <= display.to_mm + SHOWN_OFF_MM:
+    from_mm, to_mm = stretch_of(day, trains, sent, train, sent_s)
+    if not from_mm - SHOWN_OFF_MM <= at_mm <= to_mm + SHOWN_OFF_MM:
         out[DISPLAY_BROKEN] += 1
     return note_display(handset, sent.number[train, sent_s % RING], display)
 
@@ -351,7 +364,7 @@ def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int
     if in_tunnel(worker_m) or is_on(day, OWN_OUT, second):
         return handset
     off_m = error_m + (day.size[OWN_DRIFT] if is_on(day, OWN_DRIFT, second) else 0)
-    return note_worker(handset, WorkerFix(int(np.floor(1_000 * (worker_m + off_m) + 0.5)), 0))
+    return note_worker(handset, WorkerFix(figure_mm(day, int(np.floor(1_000 * (worker_m + off_m) + 0.5))), 0))
 
 
 @compiled(forceinline=True)

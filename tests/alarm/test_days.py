@@ -10,7 +10,7 @@ import pytest
 
 from kernel.alarm.tone import Tone
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, NUMBER
-from models.alarm.days import SYSTEM, one_day
+from models.alarm.days import SYSTEM, of_the_day, one_day
 from models.alarm.draws import HOURS, SECONDS, drawn
 from models.alarm.faults import BEYOND, FAULTS, KIND, WITHIN
 from models.alarm.line import REGISTER, REGULAR
@@ -133,6 +133,24 @@ def test_a_frozen_gps_breaks_no_claim_and_is_a_fault() -> None:
     without, rows = (SYSTEM.simulate(SEED, range(6), *beyond) for beyond in ((), ("gps_frozen",)))
     assert total(rows, CLAIMS) == total(rows, ASSUMPTIONS) == 0
     assert total(rows, ["mismatch_s"]) > total(without, ["mismatch_s"])
+
+
+def test_over_a_break_that_the_register_has_little_is_lost() -> None:
+    """Trains and worker pass from the one figure to the other; no claim is broken, and no fix is a jump (A1)."""
+    without, rows = (SYSTEM.simulate(SEED, range(6), *beyond) for beyond in ((), ("broken",)))
+    assert total(rows, CLAIMS) == total(rows, ASSUMPTIONS) == 0
+    assert total(rows, ["fault_broken"]) == len(rows)
+    assert total(rows, ["mismatch_s"]) == total(without, ["mismatch_s"])
+    assert total(rows, ["normal_s"]) > 0.97 * total(without, ["normal_s"])
+
+
+def test_a_break_that_no_register_has_breaks_claims() -> None:
+    """Else the test above would show nothing."""
+    rows = np.zeros((6, len(COLUMNS)), np.int64)
+    for day, row in enumerate(rows):
+        began = drawn(SEED, day, ("broken",))
+        watch(began, of_the_day(REGISTERED, began), REGISTERED, ALARM_TONE, NOTHING, row, trace())
+    assert total(rows, CLAIMS) > 0
 
 
 def test_what_notices_a_gps_that_creeps_off_is_counted() -> None:
