@@ -13,6 +13,7 @@ import z3
 
 from models.processes import spread
 from proofs import scripts
+from proofs.products import GROWS, IS_NOT_NEGATIVE, weaker
 from proofs.run import bench, laid_out
 from proofs.theories import ROWS, columns, theory_of
 from proofs.workbench import Part
@@ -22,7 +23,15 @@ WIDE, NARROW = 20_000_000, 4_000_000
 
 
 def core(part: Part, names: list[str] | None, rlimit: int, seed: int = 0) -> list[str] | None:
-    """Give the hypotheses of an unsat core among ``names``, or None if the part is not refuted."""
+    """Give the hypotheses of an unsat core among ``names``, or None if neither the part nor a weaker one is refuted."""
+    found = _core(part, names, rlimit, seed)
+    if found is not None or (less := weaker(part)) is None:
+        return found
+    found = _core(less, None if names is None else [*names, GROWS, IS_NOT_NEGATIVE], rlimit, seed)
+    return None if found is None else [name for name in found if name not in (GROWS, IS_NOT_NEGATIVE)]
+
+
+def _core(part: Part, names: list[str] | None, rlimit: int, seed: int) -> list[str] | None:
     solver = z3.Solver()
     marks: list[z3.BoolRef] = []
     solver.set("rlimit", rlimit)

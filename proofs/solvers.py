@@ -14,12 +14,16 @@ import cvc5
 import z3
 
 from proofs import smtlib
+from proofs.products import weaker
 from proofs.workbench import Part
 
 Answer = Literal["unsat", "sat", "unknown"]
 
 BUDGET = {"z3": 4_000_000, "cvc5": 400_000}
 """What a solver may spend on one question, each in its own units."""
+
+SIMPLER = {"ite-simp": "true", "full-saturate-quant": "true"}
+"""The options by which cvc5 is asked a weaker question."""
 
 QUANTIFIER = re.compile(r"\((forall|exists) ")
 
@@ -42,7 +46,7 @@ def version(solver: str) -> str:
 def ask(solver: str, part: Part, seed: int) -> Reply:
     """Ask whether the part's hypotheses and the negation of its goal can hold together."""
     began = time.perf_counter()
-    answer, spent = ask_z3(part, seed) if solver == "z3" else ask_cvc5(smtlib.script(part), seed)
+    answer, spent = first_answer(z3_tries(part, seed) if solver == "z3" else cvc5_tries(part, seed))
     return Reply(answer, spent, time.perf_counter() - began)
 
 
@@ -53,30 +57,48 @@ def _counted(solver: z3.Solver) -> int:
     return int(statistics.get_key_value("rlimit count")) if "rlimit count" in told else 0
 
 
-def ask_z3(part: Part, seed: int) -> tuple[Answer, int]:
-    """Ask Z3 with a fresh solver; at a loss once more, in a context of its own, and then by the text alone.
+def first_answer(tries: Iterator[tuple[Answer, int]]) -> tuple[Answer, int]:
+    """Give the first answer of several tries, and what the dearest of those made has spent."""
+    dearest = 0
+    for answer, spent in tries:
+        dearest = max(dearest, spent)
+        if answer != "unknown":
+            return answer, dearest
+    return "unknown", dearest
+
+
+def if_proved(answer: Answer, spent: int) -> tuple[Answer, int]:
+    """Give what the answer to a weaker question says of the question: that it is proved, or nothing."""
+    return ("unsat" if answer == "unsat" else "unknown"), spent
+
+
+def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
+    """Ask Z3 with a fresh solver; at a loss the weaker question, and once more in a context of its own, and by text.
 
     In the context that all questions share, what terms are numbered by depends on what was made before, and so,
     now and then, does whether an answer is found; the order of terms goes with them into another context.  By its text
     a question is the same in every process; there Z3 does not choose options by what it sees in it, which had it look
-    in the wrong place.  Each try has the budget; what the dearest one spent is told.
+    in the wrong place.  Each try has the budget.
     """
+    solver = _told(part)
+    yield _ask_z3_once(solver, seed)
+    if (less := weaker(part)) is not None:
+        yield if_proved(*_ask_z3_once(_told(less), seed))
+    yield _ask_z3_once(solver.translate(z3.Context()), seed)
+    by_text = z3.Solver(ctx=z3.Context())
+    by_text.set("auto_config", False)
+    by_text.from_string(smtlib.script(part))
+    yield _ask_z3_once(by_text, seed)
+
+
+def _told(part: Part) -> z3.Solver:
+    """Give a solver that was told the question by its terms."""
     solver = z3.Solver()
     for name in sorted(part.hypotheses):
         solver.add(*part.hypotheses[name])
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
-    answer, spent = _ask_z3_once(solver, seed)
-    if answer != "unknown":
-        return answer, spent
-    answer, more = _ask_z3_once(solver.translate(z3.Context()), seed)
-    if answer != "unknown":
-        return answer, max(spent, more)
-    by_text = z3.Solver(ctx=z3.Context())
-    by_text.set("auto_config", False)
-    by_text.from_string(smtlib.script(part))
-    answer, last = _ask_z3_once(by_text, seed)
-    return answer, max(spent, more, last)
+    return solver
 
 
 def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
@@ -92,13 +114,16 @@ def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
     return ("sat", spent) if verdict == z3.sat else ("unknown", spent)
 
 
-def ask_cvc5(text: str, seed: int) -> tuple[Answer, int]:
-    """Ask cvc5, by the text; at a loss it enumerates instances, or decides by its search and not by the text."""
-    answer, spent = _ask_cvc5_once(text, seed)
-    if answer != "unknown":
-        return answer, spent
-    answer, more = _ask_cvc5_once(text, seed, at_a_loss(text))
-    return answer, spent + more
+def cvc5_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
+    """Ask cvc5, by the text; at a loss the weaker question, and once more with other options; each has half the budget.
+
+    The weaker question has simpler terms, by which cvc5 begins with fewer cases, and instances enumerated.
+    """
+    text = smtlib.script(part)
+    yield ask_cvc5(text, seed)
+    if (less := weaker(part)) is not None:
+        yield if_proved(*ask_cvc5(smtlib.script(less), seed, SIMPLER))
+    yield ask_cvc5(text, seed, at_a_loss(text))
 
 
 def at_a_loss(text: str) -> Mapping[str, str]:
@@ -125,7 +150,8 @@ def _said(solver: cvc5.Solver, text: str) -> Iterator[str]:
         yield command.invoke(solver, symbols).strip()
 
 
-def _ask_cvc5_once(text: str, seed: int, options: Mapping[str, str] | None = None) -> tuple[Answer, int]:
+def ask_cvc5(text: str, seed: int, options: Mapping[str, str] | None = None) -> tuple[Answer, int]:
+    """Ask cvc5 once, by a text."""
     solver, says = commanded(text, max(1, BUDGET["cvc5"] // 2), seed, options or {})
     said = ""
     for each in says:

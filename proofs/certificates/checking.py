@@ -14,7 +14,8 @@ from proofs import canaries, run, smtlib
 from proofs.certificates.outside import Checker
 from proofs.certificates.outside import checked as checked_outside
 from proofs.certificates.outside import controls as controls_outside
-from proofs.solvers import BUDGET, at_a_loss, commanded
+from proofs.products import weaker
+from proofs.solvers import BUDGET, SIMPLER, at_a_loss, commanded
 from proofs.workbench import Part
 
 RULE = re.compile(rb":rule (\S+)")
@@ -51,11 +52,11 @@ def certified(obligation: tuple[str, str], outside: Checker | None = None, keep:
     asked = run.parts(row, column)
     digest, answers, written, told = run.digest_of(asked), set(), list[bytes](), list[str]()
     for number, part in enumerate(asked, 1):
-        answer, proof = proved(part)
+        answer, proof, text = proved(part)
         answers.add(answer)
         written.append(proof.encode())
         if answer == "checked" and outside:
-            told.append(checked_outside(smtlib.script(part), proof, outside))
+            told.append(checked_outside(text, proof, outside))
         if answer == "checked" and keep:
             write_whole(keep / row / f"{column}.{number}.cpc.gz", gzip.compress(written[-1], mtime=0))
     rules = [rule for proof in written for rule in RULE.findall(proof)]
@@ -73,13 +74,22 @@ def certified(obligation: tuple[str, str], outside: Checker | None = None, keep:
     )
 
 
-def proved(part: Part) -> tuple[str, str]:
-    """Give cvc5's answer to one part, and its proof; ``checked`` if its own checker went through it."""
+def proved(part: Part) -> tuple[str, str, str]:
+    """Give cvc5's answer to one part, its proof, and the text that it proves; ``checked`` if its checker went through.
+
+    At a loss that text is the weaker question's (`proofs.products`).
+    """
     text = smtlib.script(part)
-    answer, proof = _once(text)
-    if answer == "checked" or answer == "sat":
-        return answer, proof
-    return _once(text, at_a_loss(text))
+    tries = [(text, {}), (text, at_a_loss(text))]
+    if (less := weaker(part)) is not None:
+        tries.append((smtlib.script(less), SIMPLER))
+    said = "", ""
+    for asked, options in tries:
+        answer, proof = _once(asked, options)
+        if answer == "checked" or (answer == "sat" and asked == text):
+            return answer, proof, asked
+        said = said if said[0] else (answer, proof)
+    return *said, text
 
 
 def _once(text: str, more: Mapping[str, str] | None = None) -> tuple[str, str]:
