@@ -64,6 +64,7 @@ READINGS: Mapping[str, str] = {
     "brake_watch.run_a_cycle.applied": "what the unit itself tells its brake; any is allowed for",
     "alarm_tone.hear_summary.servers_well": "what the servers say of themselves",
     "alarm_tone.look_at_the_battery.battery_well": "what the gauge of the battery says",
+    "alarm_network.load.ways": "what whoever wrote the register worked out; any is allowed for",
     "dispatching.arrive.stands": "what the tram's own machine found, as `stopping` proves it",
     "display.take_place.is_located": "whether the receiver gives a place",
     "display.take_place.stands": "what the tram's own machine found, as `stopping` proves it",

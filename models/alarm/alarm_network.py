@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from kernel.alarm import limits
 from kernel.alarm.least_ways import Equation, Join
+from kernel.alarm.network import Connection, Way
 from kernel.alarm.tone import Register
 from kernel.maps import Map
 from models.measures import UM_A_MM, apart
@@ -17,7 +18,7 @@ from models.measures import UM_A_MM, apart
 
 @dataclass(frozen=True)
 class Tracks:
-    """What does not change: the register, and the places that have two figures, as they were surveyed (A1)."""
+    """What does not change: the places that have two figures, as they were surveyed, and what is written else (A1)."""
 
     register: Register
     joins: Map[Join, Equation]
@@ -27,11 +28,12 @@ class Tracks:
 class Walk:
     """One moment.
 
-    ``is_accepted``: the register was loaded.  ``is_under_way``: the walk has begun.
+    ``ways``: the ways of the register that was loaded; ``is_accepted``: one was.  ``is_under_way``: the walk has begun.
     ``start_mm``: the figure, on the line from which it began, of the place where it did.
     ``at_um``, ``walked_um``: where it has got to, and how far it was.
     """
 
+    ways: Map[Way, Connection]
     is_accepted: bool
     is_under_way: bool
     start_mm: int
@@ -39,10 +41,11 @@ class Walk:
     walked_um: int
 
 
-def load(site: Tracks, system: Walk) -> Walk:
-    """The register is loaded, if it may be used; then walks begin (A1)."""
-    is_accepted = limits.is_lawful(site.register, site.joins)
-    return replace(system, is_accepted=is_accepted, is_under_way=False)
+def load(site: Tracks, system: Walk, ways: Map[Way, Connection]) -> Walk:
+    """A register is loaded, with whatever ways somebody worked out, if it may be used; then walks begin (A1)."""
+    is_lawful = limits.is_lawful(replace(site.register, ways=ways), site.joins)
+    loaded = replace(system, ways=ways, is_accepted=True, is_under_way=False)
+    return loaded if is_lawful else system
 
 
 def this_mm(place: Equation, is_turned: bool) -> int:

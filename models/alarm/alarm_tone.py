@@ -46,12 +46,16 @@ from models.alarm.tone_assumptions import (
     what_the_display_says_is_along_the_register,
 )
 from models.alarm.worksite import (
+    NOBODY_NEAR,
+    NOWHERE_NEAR,
     Body,
     Heard,
+    Near,
     Railway,
     Worksite,
     age_after_ms,
-    approaches_within,
+    comes_along,
+    comes_over,
     has_fresh_fix,
     has_just_come,
     has_place,
@@ -287,27 +291,18 @@ def look_at_the_battery(site: Railway, system: Worksite, battery_well: bool) -> 
 def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) -> Worksite:
     """The worker hears the tone, at any moment; what is so then goes into history (A3).
 
-    3000 m, 1500 m and 100 m are the paper's (004, 3.3).  ``opening``, ``beyond_um``: where a train is then that is not
-    on the register's lines, if one is: to which opening its way leads, and how far from there.
+    ``opening``, ``beyond_um``: where a train is then that is not on the register's lines, if one is: to which opening
+    its way leads, and how far from there.
     """
     told, worker_um = system.told, system.worker_um
     has_fix = is_report(told.worker.place_mm, told.worker.age_ms)
     return replace(
         system,
-        heard=Heard(
+        heard=replace(
+            NOBODY_NEAR,
             tone=machine.tone(site.register, system.handset),
-            within_3000=is_beyond_within(site.register, opening, beyond_um, worker_um, 3_000_000)
-            or any(approaches_within(site, body, worker_um, 3_000_000) for _train, body in system.bodies.items()),
-            within_1500=is_beyond_within(site.register, opening, beyond_um, worker_um, 1_500_000)
-            or any(approaches_within(site, body, worker_um, 1_500_000) for _train, body in system.bodies.items()),
-            matched_within_1500=has_fix
-            and any(
-                train in told.trains
-                and not has_just_come(site, body)
-                and is_told_alike(site, told.trains[train])
-                and approaches_within(site, body, worker_um, 1_500_000)
-                for train, body in system.bodies.items()
-            ),
+            within_3000=beyond(site, system, opening, beyond_um, 3_000_000),
+            within_1500=beyond(site, system, opening, beyond_um, 1_500_000),
             unknown=not told.battery_well
             or not has_place(site, told)
             or not is_list_fresh(site, told)
@@ -328,4 +323,69 @@ def listen(site: Railway, system: Worksite, opening: Opening, beyond_um: int) ->
                 for _train, of in told.trains.items()
             ),
         ),
+    )
+
+
+def listen_for_one_that_came(site: Railway, system: Worksite, train: Train, way: Way) -> Worksite:
+    """The worker hears the tone; where a train is that has just come by an opening goes into history (A3).
+
+    ``way``: by which it may come over other lines.
+    """
+    if train not in system.bodies:
+        return system
+    came = has_just_come(site, system.bodies[train])
+    return replace(system, heard=heard_of(site, system, train, way) if came else system.heard)
+
+
+def listen_for_one_with_a_fix(site: Railway, system: Worksite, train: Train, way: Way) -> Worksite:
+    """The worker hears the tone; where another train is, of which GPS tells freshly, goes into history (A3)."""
+    if train not in system.bodies:
+        return system
+    told, came = system.told, has_just_come(site, system.bodies[train])
+    has_a_fix = is_listed(told, train) and has_fresh_fix(site, told.trains[train])
+    return replace(system, heard=heard_of(site, system, train, way) if has_a_fix and not came else system.heard)
+
+
+def listen_for_one_without_a_fix(site: Railway, system: Worksite, train: Train, way: Way) -> Worksite:
+    """The worker hears the tone; where another train is, of which GPS does not, goes into history (A3)."""
+    if train not in system.bodies:
+        return system
+    told, came = system.told, has_just_come(site, system.bodies[train])
+    has_a_fix = is_listed(told, train) and has_fresh_fix(site, told.trains[train])
+    return replace(system, heard=system.heard if has_a_fix or came else heard_of(site, system, train, way))
+
+
+def heard_of(site: Railway, system: Worksite, train: Train, way: Way) -> Heard:
+    """Give the tone that the worker hears, and where a train of the register's lines is then (A3)."""
+    told, body, near_1500 = system.told, system.bodies[train], near(site, system, train, way, 1_500_000)
+    is_matched = (
+        is_report(told.worker.place_mm, told.worker.age_ms)
+        and is_listed(told, train)
+        and not has_just_come(site, body)
+        and is_told_alike(site, told.trains[train])
+    )
+    return replace(
+        NOBODY_NEAR,
+        tone=machine.tone(site.register, system.handset),
+        within_3000=near(site, system, train, way, 3_000_000),
+        within_1500=near_1500,
+        matched_within_1500=near_1500 if is_matched else NOWHERE_NEAR,
+    )
+
+
+def near(site: Railway, system: Worksite, train: Train, way: Way, limit_mm: int) -> Near:
+    """Tell by which ways a train of the register's lines is that near the worker (A3)."""
+    body, worker_um = system.bodies[train], system.worker_um
+    return Near(
+        along_his_line=comes_along(body, worker_um, limit_mm),
+        over_other_lines=comes_over(site, body, way, worker_um, limit_mm),
+        by_an_opening=False,
+    )
+
+
+def beyond(site: Railway, system: Worksite, opening: Opening, beyond_um: int, limit_mm: int) -> Near:
+    """Tell whether a train that is not on the register's lines is that near the worker (A3)."""
+    return replace(
+        NOWHERE_NEAR,
+        by_an_opening=is_beyond_within(site.register, opening, beyond_um, system.worker_um, limit_mm),
     )

@@ -80,6 +80,6 @@ def with_break(register: Any, day: Any) -> Any:
         return register
     ways, sections = written(day).ways, written(day).sections
     return register._replace(
-        ways=packed(dict(enumerate(dict(ways).values())), Map[Way, Connection]),
+        ways=packed({number: each for number, (_way, each) in enumerate(ways.items())}, Map[Way, Connection]),
         sections=packed(sections, Map[Section, NoUse]),
     )

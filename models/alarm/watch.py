@@ -250,8 +250,9 @@ def take_fix(
             apart_ms = abs(before.age_ms - fix.age_ms)
             if way_mm > SPEED_MM_S * apart_ms // 1_000 + 2 * ERROR_MM:
                 out[JUMPED] += 1
-            both = before.is_running and fix.is_running and before.direction != fix.direction
-            if both and apart_ms <= TURNING_MS:
+            both = before.is_running and fix.is_running
+            counts_down = falls(day, before.place_mm) != falls(day, fix.place_mm)
+            if both and (before.direction != fix.direction) != counts_down and apart_ms <= TURNING_MS:
                 out[TURNED] += 1
     return note_fix(register, handset, name, fix)
 
@@ -402,7 +403,7 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
         say(day, sent, server, second)
         handset = begun() if is_on(day, RESTARTS, second) else older(handset, 1_000)
         if not is_on(day, HANDSET_SILENT, second):
-            handset = hear(register, day, trains, handset, sent, server, former, second, out)
+            handset = hear(written, day, trains, handset, sent, server, former, second, out)
         error_m = wanders(error_m, day.key, second, TRAINS, WORKER_M, WORKER_MOST_M)
         handset = own_fix(day, handset, worker_m, error_m, second)
         heard = sounds(register, handset)

@@ -115,11 +115,23 @@ def nothing_told_to_the_handset() -> Told:
 
 
 @dataclass(frozen=True)
+class Near:
+    """By which ways some train was within a distance of the worker (A3).
+
+    ``along_his_line``: and had not departed there.  ``over_other_lines``: from where another line joins his.
+    ``by_an_opening``: from beyond it.
+    """
+
+    along_his_line: bool
+    over_other_lines: bool
+    by_an_opening: bool
+
+
+@dataclass(frozen=True)
 class Heard:
     """A history: a tone, and what was so when the worker heard it.
 
-    ``within_3000``, ``within_1500``: some train was, by any way, and had not departed on the worker's line, or was that
-    near beyond an opening.
+    ``within_3000``, ``within_1500``: by which ways some train was, in m.
     ``matched_within_1500``: one of which both sources agreed, while the worker had a fix; none that had just come.
     ``unknown``: some train was not on the list, or not known as it should be, or the worker's place was not.
     ``astray``: of some train on the list the last fix jumped, or the last that fitted is too old, and the display alone
@@ -132,14 +144,29 @@ class Heard:
     """
 
     tone: Tone
-    within_3000: bool
-    within_1500: bool
-    matched_within_1500: bool
+    within_3000: Near
+    within_1500: Near
+    matched_within_1500: Near
     unknown: bool
     astray: bool
     beyond_a_tunnel: bool
     not_to_be_used: bool
     jumped_within_1500: bool
+
+
+NOWHERE_NEAR = Near(along_his_line=False, over_other_lines=False, by_an_opening=False)
+NOBODY_NEAR = Heard(
+    tone=Tone.FAULT,
+    within_3000=NOWHERE_NEAR,
+    within_1500=NOWHERE_NEAR,
+    matched_within_1500=NOWHERE_NEAR,
+    unknown=False,
+    astray=False,
+    beyond_a_tunnel=False,
+    not_to_be_used=False,
+    jumped_within_1500=False,
+)
+"""A tone before which nothing was so."""
 
 
 @dataclass(frozen=True)
@@ -205,19 +232,19 @@ def has_departed(body: Body, worker_um: int) -> bool:
     return gap_um(body, worker_um) >= UM_A_MM * 100_000 and body.heading == away
 
 
-def comes_within(site: Railway, body: Body, worker_um: int, limit_mm: int) -> bool:
-    """Tell whether a train's nearest part may be that near, the limit included, over other lines (A3)."""
+def comes_over(site: Railway, body: Body, way: Way, worker_um: int, limit_mm: int) -> bool:
+    """Tell whether a train's nearest part may be that near, the limit included, over other lines by a way (A3)."""
     reach_um = UM_A_MM * limit_mm + UM_A_MM * greater(body.below_mm, body.above_mm)
-    return any(
-        way in site.register.ways and apart(worker_um, UM_A_MM * site.register.ways[way].to_mm) + way_um <= reach_um
-        for way, way_um in body.ways_um.items()
+    return (
+        way in body.ways_um
+        and way in site.register.ways
+        and apart(worker_um, UM_A_MM * site.register.ways[way].to_mm) + body.ways_um[way] <= reach_um
     )
 
 
-def approaches_within(site: Railway, body: Body, worker_um: int, limit_mm: int) -> bool:
-    """Tell whether a train is that near, the limit included, by any way, and has not departed on the line (A3)."""
-    on_the_line = body.is_on and gap_um(body, worker_um) <= UM_A_MM * limit_mm and not has_departed(body, worker_um)
-    return on_the_line or comes_within(site, body, worker_um, limit_mm)
+def comes_along(body: Body, worker_um: int, limit_mm: int) -> bool:
+    """Tell whether a train is that near, the limit included, on the worker's line, and has not departed there (A3)."""
+    return body.is_on and gap_um(body, worker_um) <= UM_A_MM * limit_mm and not has_departed(body, worker_um)
 
 
 def has_just_come(site: Railway, body: Body) -> bool:

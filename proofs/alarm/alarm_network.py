@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.alarm import limits
 from models.alarm.alarm_network import Tracks, Walk, begin, cross, load, walk_on
 from models.alarm.along import far_um
@@ -31,7 +33,7 @@ def no_track_is_shorter_than_the_registers_ways(site: Tracks, system: Walk) -> b
         or any(
             connection.to_mm == system.start_mm
             and apart(system.at_um, UM_A_MM * connection.from_mm) + UM_A_MM * connection.between_mm <= system.walked_um
-            for _way, connection in site.register.ways.items()
+            for _way, connection in system.ways.items()
         )
     )
 
@@ -41,7 +43,7 @@ def no_track_is_shorter_than_the_registers_ways(site: Tracks, system: Walk) -> b
 
 def what_is_accepted_is_lawful(site: Tracks, system: Walk) -> bool:
     """A register is loaded only if the kernel finds that it may be used (A1)."""
-    return not system.is_accepted or limits.is_lawful(site.register, site.joins)
+    return not system.is_accepted or limits.is_lawful(replace(site.register, ways=system.ways), site.joins)
 
 
 INITIAL = (nothing_was_loaded,)

@@ -19,6 +19,7 @@ from models.alarm.tone_assumptions import (
 )
 from models.alarm.worksite import (
     NOTHING_LISTED,
+    NOWHERE_NEAR,
     Railway,
     Worksite,
     has_another_part,
@@ -38,7 +39,7 @@ def nothing_was_told(site: Railway, system: Worksite) -> bool:
     """At the start the handset has heard nothing; trains are wherever they are (A8)."""
     return (
         system.heard.tone == Tone.FAULT
-        and not system.heard.matched_within_1500
+        and system.heard.matched_within_1500 == NOWHERE_NEAR
         and not system.heard.beyond_a_tunnel
         and all(False for _train in system.handset.trains)
         and not system.heard.astray
@@ -70,12 +71,22 @@ def the_normal_tone_means_no_train_within_3000_m(site: Railway, system: Worksite
 
     Of any network: also a train on a line that joins, beyond a break of kilometrage, or where the register ends.
     """
-    return system.heard.tone != Tone.NORMAL or not system.heard.within_3000
+    is_normal, near = system.heard.tone == Tone.NORMAL, system.heard.within_3000
+    return (
+        not (is_normal and near.along_his_line)
+        and not (is_normal and near.over_other_lines)
+        and not (is_normal and near.by_an_opening)
+    )
 
 
 def caution_means_no_train_within_1500_m(site: Railway, system: Worksite) -> bool:
-    """While caution alone sounds each train, of the line or not, is farther than 1500 m, or has departed (A3)."""
-    return system.heard.tone != Tone.CAUTION or not system.heard.within_1500
+    """While neither alarm nor fault sounds each train is farther than 1500 m, of the line or not, or departed (A3)."""
+    is_mild, near = system.heard.tone not in (Tone.ALARM, Tone.FAULT), system.heard.within_1500
+    return (
+        not (is_mild and near.along_his_line)
+        and not (is_mild and near.over_other_lines)
+        and not (is_mild and near.by_an_opening)
+    )
 
 
 def unknown_is_never_normal(site: Railway, system: Worksite) -> bool:
@@ -98,7 +109,8 @@ def a_fix_that_jumps_near_sounds_the_alarm(site: Railway, system: Worksite) -> b
 
 def a_departing_train_never_masks_an_approaching_one(site: Railway, system: Worksite) -> bool:
     """If a matched train is within 1500 m and has not departed, the alarm sounds, whatever the others do (A3)."""
-    return system.heard.tone == Tone.ALARM or not system.heard.matched_within_1500
+    is_other, near = system.heard.tone != Tone.ALARM, system.heard.matched_within_1500
+    return not (is_other and near.along_his_line) and not (is_other and near.over_other_lines)
 
 
 def a_train_in_a_tunnel_counts_at_its_outer_end(site: Railway, system: Worksite) -> bool:
@@ -351,6 +363,9 @@ STEPS = (
     world.take_worker_fix,
     world.look_at_the_battery,
     world.listen,
+    world.listen_for_one_that_came,
+    world.listen_for_one_with_a_fix,
+    world.listen_for_one_without_a_fix,
 )
 
 THEORY = Theory(

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, Direction, TrainFix, WorkerFix
 from kernel.alarm.tone import NOTHING_KNOWN, Display, Handset, Known, Listing, Tone, Train
-from models.alarm.worksite import approaches_within
+from models.alarm.worksite import comes_along
 from proofs.alarm.witnesses.alarm_tone import WITNESSES
 from proofs.alarm.witnesses.worksite import KM, REGISTER, STABLED, Day
 
@@ -144,7 +144,7 @@ class Drawn:
             elif drawn < 0.65:
                 self.disturb(train)
         tone, system = self.day.tone(), self.day.system
-        near = any(approaches_within(body, system.worker_um, 3 * KM) for _train, body in system.bodies.items())
+        near = any(comes_along(body, system.worker_um, 3 * KM) for _train, body in system.bodies.items())
         assert tone != Tone.NORMAL or not near
 
 

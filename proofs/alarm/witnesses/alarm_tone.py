@@ -8,7 +8,6 @@ from kernel.alarm import tone as machine
 from kernel.alarm.distance import (
     GREATEST_AGE_MS,
     NO_TRAIN_FIX,
-    NO_WORKER_FIX,
     UM_A_MM,
     TrainFix,
     WorkerFix,
@@ -23,7 +22,7 @@ from kernel.alarm.tone import (
     Tone,
 )
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Heard, Railway, gap_um, has_departed, may_be_within
+from models.alarm.worksite import Railway, gap_um, has_departed, may_be_within
 from proofs.alarm.witnesses import joins, lists, one_decision, openings, what_is_known
 from proofs.alarm.witnesses.worksite import (
     ALARM,
@@ -83,67 +82,6 @@ def a_train_comes_passes_and_goes_with_another_behind_it() -> None:
     assert day.tone() == NORMAL
 
 
-def what_the_worker_hears_goes_into_history() -> None:
-    """The truth beside the tone, at each distance (A3)."""
-    day = Day()
-    day.hear()
-    day.come(FIRST, WORKER_MM - 1_400_000)
-    day.tell(FIRST, DOWN)
-    assert day.tone() == ALARM
-    assert day.system.heard == Heard(ALARM, True, True, True, False, False, False, False, False)
-    day = Day()
-    day.hear()
-    day.come(FIRST, WORKER_MM - 2_900_000)
-    day.tell(FIRST)
-    assert day.tone() == CAUTION
-    assert day.system.heard == Heard(CAUTION, True, False, False, False, False, False, False, False)
-    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
-    assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, False, False, True, False, False, False, False)
-    day = Day(worker_mm=40 * KM)
-    day.hear()
-    assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, False, False, False, True, False)
-    day.come(FIRST, 40 * KM)
-    assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, True, False)
-    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
-    assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, True, True, False, True, True, False, False, False)
-    day = Day()
-    day.hear()
-    day.step("look_at_the_battery", battery_well=False)
-    assert day.tone() == FAULT
-    assert day.system.heard == Heard(FAULT, False, False, False, True, False, False, False, False)
-
-
-def a_tunnel_goes_into_history_by_its_outer_end() -> None:
-    """From zone A on, and while the train is lost, whatever stretch the display shows then (A4)."""
-    for way, entry_mm, worker_mm in ((DOWN, 20 * KM, 24 * KM), (UP, 23 * KM, 19 * KM)):
-        for far in (False, True):
-            day = Day(worker_mm=worker_mm + (6 * KM if far else 0))
-            day.hear()
-            day.come(FIRST, entry_mm, way)
-            day.tell(FIRST, way)
-            assert day.tone() == (NORMAL if far else ALARM)
-            assert day.system.heard == Heard(day.tone(), False, False, False, False, False, not far, False, False)
-        day = Day(worker_mm=worker_mm)
-        day.hear()
-        day.come(FIRST, entry_mm, way)
-        day.tell(FIRST, way)
-        for _ in range(4):
-            day.run(10_000, (FIRST, way))
-        at_um = day.system.bodies[FIRST].antenna_um
-        at_mm = at_um // UM_A_MM
-        day.step("take_display", train=FIRST, display=Display(at_mm, at_mm, 0), at_um=at_um)
-        day.hear()
-        assert day.tone() == ALARM
-        assert day.system.heard.beyond_a_tunnel
-        day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
-        assert day.tone() == FAULT
-        assert not day.system.heard.beyond_a_tunnel
-
-
 def a_train_reaches_from_end_to_end() -> None:
     """The gap is to its nearer end; it has departed when all of it is past (A3)."""
     body = on_the_line(0, DOWN)
@@ -188,8 +126,8 @@ def a_fix_that_jumps_is_a_fault_until_one_fits() -> None:
             told = day.step("take_fix", train=FIRST, fix=fix, at_um=at_um, is_right=False).handset.trains[FIRST]
             assert (told.fix, told.jumped, told.newest) == (held, True, fix)
             assert day.tone() == tone
-            assert day.system.heard.astray
-            assert day.system.heard.jumped_within_1500 == (tone == ALARM)
+            assert day.heard.astray
+            assert day.heard.jumped_within_1500 == (tone == ALARM)
     day.run(1_000, (FIRST, DOWN))
     assert day.system.handset.trains[FIRST].newest.age_ms == 1_000
     day.tell(FIRST, DOWN)
@@ -236,7 +174,7 @@ def a_fix_too_old_is_a_fault() -> None:
         day.run(elapsed_ms)
         day.hear()
         assert day.tone() == tone
-        assert day.system.heard.astray == (tone == FAULT)
+        assert day.heard.astray == (tone == FAULT)
     assert not jumps(BOUNDS, {}, known(0, age_ms=GREATEST_AGE_MS + 1).fix, known(5 * KM).fix)
 
 
@@ -467,8 +405,6 @@ def a_train_turns_when_it_can() -> None:
 
 WITNESSES = (
     a_train_comes_passes_and_goes_with_another_behind_it,
-    what_the_worker_hears_goes_into_history,
-    a_tunnel_goes_into_history_by_its_outer_end,
     a_train_reaches_from_end_to_end,
     a_wrong_fix_is_found,
     a_fix_that_jumps_is_a_fault_until_one_fits,

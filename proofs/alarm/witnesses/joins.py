@@ -184,7 +184,7 @@ def a_train_passes_onto_a_branch_and_comes_back() -> None:
     day.tell(FIRST, DOWN)
     pass_out(day)
     assert day.tone() == ALARM
-    assert day.system.heard.within_1500
+    assert day.heard.within_1500.over_other_lines
     run(day, 1_000, UM_A_MM * 27_000)
     assert day.tone() == ALARM
     for seconds, tone in ((10, ALARM), (5, ALARM), (20, CAUTION), (30, CAUTION), (50, NORMAL)):
@@ -193,7 +193,8 @@ def a_train_passes_onto_a_branch_and_comes_back() -> None:
             tell(day, THERE_MM + day.system.bodies[FIRST].ways_um[IN] // UM_A_MM, DOWN)
         day.hear()
         assert (seconds, day.tone()) == (seconds, tone)
-        assert day.system.heard.matched_within_1500 == day.system.heard.within_1500 == (tone == ALARM)
+        assert day.heard.matched_within_1500 == day.heard.within_1500
+        assert day.heard.within_1500.over_other_lines == (tone == ALARM)
     while day.system.bodies[FIRST].ways_um[IN] > 0:
         run(day, 1_000, max(0, day.system.bodies[FIRST].ways_um[IN] - UM_A_MM * 27_000))
         tell(day, THERE_MM + day.system.bodies[FIRST].ways_um[IN] // UM_A_MM)
@@ -225,7 +226,7 @@ def a_train_comes_back_round_a_loop_without_turning() -> None:
     day.hear()
     assert day.system.told.trains[FIRST].fix.direction == DOWN
     assert day.tone() == ALARM
-    assert day.system.heard.matched_within_1500
+    assert day.heard.matched_within_1500.along_his_line
 
 
 def a_train_comes_by_an_opening_of_another_line() -> None:
@@ -245,7 +246,7 @@ def a_train_comes_by_an_opening_of_another_line() -> None:
     assert day.step("come_by", train=FIRST, body=replace(came, ways_um={IN: UM_A_MM * KM - 1})) == kept
     day.step("come_by", train=FIRST, body=replace(came, ways_um={IN: UM_A_MM * KM}))
     assert day.tone() == FAULT
-    assert day.system.heard.within_3000
+    assert day.heard.within_3000.over_other_lines
 
 
 def no_train_passes_but_where_lines_join() -> None:

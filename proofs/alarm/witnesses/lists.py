@@ -92,7 +92,7 @@ def a_short_list_is_the_fault_tone() -> None:
     day.step("send_summary")
     day.summary()
     assert day.tone() == FAULT
-    assert day.system.heard.unknown
+    assert day.heard.unknown
     for number, taken in ((2, 0), (1, 1), (1, 1), (2, 2), (1, 2)):
         day.step("send_entry", number=number)
         day.step("hear_entry", life_ms=0, number=number)

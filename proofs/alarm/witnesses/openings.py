@@ -9,6 +9,7 @@ from kernel.alarm.distance import GREATEST_AGE_MS, UM_A_MM, TrainFix
 from kernel.alarm.sections import NoUse, Reason
 from kernel.alarm.tone import Display
 from models.alarm.line import BOUNDS, FRESH
+from models.alarm.worksite import NOWHERE_NEAR
 from proofs.alarm.witnesses.worksite import (
     ALARM,
     BRANCH,
@@ -61,9 +62,9 @@ def a_train_on_a_branch_is_no_normal_tone() -> None:
         day = Day(worker_mm=worker_mm)
         day.hear()
         assert day.tone_with(BRANCH, beyond_mm) == FAULT
-        assert (day.system.heard.within_3000, day.system.heard.within_1500) == (within_3000, within_1500)
+        assert (day.heard.within_3000.by_an_opening, day.heard.within_1500.by_an_opening) == (within_3000, within_1500)
         day.tone_with(NOWHERE, beyond_mm)
-        assert not day.system.heard.within_3000
+        assert day.heard.within_3000 == NOWHERE_NEAR
 
 
 def a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew() -> None:
@@ -80,7 +81,7 @@ def a_train_that_comes_is_told_in_other_figures_until_it_is_told_anew() -> None:
         day.run(elapsed_ms, (FIRST, UP))
         day.hear()
         assert day.tone() == expected
-        assert not day.system.heard.within_3000
+        assert day.heard.within_3000 == NOWHERE_NEAR
     assert day.system.bodies[FIRST].came_ms == 10_001
     at_um = day.system.bodies[FIRST].antenna_um
     here = TrainFix(at_um // UM_A_MM, 0, UP, is_running=True)

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.alarm.distance import TrainFix, WorkerFix
+from kernel.alarm.distance import NO_WORKER_FIX, UM_A_MM, TrainFix, WorkerFix
 from kernel.alarm.sections import Reason
 from kernel.alarm.tone import NO_DISPLAY, Display
 from models.alarm.line import FRESH
 from models.alarm.worksite import (
+    NOBODY_NEAR,
     NOTHING_TOLD,
     OfList,
     OfTrain,
@@ -24,17 +25,21 @@ from models.alarm.worksite import (
     shunts,
 )
 from proofs.alarm.witnesses.worksite import (
+    ALARM,
+    CAUTION,
     DOWN,
     FAULT,
     FIRST,
     KM,
     NORMAL,
+    ON_HIS_LINE,
     OTHER,
     REGISTER,
     SIDING,
     SITE,
     STABLED,
     UNKNOWN,
+    UP,
     WORKER_MM,
     YARD,
     Day,
@@ -113,11 +118,11 @@ def an_old_list_is_heard_as_unknown() -> None:
     day = Day()
     day.hear()
     assert day.tone() == NORMAL
-    assert not day.system.heard.unknown
+    assert not day.heard.unknown
     day = Day()
     day.hear(age_ms=FRESH.server_ms + 1)
     assert day.tone() == FAULT
-    assert day.system.heard.unknown
+    assert day.heard.unknown
 
 
 def a_fix_that_jumps_may_say_anything_by_any_error() -> None:
@@ -132,7 +137,82 @@ def a_fix_that_jumps_may_say_anything_by_any_error() -> None:
     assert day.system.handset.trains[FIRST].jumped
 
 
+def what_the_worker_hears_goes_into_history() -> None:
+    """The truth beside the tone, at each distance (A3)."""
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 1_400_000)
+    day.tell(FIRST, DOWN)
+    assert day.tone() == ALARM
+    assert day.heard == replace(
+        NOBODY_NEAR, tone=ALARM, within_3000=ON_HIS_LINE, within_1500=ON_HIS_LINE, matched_within_1500=ON_HIS_LINE
+    )
+    day = Day()
+    day.hear()
+    day.come(FIRST, WORKER_MM - 2_900_000)
+    day.tell(FIRST)
+    assert day.tone() == CAUTION
+    assert day.heard == replace(NOBODY_NEAR, tone=CAUTION, within_3000=ON_HIS_LINE)
+    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+    assert day.tone() == FAULT
+    assert day.heard == replace(NOBODY_NEAR, tone=FAULT, within_3000=ON_HIS_LINE, unknown=True)
+    day = Day(worker_mm=40 * KM)
+    day.hear()
+    assert day.tone() == FAULT
+    assert day.heard == replace(NOBODY_NEAR, tone=FAULT, not_to_be_used=True)
+    day.come(FIRST, 40 * KM)
+    assert day.tone() == FAULT
+    assert day.heard == replace(
+        NOBODY_NEAR,
+        tone=FAULT,
+        within_3000=ON_HIS_LINE,
+        within_1500=ON_HIS_LINE,
+        unknown=True,
+        astray=True,
+        not_to_be_used=True,
+    )
+    day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+    assert day.tone() == FAULT
+    assert day.heard == replace(
+        NOBODY_NEAR, tone=FAULT, within_3000=ON_HIS_LINE, within_1500=ON_HIS_LINE, unknown=True, astray=True
+    )
+    day = Day()
+    day.hear()
+    day.step("look_at_the_battery", battery_well=False)
+    assert day.tone() == FAULT
+    assert day.heard == replace(NOBODY_NEAR, tone=FAULT, unknown=True)
+
+
+def a_tunnel_goes_into_history_by_its_outer_end() -> None:
+    """From zone A on, and while the train is lost, whatever stretch the display shows then (A4)."""
+    for way, entry_mm, worker_mm in ((DOWN, 20 * KM, 24 * KM), (UP, 23 * KM, 19 * KM)):
+        for far in (False, True):
+            day = Day(worker_mm=worker_mm + (6 * KM if far else 0))
+            day.hear()
+            day.come(FIRST, entry_mm, way)
+            day.tell(FIRST, way)
+            assert day.tone() == (NORMAL if far else ALARM)
+            assert day.heard == replace(NOBODY_NEAR, tone=day.tone(), beyond_a_tunnel=not far)
+        day = Day(worker_mm=worker_mm)
+        day.hear()
+        day.come(FIRST, entry_mm, way)
+        day.tell(FIRST, way)
+        for _ in range(4):
+            day.run(10_000, (FIRST, way))
+        at_um = day.system.bodies[FIRST].antenna_um
+        at_mm = at_um // UM_A_MM
+        day.step("take_display", train=FIRST, display=Display(at_mm, at_mm, 0), at_um=at_um)
+        day.hear()
+        assert day.tone() == ALARM
+        assert day.heard.beyond_a_tunnel
+        day.step("take_worker_fix", fix=NO_WORKER_FIX, at_um=0)
+        assert day.tone() == FAULT
+        assert not day.heard.beyond_a_tunnel
+
+
 WITNESSES = (
+    what_the_worker_hears_goes_into_history,
+    a_tunnel_goes_into_history_by_its_outer_end,
     a_train_shunts_where_it_is_written_and_not_shown,
     a_train_in_a_tunnel_is_known_by_the_display,
     a_stabled_train_is_known_by_the_display,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from kernel.alarm import tone as machine
 from kernel.alarm import train_list
@@ -19,7 +20,17 @@ from kernel.alarm.sections import NoUse, Reason, Section
 from kernel.alarm.tone import NO_DISPLAY, NOTHING_KNOWN, Display, Handset, Known, Listing, Register, Tone, Train
 from kernel.maps import Map
 from models.alarm.line import BOUNDS, FRESH
-from models.alarm.worksite import Body, Heard, Lists, Railway, Worksite, nothing_told_to_the_handset
+from models.alarm.worksite import (
+    NOBODY_NEAR,
+    NOWHERE_NEAR,
+    Body,
+    Heard,
+    Lists,
+    Near,
+    Railway,
+    Worksite,
+    nothing_told_to_the_handset,
+)
 from proofs.alarm.alarm_tone import THEORY
 from proofs.onboard.witnesses.play import Play
 
@@ -27,7 +38,7 @@ DOWN, UP, UNKNOWN = Direction.DOWN, Direction.UP, Direction.UNKNOWN
 ALARM, FAULT, CAUTION, NORMAL = Tone.ALARM, Tone.FAULT, Tone.CAUTION, Tone.NORMAL
 TUNNEL, YARD, SIDING = Section("tunnel"), Section("yard"), Section("siding")
 BRANCH, NOWHERE = Opening("branch"), Opening("nowhere")
-ACROSS = Way("across")
+ACROSS, NO_WAY = Way("across"), Way("none")
 KM = 1_000_000
 REGISTER = Register(
     BOUNDS,
@@ -50,7 +61,7 @@ OFF_MM = 60_000 + 20_000 + 15_000
 HUGE = 2**62
 READ = Listing(life_ms=1, taken=0, count=0, is_whole=True, named={})
 """A list that is whole, and has been read."""
-SILENT = Heard(FAULT, False, False, False, False, False, False, False, False)
+ON_HIS_LINE = replace(NOWHERE_NEAR, along_his_line=True)
 FIRST, OTHER, STABLED = Train("1D"), Train("2U"), Train("9D")
 
 
@@ -92,6 +103,25 @@ def on_the_line(at_um: int, heading: Direction, below_mm: int = 58_000, above_mm
     )  # fmt: skip
 
 
+def both(one: Heard, other: Heard) -> Heard:
+    """Put together what was so at one moment, by two steps that listened then."""
+    either: dict[str, Any] = {
+        name: said or vars(other)[name] for name, said in vars(one).items() if isinstance(said, bool)
+    }
+    return replace(
+        one,
+        within_3000=near_by_either(one.within_3000, other.within_3000),
+        within_1500=near_by_either(one.within_1500, other.within_1500),
+        matched_within_1500=near_by_either(one.matched_within_1500, other.matched_within_1500),
+        **either,
+    )
+
+
+def near_by_either(one: Near, other: Near) -> Near:
+    """Put together by which ways some train was near."""
+    return Near(**{name: said or vars(other)[name] for name, said in vars(one).items()})
+
+
 class Day(Play[Railway, Worksite]):
     """A worker who stands at 10 km, and hears the tone after each step."""
 
@@ -99,8 +129,8 @@ class Day(Play[Railway, Worksite]):
         """Begin: the server and the handset have started, nothing was told, and no train is there."""
         server, lists = train_list.started(0), Lists({}, {}, {}, {}, {}, frozenset())
         told, nothing = nothing_told_to_the_handset(), machine.switched_on()
-        site = Railway(register)
-        super().__init__(THEORY, site, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, SILENT))
+        site, self.heard = Railway(register), NOBODY_NEAR
+        super().__init__(THEORY, site, Worksite(UM_A_MM * worker_mm, {}, server, 0, lists, told, nothing, NOBODY_NEAR))
         self.step("look_at_the_battery", battery_well=True)
 
     def tone(self) -> Tone:
@@ -108,11 +138,22 @@ class Day(Play[Railway, Worksite]):
         return self.tone_with(NOWHERE, 0)
 
     def tone_with(self, opening: Opening, beyond_mm: int) -> Tone:
-        """Listen while a train is beyond an opening."""
-        before = self.system
-        self.step("listen", opening=opening, beyond_um=UM_A_MM * beyond_mm)
+        """Listen while a train is beyond an opening; all that was so goes into ``heard``."""
+        self.heard = self.listen("listen", opening=opening, beyond_um=UM_A_MM * beyond_mm)
+        for train in self.system.bodies:
+            for way in (*self.site.register.ways, NO_WAY):
+                for kind in ("that_came", "with_a_fix", "without_a_fix"):
+                    seen = self.listen(f"listen_for_one_{kind}", train=train, way=way)
+                    self.heard = both(self.heard, seen)
+        return self.heard.tone
+
+    def listen(self, step: str, **event: Any) -> Heard:
+        """Take one of the steps that listen, from a moment before which nothing was so."""
+        before = replace(self.system, heard=replace(NOBODY_NEAR, tone=self.system.heard.tone))
+        self.system = before
+        self.step(step, **event)
         assert replace(self.system, heard=before.heard) == before
-        return self.system.heard.tone
+        return self.system.heard
 
     def hear(self, *, age_ms: int = 0, well: bool = True) -> None:
         """The server's list comes, confirmed if it can be, and the worker's own fix."""
