@@ -37,6 +37,7 @@ WAITS_S = 20.0
 """For another run that writes into the same file."""
 ASKING = (
     "solvers.py",
+    "products.py",
     "smtlib.py",
     "run.py",
     "workbench.py",
