@@ -9,11 +9,13 @@ from typing import Any
 
 import pytest
 
+from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.limits import GREATEST_SERVER_MS, is_lawful
 from kernel.crossing import arrival, crossing
 from kernel.tram import stopping
 from kernel.tram.limits import are_lawful, are_lawful_at_stops
 from models.alarm import tone_assumptions
+from models.alarm.connections import connections
 from models.alarm.line import REGISTER
 from models.alarm.worksite import Railway
 from models.crossing import arrival as ranged
@@ -82,6 +84,9 @@ def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
         assert not verdict or all(premise(Railway(each)) for premise in premises)
         verdicts.add(verdict)
     assert verdicts == {True, False}
+    broken = {Join("break"): Equation(20_000_000, 200_000_000)}
+    assert not is_lawful(REGISTER, broken), "it has no way over the break"
+    assert is_lawful(replace(REGISTER, ways=connections(REGISTER, broken)), broken)
 
 
 def test_limits_of_trams_are_lawful_only_where_none_is_below_zero() -> None:
