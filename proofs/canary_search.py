@@ -65,18 +65,17 @@ def candidates(theory: Theory) -> list[Mutant]:
 
 def found(theory: Theory) -> Canary | None:
     """Give the first canary of a theory that serves."""
-    bench = Workbench(theory, named=theory.quantified)
     for mutant in candidates(theory):
-        for canary, broken in questions(theory, bench, mutant):
+        for canary, broken in questions(theory, mutant):
             whole = run.parts(canary.row, canary.column)
             if len(whole) > canary.part and serves(broken, whole[canary.part]):
                 return canary
     return None
 
 
-def questions(theory: Theory, bench: Workbench, mutant: Mutant) -> Iterator[tuple[Canary, Part]]:
-    """Give the obligations of a theory with a drop, each part by itself."""
-    broken = bench.replacing(mutant.sources)
+def questions(theory: Theory, mutant: Mutant) -> Iterator[tuple[Canary, Part]]:
+    """Give the obligations of a theory with a drop, each part by itself; claims that ask the kernel have it too."""
+    broken = Workbench(theory, named=theory.quantified, sources=mutant.sources)
     for step in theory.steps:
         row = row_of(theory, step)
         for column in theory.invariants:

@@ -227,6 +227,13 @@ def test_the_search_keeps_what_serves_and_finds_another_for_what_does_not() -> N
     assert canary_search.found(THEORIES["brake_watch"]) == brake_watch
 
 
+def test_what_the_search_finds_serves_where_a_claim_asks_the_kernel_too() -> None:
+    """A drop in what both the step and the claim ask is one in both."""
+    found = canary_search.found(THEORIES["alarm_network"])
+    assert found in canaries.guards()
+    assert canary_search.still_serves(found)
+
+
 def test_one_missed_canary_spoils_the_verdict_the_matrix_and_junit() -> None:
     missed: CanarySeen = {
         "canary": "a row × a claim without a guard",
