@@ -32,11 +32,13 @@ class Equation:
 def far_um(register: Register) -> int:
     """Give how long a way may be that the register need not have (A1).
 
-    3000 m, a train's length, and what it runs while what is told of it is fresh.
+    3000 m, a train's length, what it and the worker run while what is told of them is fresh, and by how much either may
+    be told too far, by whichever source: what is told may lie beyond one more join than what is.
     """
-    fresh = register.fresh
-    run_um = register.bounds.train_mm_s * larger(fresh.fix_ms, fresh.display_ms)
-    return UM_A_MM * (CAUTION_MM + register.bounds.length_mm) + run_um
+    bounds, fresh = register.bounds, register.fresh
+    run_um = bounds.train_mm_s * larger(fresh.fix_ms, fresh.display_ms) + bounds.worker_mm_s * fresh.worker_ms
+    error_mm = larger(bounds.train_error_mm, register.display_error_mm) + bounds.worker_error_mm
+    return UM_A_MM * (CAUTION_MM + bounds.length_mm + error_mm) + run_um
 
 
 def to_figure_mm(connection: Connection, place_mm: int) -> int:

@@ -58,14 +58,12 @@ def may_come_over(
 
 
 def may_have_passed_a_join(bounds: AlarmBounds, ways: Map[Way, Connection], fix: TrainFix) -> bool:
-    """Tell whether a train may be where lines join, or have passed there since it was told (A3).
+    """Tell whether any part of a train may be where lines join, or have passed there since it was told (A3).
 
     It may run towards the worker then without having turned, as round a loop; its direction is not believed.
     """
-    return any(
-        UM_A_MM * magnitude(connection.to_mm - fix.place_mm) <= train_off_um(bounds, fix)
-        for _way, connection in ways.items()
-    )
+    off_um = UM_A_MM * bounds.length_mm + train_off_um(bounds, fix)
+    return any(UM_A_MM * magnitude(connection.to_mm - fix.place_mm) <= off_um for _way, connection in ways.items())
 
 
 def jumps(bounds: AlarmBounds, ways: Map[Way, Connection], before: TrainFix, fix: TrainFix) -> bool:

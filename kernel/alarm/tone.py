@@ -53,7 +53,15 @@ from kernel.alarm.distance import (
     train_off_um,
     worker_off_um,
 )
-from kernel.alarm.network import Connection, Opening, Way, jumps, may_come_over, may_have_passed_a_join
+from kernel.alarm.network import (
+    Connection,
+    Opening,
+    Way,
+    is_over_within,
+    jumps,
+    may_come_over,
+    may_have_passed_a_join,
+)
 from kernel.alarm.sections import (
     NoUse,
     Reason,
@@ -423,10 +431,14 @@ def is_linked(register: Register, handset: Handset) -> bool:
 
 
 def is_not_to_be_used(register: Register, worker: WorkerFix) -> bool:
-    """Tell whether the worker may be in a section that is not to be used: then the handset says so (A4, A5, A6)."""
+    """Tell whether the worker may be in a section that is not to be used: then the handset says so (A4, A5, A6).
+
+    Where lines join he may be told on another line than he is on.
+    """
     off_um = worker_off_um(register.bounds, worker)
     return any(
         UM_A_MM * section.from_mm - off_um <= UM_A_MM * worker.place_mm <= UM_A_MM * section.to_mm + off_um
+        or is_over_within(register.ways, section.from_mm, section.to_mm, worker.place_mm, off_um)
         for _name, section in register.sections.items()
     )
 

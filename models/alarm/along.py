@@ -63,3 +63,13 @@ def far_um(register: Register) -> int:
     return UM_A_MM * (3_000_000 + register.bounds.length_mm) + register.bounds.train_mm_s * greater(
         fresh.fix_ms, fresh.display_ms
     )
+
+
+def told_far_um(register: Register) -> int:
+    """Give how long a way may be, between where a train and a worker are told to be, that is not on the register (A1).
+
+    As long as one from where they are, and what either may be told too far.
+    """
+    bounds = register.bounds
+    off_mm = greater(bounds.train_error_mm, register.display_error_mm) + bounds.worker_error_mm
+    return far_um(register) + UM_A_MM * off_mm + bounds.worker_mm_s * register.fresh.worker_ms

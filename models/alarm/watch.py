@@ -215,7 +215,7 @@ def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second:
     from_mm, to_mm = stretch_of(day, trains, sent, train, sent_s)
     break_at_mm, age_ms = break_mm(day), 1_000 * (second - sent_s)
     one_mm, other_mm = figure_mm(day, from_mm), figure_mm(day, to_mm)
-    if from_mm <= break_at_mm < to_mm:
+    if max(0, from_mm) <= break_at_mm < to_mm:
         return Display(one_mm, break_at_mm, age_ms, min(THERE_MM, other_mm), max(THERE_MM, other_mm))
     return Display(min(one_mm, other_mm), max(one_mm, other_mm), age_ms, NO_FIGURE_MM, NO_FIGURE_MM)
 

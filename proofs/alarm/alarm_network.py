@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from kernel.alarm import limits
 from models.alarm.alarm_network import Tracks, Walk, begin, cross, load, walk_on
-from models.alarm.along import far_um
+from models.alarm.along import told_far_um
 from models.measures import UM_A_MM, apart
 from proofs.theory import Theory, by_name
 
@@ -29,7 +29,7 @@ def no_track_is_shorter_than_the_registers_ways(site: Tracks, system: Walk) -> b
     return (
         not system.is_accepted
         or not system.is_under_way
-        or system.walked_um > far_um(site.register)
+        or system.walked_um > told_far_um(site.register)
         or any(
             connection.to_mm == system.start_mm
             and apart(system.at_um, UM_A_MM * connection.from_mm) + UM_A_MM * connection.between_mm <= system.walked_um

@@ -8,7 +8,7 @@ from kernel.alarm.distance import UM_A_MM
 from kernel.alarm.least_ways import Equation, Join, far_um, has_least_ways
 from kernel.alarm.network import Connection, Way
 from models.alarm.alarm_network import Tracks, Walk
-from models.alarm.along import far_um as far_by_the_requirement_um
+from models.alarm.along import told_far_um as far_by_the_requirement_um
 from models.alarm.line import REGISTER as LINE
 from proofs.alarm.alarm_network import THEORY
 from proofs.onboard.witnesses.play import Play
@@ -77,22 +77,29 @@ def what_is_missing_or_too_long_is_refused() -> None:
 
 
 def what_is_far_need_not_be_written() -> None:
-    """3000 m, a train's length and what it runs while it is told (A1)."""
-    assert far_um(REGISTER) == far_by_the_requirement_um(REGISTER) == UM_A_MM * (3_060_000 + 27 * 12_000)
-    fresh = replace(REGISTER.fresh, fix_ms=20_000)
-    assert far_um(replace(REGISTER, fresh=fresh)) == UM_A_MM * (3_060_000 + 27 * 20_000)
-    joins = {WEST: Equation(10 * KM, 100 * KM), EAST: Equation(103_384_000, 200 * KM)}
+    """3000 m, a train's length, what it and the worker run while they are told, and what they are told too far (A1)."""
+    alone_mm = 3_060_000 + 15_000 + 2 * 5_000
+    far_mm = alone_mm + 27 * 12_000 + 100_000
+    assert far_um(REGISTER) == far_by_the_requirement_um(REGISTER) == UM_A_MM * far_mm
+    for other, more_mm in (
+        (replace(REGISTER, fresh=replace(REGISTER.fresh, fix_ms=20_000)), 27 * 8_000),
+        (replace(REGISTER, bounds=replace(REGISTER.bounds, train_error_mm=130_000)), 30_000),
+        (replace(REGISTER, bounds=replace(REGISTER.bounds, worker_error_mm=15_001)), 1),
+        (replace(REGISTER, fresh=replace(REGISTER.fresh, worker_ms=5_001)), 2),
+    ):
+        assert far_um(other) == far_by_the_requirement_um(other) == UM_A_MM * (far_mm + more_mm)
+    joins = {WEST: Equation(10 * KM, 100 * KM), EAST: Equation(100 * KM + far_mm, 200 * KM)}
     ways = {
         Way("in"): Connection(100 * KM, 10 * KM, 0),
         Way("out"): Connection(10 * KM, 100 * KM, 0),
-        Way("in beyond"): Connection(200 * KM, 103_384_000, 0),
-        Way("out beyond"): Connection(103_384_000, 200 * KM, 0),
+        Way("in beyond"): Connection(200 * KM, 100 * KM + far_mm, 0),
+        Way("out beyond"): Connection(100 * KM + far_mm, 200 * KM, 0),
     }
     assert not has_least_ways(replace(REGISTER, ways=ways), joins)
-    farther = joins | {EAST: Equation(103_384_001, 200 * KM)}
+    farther = joins | {EAST: Equation(100 * KM + far_mm + 1, 200 * KM)}
     beyond = {
-        Way("in beyond"): Connection(200 * KM, 103_384_001, 0),
-        Way("out beyond"): Connection(103_384_001, 200 * KM, 0),
+        Way("in beyond"): Connection(200 * KM, 100 * KM + far_mm + 1, 0),
+        Way("out beyond"): Connection(100 * KM + far_mm + 1, 200 * KM, 0),
     }
     assert has_least_ways(replace(REGISTER, ways=ways | beyond), farther)
 

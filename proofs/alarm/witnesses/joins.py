@@ -6,8 +6,12 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import NO_TRAIN_FIX, UM_A_MM, Direction, TrainFix
+from kernel.alarm.least_ways import Equation, Join
+from kernel.alarm.limits import is_lawful
 from kernel.alarm.network import Connection, Way, jumps
+from kernel.alarm.sections import NoUse, Reason, Section
 from kernel.alarm.tone import Display, Known
+from models.alarm.connections import connections
 from models.alarm.line import BOUNDS, FRESH
 from proofs.alarm.witnesses.worksite import (
     ALARM,
@@ -30,6 +34,7 @@ from proofs.alarm.witnesses.worksite import (
 )
 
 JOIN_MM, THERE_MM = 50 * KM, 200 * KM
+BEYOND = Section("beyond")
 IN, OUT, ROUND = Way("in"), Way("out"), Way("round")
 JOINED = replace(
     REGISTER,
@@ -114,14 +119,52 @@ def near_an_opening_of_another_line_no_tone_is_mild() -> None:
 
 
 def no_train_departs_where_lines_join() -> None:
-    """Until it is surely past the join, or yet before it, its direction is not believed there (A3)."""
+    """Until all of it is surely past the join, or yet before it, its direction is not believed there (A3)."""
     for way, side in ((DOWN, 1), (UP, -1)):
         for age_ms in (0, 2_000):
-            off_mm = 20_000 + 27 * age_ms
+            off_mm = 60_000 + 20_000 + 27 * age_ms
             for before_mm, expected in ((off_mm + 1, NORMAL), (off_mm, ALARM), (-off_mm, ALARM), (-off_mm - 1, NORMAL)):
                 train = known(JOIN_MM - side * before_mm, way, age_ms=age_ms)
                 assert heard(train, worker_mm=JOIN_MM - side * KM) == expected
     assert heard(known(THERE_MM + 400_000, DOWN), worker_mm=JOIN_MM - KM) == ALARM
+
+
+def what_is_told_beyond_one_more_join_is_near_yet() -> None:
+    """A register that passes has the ways from there too: of a fix, a stretch, a worker and an opening (A1)."""
+    far_mm = 3_060_000 + 27 * 12_000
+    for between_mm in (far_mm - 10_000, far_mm + 1, far_mm + 20_000):
+        joins = {
+            Join("near"): Equation(JOIN_MM, THERE_MM),
+            Join("far"): Equation(THERE_MM + between_mm, 300 * KM),
+            Join("own"): Equation(JOIN_MM - 3_000, 400 * KM),
+        }
+        register = replace(REGISTER, openings={BRANCH: 300 * KM + 1_000})
+        register = replace(register, ways=connections(register, joins))
+        assert is_lawful(register, joins)
+        for worker_mm, more_mm in ((JOIN_MM, 0), (400 * KM + 2_000, 5_000)):
+            for told, off_mm in (
+                (known(300 * KM + 12_000, UP, age_ms=12_000, shown=False), 20_000 - 12_000),
+                (replace(known(0), fix=NO_TRAIN_FIX, display=Display(300 * KM + 8_000, 301 * KM, 12_000)), 2_000),
+            ):
+                plain = replace(register, openings={})
+                near = between_mm + more_mm <= far_mm + 15_000 + off_mm
+                assert machine.may_be_near(plain, told, handset(worker_mm=worker_mm).worker, 3_000_000) == (
+                    near and machine.has_fix(plain, told) | machine.has_display(plain, told)
+                )
+            assert machine.is_near_an_opening(register, handset(worker_mm=worker_mm).worker) == (
+                between_mm + more_mm + 1_000 <= far_mm + 15_000
+            )
+
+
+def who_is_told_beyond_a_join_may_be_in_a_section() -> None:
+    """A worker just within a section beyond a join, whose own fix is short of that: the handset is not used (A4)."""
+    register = replace(JOINED, sections={BEYOND: NoUse(Reason.WITHOUT_GPS, THERE_MM, THERE_MM + KM, 400_000)})
+    for short_mm, expected in ((15_000, FAULT), (15_001, NORMAL)):
+        for side in (-1, 1):
+            assert machine.tone(register, handset(worker_mm=JOIN_MM + side * short_mm)) == expected
+    inside = replace(JOINED, sections={BEYOND: NoUse(Reason.SHUNTING, THERE_MM + 4_000, THERE_MM + KM, 0)})
+    for short_mm, expected in ((11_000, FAULT), (11_001, NORMAL)):
+        assert machine.tone(inside, handset(worker_mm=JOIN_MM - short_mm)) == expected
 
 
 def no_fix_jumps_where_lines_join() -> None:
@@ -331,6 +374,8 @@ WITNESSES = (
     a_stretch_over_a_join_is_told_in_two_parts,
     near_an_opening_of_another_line_no_tone_is_mild,
     no_train_departs_where_lines_join,
+    what_is_told_beyond_one_more_join_is_near_yet,
+    who_is_told_beyond_a_join_may_be_in_a_section,
     no_fix_jumps_where_lines_join,
     a_train_passes_onto_a_branch_and_comes_back,
     a_train_comes_back_round_a_loop_without_turning,
