@@ -67,7 +67,10 @@ def a_train_on_a_branch_is_as_far_as_the_track_is() -> None:
 
 
 def each_source_counts_over_a_join() -> None:
-    """The display alone, a fix alone and one that jumped, as far as the track is (A1 to A4)."""
+    """The display alone, a fix alone and one that jumped, as far as the track is (A1 to A4).
+
+    A stretch within which lines join is no nearer than the join.
+    """
     worker_mm = JOIN_MM - 1_000_000
     far = known(THERE_MM + 9 * KM)
     for near in (
@@ -80,6 +83,10 @@ def each_source_counts_over_a_join() -> None:
     for place_mm, expected in ((THERE_MM + 515_000, ALARM), (THERE_MM + 515_001, FAULT)):
         shown = Known(NO_TRAIN_FIX, Display(place_mm, place_mm + KM, 0), jumped=False, newest=NO_TRAIN_FIX)
         assert heard(shown, worker_mm=JOIN_MM - 1_070_000) == expected
+    astride = Known(NO_TRAIN_FIX, Display(THERE_MM - KM, THERE_MM + KM, 0), jumped=False, newest=NO_TRAIN_FIX)
+    for side in (-1, 1):
+        assert heard(astride, worker_mm=JOIN_MM + side * 1_585_000) == ALARM
+        assert heard(astride, worker_mm=JOIN_MM + side * 1_585_001) == FAULT
 
 
 def a_stretch_over_a_join_is_told_in_two_parts() -> None:
