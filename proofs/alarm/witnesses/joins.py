@@ -66,6 +66,15 @@ def a_train_on_a_branch_is_as_far_as_the_track_is() -> None:
     assert heard(own, worker_mm=THERE_MM + 1_200_000 + OFF_MM + 1) == CAUTION
 
 
+def what_lies_between_two_joins_counts() -> None:
+    """The track from one to the other, which is on neither line, to the mm (A1)."""
+    register = replace(JOINED, ways={IN: Connection(THERE_MM, JOIN_MM, 400_000)})
+    for limit_mm, inside, outside in ((1_500_000, ALARM, CAUTION), (3_000_000, CAUTION, NORMAL)):
+        train, at_mm = known(THERE_MM + 300_000), JOIN_MM - limit_mm - OFF_MM + 700_000
+        assert machine.tone(register, handset(train, worker_mm=at_mm)) == inside
+        assert machine.tone(register, handset(train, worker_mm=at_mm - 1)) == outside
+
+
 def each_source_counts_over_a_join() -> None:
     """The display alone, a fix alone and one that jumped, as far as the track is (A1 to A4).
 
@@ -377,6 +386,7 @@ def who_has_passed_a_join_is_where_that_lets_him_be() -> None:
 
 WITNESSES = (
     a_train_on_a_branch_is_as_far_as_the_track_is,
+    what_lies_between_two_joins_counts,
     each_source_counts_over_a_join,
     a_stretch_over_a_join_is_told_in_two_parts,
     near_an_opening_of_another_line_no_tone_is_mild,
