@@ -9,12 +9,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from models.alarm.faults import FAULTS, OF_A_TRAIN, OF_THEIR_OWN
+from models.alarm.faults import FAULTS, KIND, OF_A_HANDSET, OF_A_TRAIN, OF_THEIR_OWN
 from models.alarm.line import LENGTH_MM, REGULAR, SHUNTER, STABLED, TRAINS
 
 HOURS = 17
 SECONDS = HOURS * 3_600
 HOUR_S = 3_600
+ADJOINED, BRANCHES = KIND["adjoined"], KIND["branches"]
+NEAR_M = 2_500.0
+"""So far from a junction at the most, if a branch leaves, is the middle of the worker's walk."""
+CARS = 3
+"""Of a train, at the most."""
 
 
 class Drawn(NamedTuple):
@@ -48,6 +53,10 @@ class Drawn(NamedTuple):
     walk_m: float
     """He goes so far to either side."""
     walk_m_s: float
+    on_branch: bool = False
+    """The worker's way is along the branch, from where that leaves the line."""
+    handset: int = 0
+    """Of the day's worker, or 1: of another one."""
 
 
 def drawn(
@@ -59,7 +68,7 @@ def drawn(
     departs = scheduled_s() + late
     heading = np.where(np.arange(TRAINS) % 2 == 0, 1, -1)
     windows = _windows(random, own, departs, beyond, sound)
-    length = random.uniform(40.0, 60.0, TRAINS)
+    length = random.uniform(40.0, 60.0, TRAINS) / cars_less(windows)
     ahead = random.uniform(0.0, 3.0, TRAINS)
     shunts, stays = random.uniform(2, 12) * HOUR_S, random.uniform(3, 5) * HOUR_S
     stop_m = np.full(TRAINS, -1.0)
@@ -72,7 +81,11 @@ def drawn(
             stop_s[train] = windows[1][kind] - windows[0][kind]
             turns[train] = FAULTS[kind].name == "turns"
     middle = random.uniform(1_500.0, LENGTH_MM / 1_000 - 1_500.0)
-    return Drawn(
+    from_end_m = abs(float(windows[3][ADJOINED]))
+    is_near_the_end = windows[0][ADJOINED] >= 0 and worker_m is None
+    if is_near_the_end:
+        middle = LENGTH_MM / 1_000 - from_end_m
+    began = Drawn(
         key=int(random.integers(2**62)),
         on_s=np.concatenate([departs - 150.0, [shunts, stays]]).astype(np.int64),
         departs_s=np.concatenate([departs, [shunts, stays]]).astype(np.int64),
@@ -93,12 +106,54 @@ def drawn(
         walk_m=random.uniform(0.0, 800.0) if worker_m is None else 0.0,
         walk_m_s=random.uniform(0.3, 1.5),
     )
+    if is_near_the_end:
+        return began._replace(walk_m=min(began.walk_m, from_end_m))
+    return near_the_junction(seed, day, began) if worker_m is None else began
+
+
+def near_the_junction(seed: int, day: int, began: Drawn) -> Drawn:
+    """Put the worker where a branch leaves, or on it, if one does."""
+    random = np.random.default_rng([seed, day, 3])
+    if began.begin_s[BRANCHES] < 0:
+        return began
+    from_m = float(random.uniform(-NEAR_M, NEAR_M))
+    return began._replace(worker_m=abs(float(began.size[BRANCHES])) + from_m, on_branch=bool(random.random() < 0.5))
+
+
+def another(seed: int, day: int, began: Drawn) -> Drawn:
+    """Give the same day with another worker, elsewhere, and with a handset whose faults are its own."""
+    random = np.random.default_rng([seed, day, 2])
+    windows = _windows(random, random, began.departs_s, (), sound=False)
+    begin_s, end_s, size = began.begin_s.copy(), began.end_s.copy(), began.size.copy()
+    for kind in (KIND[name] for name in OF_A_HANDSET):
+        begin_s[kind], end_s[kind], size[kind] = windows[0][kind], windows[1][kind], windows[3][kind]
+    return began._replace(
+        handset=1,
+        on_branch=False,
+        begin_s=begin_s,
+        end_s=end_s,
+        size=size,
+        worker_m=abs(float(began.size[KIND["two_workers"]])),
+        walk_m=random.uniform(0.0, 800.0),
+        walk_m_s=random.uniform(0.3, 1.5),
+    )
 
 
 def scheduled_s() -> Any:
     """Give when each regular train is to depart: one an hour each way."""
     numbers = np.arange(REGULAR)
     return numbers // 2 * HOUR_S + np.where(numbers % 2 == 0, 300, 2_100)
+
+
+def cars_less(windows: tuple[Any, Any, Any, Any]) -> Any:
+    """Give by how much each train is shorter: those that couple or part have one car."""
+    begin_s, _end_s, train, _size = windows
+    less = np.ones(TRAINS)
+    for kind in (KIND["coupled"], KIND["parted"]):
+        if begin_s[kind] >= 0:
+            first = min(train[kind], REGULAR - 2)
+            less[first : first + 2] = CARS
+    return less
 
 
 def _off(shunter_s: float, stabled_s: float) -> Any:

@@ -47,17 +47,33 @@ FAULTS = (
     Fault("handset_restarts", "the handset restarted", 0.2, 1, 1, "-", 0, 0, "practice: its program ends"),
     Fault("broken", "kilometrage broke, by an equation of the register", 0.1, 61_200, 61_200, "m", 1_500, 38_500,
           "practice: a line that was moved, or joined from two"),
+    Fault("turns_at_once", "a train turned at each station where it stopped, as soon as any can", 0.05, 600, 3_600,
+          "-", 0, 0, "practice: a shuttle between two stations, a terminus"),
+    Fault("coupled", "two trains coupled at a station, and one number ended there", 0.05, 3_600, 5_400, "-", 1, 1,
+          "practice: trains of two lines that go on as one"),
+    Fault("parted", "a train parted at a station, and its rear ran back under a number of its own", 0.05, 3_600, 5_400,
+          "-", 0, 0, "practice: cars that are put on for a part of the way"),
+    Fault("adjoined", "trains came over the line's end from the next one, on the register as far as it matters", 0.05,
+          61_200, 61_200, "m", 10, 1_500, "practice: a worker of the last section of a line"),
+    Fault("two_workers", "another worker had a handset, elsewhere beside the line", 0.05, 61_200, 61_200, "m", 1_500,
+          38_500, "practice: parties at two places"),
+    Fault("branches", "a branch with figures and trains of its own was on the register, which ran onto the line",
+          0.05, 61_200, 61_200, "m", 28_200, 34_400, "practice: every junction of two lines"),
 )  # fmt: skip
 """In the order of the simulation's windows."""
 
 OF_A_TRAIN = (
     "gps_out", "gps_jump", "train_silent", "stands", "turns", "gps_drift", "clock", "unlisted", "backwards",
-    "gps_frozen", "gps_creeps", "gps_parallel", "renumbered",
+    "gps_frozen", "gps_creeps", "gps_parallel", "renumbered", "turns_at_once", "coupled",
+    "parted",
 )  # fmt: skip
 """Those that begin while the train is under way."""
+OF_A_HANDSET = ("handset_silent", "own_gps_out", "battery", "own_drift", "handset_restarts")
+"""Those that each worker's handset has by itself."""
 OF_THEIR_OWN = frozenset({
     "gps_frozen", "joined", "gps_creeps", "gps_parallel", "server_restarts", "list_cut", "renumbered",
-    "handset_restarts", "broken",
+    "handset_restarts", "broken", "turns_at_once", "coupled", "parted",
+    "adjoined", "two_workers", "branches",
 })  # fmt: skip
 """Those that are drawn from numbers of their own."""
 KIND = {fault.name: number for number, fault in enumerate(FAULTS)}

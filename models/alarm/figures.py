@@ -1,4 +1,4 @@
-"""Where kilometrage breaks on a day: the figures of places before and beyond it, and the register that has it (A1)."""
+"""Where kilometrage breaks on a day, or a branch leaves: figures beyond it, and the register that has it (A1)."""
 
 from __future__ import annotations
 
@@ -12,18 +12,33 @@ from kernel.alarm.tone import Register
 from kernel.maps import Map
 from models.alarm.connections import connections
 from models.alarm.faults import KIND
-from models.alarm.line import KM, REGISTER
+from models.alarm.line import KM, LENGTH_MM, REGISTER
+from models.alarm.routes import BRANCHES, junction_m
 from models.compiled import compiled, packed
 
-BROKEN = KIND["broken"]
-THERE_MM = 200 * KM
-"""The figure with which kilometrage begins anew; it grows from there, or falls, as the day has it."""
+BROKEN, ADJOINED = KIND["broken"], KIND["adjoined"]
+THERE_MM, BRANCH_MM = 200 * KM, 400 * KM
+"""Figures with which kilometrage begins anew, beyond a break and on a branch; they grow from there, or fall, as the day
+has it."""
 SECTIONS_MM = tuple((each.from_mm, each.to_mm) for _name, each in REGISTER.sections.items())
 
 
 @compiled(forceinline=True)
+def junction_mm(day: Any) -> int:
+    """Give where a branch leaves the line, in mm."""
+    return int(1_000 * junction_m(day))
+
+
+@compiled(forceinline=True)
 def break_mm(day: Any) -> int:
-    """Give where kilometrage breaks; below 0 where it does not, or would within a section that is not to be used."""
+    """Give where kilometrage breaks; below 0 where it does not, or would within a section that is not to be used.
+
+    Where another line adjoins, figures are of that line from the line's end on.  Where there is a branch, is no break.
+    """
+    if day.begin_s[ADJOINED] >= 0:
+        return int(LENGTH_MM)
+    if day.begin_s[BRANCHES] >= 0:
+        return -1
     at_mm = 1_000 * abs(day.size[BROKEN])
     for from_mm, to_mm in SECTIONS_MM:
         if from_mm <= at_mm <= to_mm:
@@ -32,51 +47,74 @@ def break_mm(day: Any) -> int:
 
 
 @compiled(forceinline=True)
-def figure_mm(day: Any, there_mm: int) -> int:
-    """Give the figure of a place."""
+def grows(day: Any) -> bool:
+    """Tell whether figures beyond the break grow with those before it."""
+    return bool(day.size[ADJOINED if day.begin_s[ADJOINED] >= 0 else BROKEN] > 0)
+
+
+@compiled(forceinline=True)
+def figure_mm(day: Any, there_mm: int, on_branch: bool) -> int:
+    """Give the figure of a place of the line, or of the way from it to the branch."""
+    joint_mm = junction_mm(day)
+    if on_branch and there_mm > joint_mm:
+        return int(BRANCH_MM + (there_mm - joint_mm if day.size[BRANCHES] > 0 else joint_mm - there_mm))
     at_mm = break_mm(day)
     if at_mm < 0 or there_mm <= at_mm:
         return int(there_mm)
-    return int(THERE_MM + (there_mm - at_mm if day.size[BROKEN] > 0 else at_mm - there_mm))
+    return int(THERE_MM + (there_mm - at_mm if grows(day) else at_mm - there_mm))
 
 
 @compiled(forceinline=True)
 def is_beyond(written_mm: int) -> bool:
     """Tell whether a figure is of a place beyond the break."""
-    return bool(written_mm > THERE_MM // 2)
+    return bool(THERE_MM // 2 < written_mm <= (THERE_MM + BRANCH_MM) // 2)
+
+
+@compiled(forceinline=True)
+def is_a_branchs(written_mm: int) -> bool:
+    """Tell whether a figure is of a place on the branch."""
+    return bool(written_mm > (THERE_MM + BRANCH_MM) // 2)
 
 
 @compiled(forceinline=True)
 def place_mm(day: Any, written_mm: int) -> int:
     """Give the place of a figure."""
+    if is_a_branchs(written_mm):
+        return int(junction_mm(day) + abs(written_mm - BRANCH_MM))
     return int(break_mm(day) + abs(written_mm - THERE_MM) if is_beyond(written_mm) else written_mm)
 
 
 @compiled(forceinline=True)
 def falls(day: Any, written_mm: int) -> bool:
     """Tell whether figures fall there where elsewhere they grow."""
-    return bool(is_beyond(written_mm) and day.size[BROKEN] < 0)
+    if is_a_branchs(written_mm):
+        return bool(day.size[BRANCHES] < 0)
+    return bool(is_beyond(written_mm) and not grows(day))
 
 
 def joins(day: Any) -> dict[Join, Equation]:
-    """Give the places of the day's line that have two figures: where its kilometrage breaks, if it does (A1)."""
-    at_mm = break_mm(day)
-    return {} if at_mm < 0 else {Join("break"): Equation(at_mm, THERE_MM)}
+    """Give the places of the day that have two figures: where kilometrage breaks, and where a branch leaves (A1)."""
+    at_mm, found = break_mm(day), {}
+    if at_mm >= 0:
+        found[Join("break")] = Equation(at_mm, THERE_MM)
+    if day.begin_s[BRANCHES] >= 0:
+        found[Join("branch")] = Equation(junction_mm(day), BRANCH_MM)
+    return found
 
 
 def written(day: Any) -> Register:
-    """Give what the register of the day says, in its figures: of the break, and of the sections beyond it (A1)."""
+    """Give what the register of the day says, in its figures: of its joins, and of the sections beyond a break (A1)."""
     ways = connections(REGISTER, joins(day))
     sections = {}
     for name, each in REGISTER.sections.items():
-        from_mm, to_mm = sorted((figure_mm(day, each.from_mm), figure_mm(day, each.to_mm)))
+        from_mm, to_mm = sorted((figure_mm(day, each.from_mm, False), figure_mm(day, each.to_mm, False)))
         sections[name] = NoUse(each.reason, from_mm, to_mm, each.zone_mm)
     return replace(REGISTER, ways=ways, sections=sections)
 
 
-def with_break(register: Any, day: Any) -> Any:
-    """Give a register as compiled code has it, with the break of the day, if there is one (A1)."""
-    if break_mm(day) < 0:
+def with_joins(register: Any, day: Any) -> Any:
+    """Give a register as compiled code has it, with the joins of the day, if it has any (A1)."""
+    if not joins(day):
         return register
     ways, sections = written(day).ways, written(day).sections
     return register._replace(

@@ -9,8 +9,9 @@ import numpy as np
 from models.alarm.faults import KIND
 from models.alarm.figures import figure_mm
 from models.alarm.line import STABLED, STATION_MM, STATIONS_MM, TUNNELS_MM
-from models.alarm.moving import noise
-from models.alarm.network import is_of
+from models.alarm.moving import end_m, noise
+from models.alarm.routes import is_of_the_branch
+from models.alarm.windows import is_of
 from models.compiled import compiled
 
 OUT, JUMP, DRIFT, BACKWARDS, FROZEN, CREEPS, PARALLEL = (
@@ -57,8 +58,8 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
     if is_of(day, CREEPS, train, second):
         off_m += day.size[CREEPS] * (second - day.begin_s[CREEPS]) / (day.end_s[CREEPS] - day.begin_s[CREEPS])
     if is_of(day, PARALLEL, train, second):
-        off_m += day.size[PARALLEL] * (place_m - stretch_mm(place_m)[0] / 1_000) / 100
-    return int(figure_mm(day, int(np.floor(1_000 * (place_m + off_m) + 0.5))))
+        off_m += day.size[PARALLEL] * (place_m - stretch_mm(day, train, place_m)[0] / 1_000) / 100
+    return int(figure_mm(day, int(np.floor(1_000 * (place_m + off_m) + 0.5)), is_of_the_branch(day, train)))
 
 
 @compiled(forceinline=True)
@@ -68,7 +69,7 @@ def is_frozen(day: Any, train: int, second: int) -> bool:
 
 
 @compiled(forceinline=True)
-def stretch_mm(place_m: float) -> Any:
+def stretch_mm(day: Any, train: int, place_m: float) -> Any:
     """Give the stretch that the display shows: a station, or all between two."""
     place_mm = 1_000 * place_m
     before = -STATION_MM
@@ -78,4 +79,7 @@ def stretch_mm(place_m: float) -> Any:
         if place_mm <= station + STATION_MM:
             return station - STATION_MM, station + STATION_MM
         before = station + STATION_MM
-    return before, before
+    last = int(1_000 * end_m(day, is_of_the_branch(day, train))) - STATION_MM
+    if last <= before:
+        return before, before
+    return (before, last) if place_mm < last else (last, last + 2 * STATION_MM)

@@ -7,7 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from models.alarm.faults import KIND
-from models.alarm.line import LENGTH_MM, REGULAR, SHUNTER, STATIONS_MM, TRAINS, YARD_MM
+from models.alarm.line import BOUNDS, LENGTH_MM, REGULAR, SHUNTER, STATIONS_MM, TRAINS, YARD_MM
+from models.alarm.routes import NOWHERE_M, from_line_m, is_apart, is_of_the_branch, junction_m
+from models.alarm.windows import is_of
 from models.compiled import compiled
 
 STATIONS_M = tuple(place / 1_000 for place in STATIONS_MM)
@@ -17,13 +19,24 @@ GAINS_M_S2, BRAKES_M_S2 = 0.6, 0.7
 SHUNTS_M = (YARD_MM[0] / 1_000 + 50, YARD_MM[1] / 1_000 - 50)
 STABLED_M = 35_200.0
 FAR = 10**9
+WATCHED_M = 3_600.0
+"""So far beyond the line's end the next line is on the register: 3,000 m, a train's length, and what it runs while what
+is told of it is fresh, and a worker's way."""
 CLOSE_M = 0.001
+AT_ONCE, ADJOINED, JOINED = (KIND[name] for name in ("turns_at_once", "adjoined", "joined"))
+TURNING_S = BOUNDS.turning_ms // 1_000
+"""A train that turns at once stands for so long, and no longer."""
 
 
 class Trains(NamedTuple):
-    """Every train at one moment; it is on the line from ``came_s`` until ``left_s``."""
+    """Every train at one moment; it is on the line from ``came_s`` until ``left_s``.
+
+    ``below_m``, ``above_m``: how far it reaches from its antenna, which is at ``place_m``.
+    """
 
     place_m: Any
+    below_m: Any
+    above_m: Any
     speed_m_s: Any
     heading: Any
     waits_until_s: Any
@@ -42,16 +55,23 @@ ON_AFTER_S = 16
 """Its unit is on for so long after it has left: the list has dropped it by then."""
 
 
+@compiled(forceinline=True)
+def end_m(day: Any, on_branch: bool) -> float:
+    """Give where the register ends at the upper end of a route: with the line, or with a part of the next one."""
+    return LENGTH_M + WATCHED_M if day.begin_s[ADJOINED] >= 0 and not on_branch else LENGTH_M
+
+
 @compiled
 def at_the_beginning(day: Any) -> Any:
     """Give every train where it will begin."""
     place = np.zeros(TRAINS)
     for train in range(REGULAR):
-        place[train] = 0.0 if day.heading[train] > 0 else LENGTH_M
+        place[train] = 0.0 if day.heading[train] > 0 else end_m(day, is_of_the_branch(day, train))
     place[SHUNTER], place[SHUNTER + 1] = SHUNTS_M[0] + 50.0, STABLED_M
     return Trains(
-        place, np.zeros(TRAINS), day.heading.copy(), day.departs_s.copy(), day.on_s + COMES_AFTER_S,
-        day.off_s.copy(), day.stop_m.copy(), np.zeros(TRAINS, np.bool_), np.zeros(TRAINS + 1, np.int64),
+        place, day.below_m.copy(), day.above_m.copy(), np.zeros(TRAINS), day.heading.copy(), day.departs_s.copy(),
+        day.on_s + COMES_AFTER_S, day.off_s.copy(), day.stop_m.copy(), np.zeros(TRAINS, np.bool_),
+        np.zeros(TRAINS + 1, np.int64),
     )  # fmt: skip
 
 
@@ -77,26 +97,27 @@ def switch_on(trains: Any, second: int) -> None:
 
 
 @compiled(forceinline=True)
-def next_station(place_m: float, heading: int) -> float:
-    """Give the next station ahead, or where it is the last."""
+def next_station(place_m: float, heading: int, end: float) -> float:
+    """Give the next station ahead, or where the register ends."""
     if heading > 0:
         for station in STATIONS_M:
             if station > place_m + CLOSE_M:
                 return station
-    else:
-        for number in range(len(STATIONS_M) - 1, -1, -1):
-            if STATIONS_M[number] < place_m - CLOSE_M:
-                return STATIONS_M[number]
+        return end
+    for number in range(len(STATIONS_M) - 1, -1, -1):
+        if STATIONS_M[number] < place_m - CLOSE_M:
+            return STATIONS_M[number]
     return place_m
 
 
 @compiled(forceinline=True)
-def target(trains: Any, train: int) -> float:
+def target(day: Any, trains: Any, train: int) -> float:
     """Give where a train will stop next."""
     heading = trains.heading[train]
     if train == SHUNTER:
         return SHUNTS_M[1] if heading > 0 else SHUNTS_M[0]
-    station, stop = next_station(trains.place_m[train], heading), trains.stop_m[train]
+    end = end_m(day, is_of_the_branch(day, train))
+    station, stop = next_station(trains.place_m[train], heading, end), trains.stop_m[train]
     ahead = stop >= 0 and (stop - trains.place_m[train]) * heading > 0 and (station - stop) * heading > 0
     return stop if ahead else station
 
@@ -113,7 +134,10 @@ def arrive(day: Any, trains: Any, train: int, second: int) -> None:
         trains.waits_until_s[train] = second + int(day.stop_s[train])
         trains.stop_m[train] = -1.0
         trains.will_turn[train] = day.turns[train]
-    elif place in (0.0, LENGTH_M):
+    elif is_of(day, AT_ONCE, train, second):
+        trains.waits_until_s[train] = second + TURNING_S
+        trains.will_turn[train] = True
+    elif place in (0.0, end_m(day, is_of_the_branch(day, train))):
         trains.left_s[train] = second + 60
         trains.waits_until_s[train] = FAR
     else:
@@ -134,7 +158,7 @@ def move(day: Any, trains: Any, second: int) -> None:
         if trains.will_turn[train]:
             trains.heading[train] = -trains.heading[train]
             trains.will_turn[train] = False
-        to_m = target(trains, train)
+        to_m = target(day, trains, train)
         left_m = abs(to_m - trains.place_m[train])
         speed = min(trains.speed_m_s[train] + GAINS_M_S2, day.speed_m_s[train], np.sqrt(2 * BRAKES_M_S2 * left_m))
         if left_m <= max(speed, 2.0):
@@ -147,20 +171,28 @@ def move(day: Any, trains: Any, second: int) -> None:
 
 @compiled(forceinline=True)
 def gap_m(day: Any, trains: Any, train: int, worker_m: float) -> float:
-    """Give how far a train's nearer end is from the worker; below 0 where it stands over him."""
-    place = trains.place_m[train]
-    return float(max(place - day.below_m[train] - worker_m, worker_m - place - day.above_m[train]))
+    """Give how far a train's nearest part is from the worker, along the track; below 0 where it stands over him."""
+    from_m = trains.place_m[train] - trains.below_m[train]
+    to_m = trains.place_m[train] + trains.above_m[train]
+    if is_apart(day, train, worker_m):
+        joint = junction_m(day)
+        return float(worker_m - joint + max(from_m - joint, joint - to_m, 0.0))
+    return float(max(from_m - worker_m, worker_m - to_m))
 
 
 @compiled(forceinline=True)
-def has_departed(trains: Any, train: int, gap: float, worker_m: float) -> bool:
-    """Tell whether a train is past the worker by 100 m, from end to end, and ran last away from him (A3)."""
+def has_departed(day: Any, trains: Any, train: int, gap: float, worker_m: float) -> bool:
+    """Tell whether a train is past the worker by 100 m, from end to end, and ran last away from him (A3).
+
+    Wherever a train of the other route is beyond the junction, he has to reckon with it.
+    """
+    if is_apart(day, train, worker_m) and trains.place_m[train] + trains.above_m[train] > junction_m(day):
+        return False
     return gap >= 100.0 and (trains.heading[train] > 0) == (trains.place_m[train] > worker_m)
 
 
-JOINED = KIND["joined"]
 STRANGE_M, STRANGE_M_S = 6_000.0, 20.0
-"""A train of the line that joins runs to and fro as far and as fast as that, up to the joint and away from it."""
+"""A train beyond the register runs to and fro as far and as fast as that, up to where it ends and away from there."""
 
 
 @compiled(forceinline=True)
@@ -171,6 +203,9 @@ def joint_m(day: Any) -> float:
 
 @compiled(forceinline=True)
 def stranger_m(day: Any, worker_m: float, second: int) -> float:
-    """Give how far a train of the line that joins is from the worker, along the track."""
+    """Give how far a train is from the worker that no list has, beyond where the register ends, if it does."""
     way = (STRANGE_M_S * second) % (2.0 * STRANGE_M)
-    return float(abs(worker_m - joint_m(day)) + min(way, 2.0 * STRANGE_M - way))
+    to_m = from_line_m(day, worker_m, joint_m(day)) if joint_m(day) >= 0 else NOWHERE_M
+    if day.begin_s[ADJOINED] >= 0:
+        to_m = min(to_m, from_line_m(day, worker_m, end_m(day, False)))
+    return float(to_m + min(way, 2.0 * STRANGE_M - way))

@@ -15,7 +15,8 @@ from models.alarm.compiled import MADE
 from models.alarm.faults import KIND
 from models.alarm.line import REGISTER, SHUNTER, TRAINS
 from models.alarm.moving import COMES_AFTER_S, NAMED_AFTER_S, noise
-from models.alarm.network import is_of, is_on
+from models.alarm.network import ANOTHER
+from models.alarm.windows import is_of, is_on
 from models.compiled import compiled
 
 KERNEL = MADE.train_list
@@ -171,4 +172,4 @@ def entries_that_come(day: Any, sent_s: int, taken: int, count: int) -> int:
     """Give how many entries of a list the handset has when it has come; one that was cut on its way has fewer (A1)."""
     if count <= taken or not is_on(day, CUT, sent_s):
         return count
-    return int(taken + noise(day.key, sent_s, 5_000) % (count - taken + 1))
+    return int(taken + noise(day.key, sent_s, 5_000 + ANOTHER * day.handset) % (count - taken + 1))

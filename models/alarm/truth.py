@@ -12,7 +12,8 @@ from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
 from models.alarm.figures import falls, place_mm
 from models.alarm.line import BOUNDS, REGISTER, TRAINS
-from models.alarm.moving import gap_m, has_departed, joint_m, stranger_m
+from models.alarm.moving import gap_m, has_departed, stranger_m
+from models.alarm.routes import NOWHERE_M, is_apart, is_on_the_branch
 from models.compiled import compiled, packed
 
 KERNEL = MADE.tone
@@ -49,14 +50,13 @@ NEEDLESS_CAUTION, NEEDLESS_FAULT, NO_USE = (
 FAULT_TONES, SECONDS, NORMALS = (NUMBER["fault_tones"], NUMBER["seconds"], NUMBER["normal_s"])
 CAUTIONS, ALARMS, FAULTS = (NUMBER["caution_s"], NUMBER["alarm_s"], NUMBER["fault_s"])
 WITHIN_1500, WITHIN_3000, PASSED = (NUMBER["within_1500_s"], NUMBER["within_3000_s"], NUMBER["passed"])
-NEAREST_M = 10_000_000
 
 
 @compiled(forceinline=True)
-def in_section(worker_m: float) -> bool:
+def in_section(day: Any, worker_m: float) -> bool:
     """Tell whether the worker is where the handset is not to be used (A4, A5, A6)."""
-    for from_mm, to_mm in SECTIONS:  # noqa: SIM110
-        if from_mm <= 1_000 * worker_m <= to_mm:
+    for from_mm, to_mm in SECTIONS:
+        if from_mm <= 1_000 * worker_m <= to_mm and not is_on_the_branch(day, worker_m):
             return True
     return False
 
@@ -64,13 +64,13 @@ def in_section(worker_m: float) -> bool:
 @compiled(forceinline=True)
 def nearest(day: Any, trains: Any, worker_m: float, second: int, departed_too: bool) -> Any:
     """Give the least distance of a train on the line to the worker, and which it is; -1 where there is none."""
-    least, which = float(NEAREST_M), -1
+    least, which = NOWHERE_M, -1
     for index in range(trains.switched_on[TRAINS]):
         train = trains.switched_on[index]
         if not trains.came_s[train] <= second < trains.left_s[train]:
             continue
         gap = gap_m(day, trains, train, worker_m)
-        if gap < least and (departed_too or not has_departed(trains, train, gap, worker_m)):
+        if gap < least and (departed_too or not has_departed(day, trains, train, gap, worker_m)):
             least, which = gap, train
     return least, which
 
@@ -123,7 +123,7 @@ def hold_trains(register: Any, day: Any, trains: Any, now: Any, handset: Any, se
         train = trains.switched_on[index]
         if trains.came_s[train] <= second < trains.left_s[train]:
             there += 1
-            if day.below_m[train] + day.above_m[train] > LENGTH_MM / 1_000:
+            if trains.below_m[train] + trains.above_m[train] > LENGTH_MM / 1_000:
                 out[LENGTH_BROKEN] += 1
             if trains.speed_m_s[train] * 1_000 > SPEED_MM_S:
                 out[SPEED_BROKEN] += 1
@@ -177,18 +177,18 @@ def hold(
     """Hold one second against the truth, and write it down; ``now``: the number of each train."""
     least_m, which = nearest(day, trains, worker_m, second, False)
     any_m, _which = nearest(day, trains, worker_m, second, True)
-    if joint_m(day) >= 0:
-        least_m, any_m = min(least_m, stranger_m(day, worker_m, second)), min(any_m, stranger_m(day, worker_m, second))
-    no_use = in_section(worker_m)
+    strange_m = stranger_m(day, worker_m, second)
+    least_m, any_m = min(least_m, strange_m), min(any_m, strange_m)
+    no_use = in_section(day, worker_m)
     unknown = hold_trains(register, day, trains, now, handset, second, out)
     unknown = hold_handset(register, day, handset, worker_m, out) or unknown
     hold_claims(heard, least_m, any_m, unknown, no_use, out)
     price(heard, before, least_m, no_use, out)
     for index in range(trains.switched_on[TRAINS]):
         train = trains.switched_on[index]
-        side = 1.0 if trains.place_m[train] > worker_m else -1.0
+        side = 1.0 if trains.place_m[train] > worker_m and not is_apart(day, train, worker_m) else -1.0
         there = trains.came_s[train] <= second < trains.left_s[train]
         out[PASSED] += there and sides[train] == -side
         sides[train] = side if there else 0.0
     seconds[second, 0], seconds[second, 1] = heard, np.int64(1_000 * worker_m)
-    seconds[second, 2], seconds[second, 3] = np.int64(1_000 * min(least_m, float(NEAREST_M))), which
+    seconds[second, 2], seconds[second, 3] = np.int64(1_000 * min(least_m, NOWHERE_M)), which

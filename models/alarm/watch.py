@@ -13,9 +13,10 @@ from kernel.alarm.distance import Direction
 from kernel.alarm.tone import NO_FIGURE_MM, Tone, switched_on
 from models.alarm.columns import NUMBER
 from models.alarm.compiled import MADE
+from models.alarm.coupling import couple_and_part, wait_to_part
 from models.alarm.draws import SECONDS
 from models.alarm.faults import KIND
-from models.alarm.figures import THERE_MM, break_mm, falls, figure_mm, place_mm
+from models.alarm.figures import BRANCH_MM, THERE_MM, break_mm, falls, figure_mm, junction_mm, place_mm
 from models.alarm.gps import (
     BACKWARDS,
     TRAIN_M,
@@ -32,9 +33,11 @@ from models.alarm.gps import (
 )
 from models.alarm.line import BOUNDS, REGISTER, SHUNTER, TRAINS
 from models.alarm.moving import COMES_AFTER_S, at_the_beginning, move, noise, switch_on
-from models.alarm.network import FIX, LATEST_S, LISTED, SHOWN, SOON_S, is_late, is_of, is_on, send
+from models.alarm.network import FIX, LATEST_S, LISTED, SHOWN, SOON_S, is_late, send
+from models.alarm.routes import is_of_the_branch
 from models.alarm.serving import at_first, change_numbers, confirmed_empty, entries_that_come, serve
 from models.alarm.truth import hold
+from models.alarm.windows import is_of, is_on
 from models.compiled import compiled, packed
 
 ALARM_TONE, REGISTERED = MADE.tone.tone, packed(REGISTER)
@@ -211,10 +214,17 @@ def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
 
 @compiled(forceinline=True)
 def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
-    """Give a record of the display as it arrives: it follows a train within 2 s (A1)."""
+    """Give a record of the display as it arrives: it follows a train within 2 s (A1).
+
+    The stretch in which a branch leaves reaches on to it, whichever way a train there runs.
+    """
     from_mm, to_mm = stretch_of(day, trains, sent, train, sent_s)
     break_at_mm, age_ms = break_mm(day), 1_000 * (second - sent_s)
-    one_mm, other_mm = figure_mm(day, from_mm), figure_mm(day, to_mm)
+    joint_mm, of_branch = junction_mm(day), is_of_the_branch(day, train)
+    if max(0, from_mm) <= joint_mm < to_mm:
+        one_mm, other_mm = BRANCH_MM, figure_mm(day, to_mm, True)
+        return Display(from_mm, to_mm, age_ms, min(one_mm, other_mm), max(one_mm, other_mm))
+    one_mm, other_mm = figure_mm(day, from_mm, of_branch), figure_mm(day, to_mm, of_branch)
     if max(0, from_mm) <= break_at_mm < to_mm:
         return Display(one_mm, break_at_mm, age_ms, min(THERE_MM, other_mm), max(THERE_MM, other_mm))
     return Display(min(one_mm, other_mm), max(one_mm, other_mm), age_ms, NO_FIGURE_MM, NO_FIGURE_MM)
@@ -225,7 +235,7 @@ def stretch_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int) -> An
     """Give the stretch in which the display has a train."""
     behind_s = noise(day.key, sent_s, 4_000 + train) % 3
     behind_s = max(0, min(behind_s, sent_s - trains.came_s[train] + COMES_AFTER_S))
-    return stretch_mm(sent.place_m[train, (sent_s - behind_s) % RING])
+    return stretch_mm(day, train, sent.place_m[train, (sent_s - behind_s) % RING])
 
 
 @compiled(forceinline=True)
@@ -365,7 +375,8 @@ def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int
     if in_tunnel(worker_m) or is_on(day, OWN_OUT, second):
         return handset
     off_m = error_m + (day.size[OWN_DRIFT] if is_on(day, OWN_DRIFT, second) else 0)
-    return note_worker(handset, WorkerFix(figure_mm(day, int(np.floor(1_000 * (worker_m + off_m) + 0.5))), 0))
+    told_at_mm = int(np.floor(1_000 * (worker_m + off_m) + 0.5))
+    return note_worker(handset, WorkerFix(figure_mm(day, told_at_mm, day.on_branch), 0))
 
 
 @compiled(forceinline=True)
@@ -386,6 +397,7 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
     ``kept``: what is written down.
     """
     trains = at_the_beginning(day)
+    wait_to_part(day, trains)
     sent = nothing_sent()
     error_m, before, sides = 0.0, FAULTY, np.zeros(TRAINS)
     numbers, server = at_first(), confirmed_empty()
@@ -393,6 +405,7 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
     for second in range(SECONDS):
         switch_on(trains, second)
         move(day, trains, second)
+        couple_and_part(day, trains, second)
         worker_m = walked(day, second)
         change_numbers(day, trains, numbers, second)
         observe(day, trains, sent, numbers, second)
@@ -404,7 +417,7 @@ def watch(day: Any, written: Any, register: Any, sounds: Any, handset: Any, out:
         handset = begun() if is_on(day, RESTARTS, second) else older(handset, 1_000)
         if not is_on(day, HANDSET_SILENT, second):
             handset = hear(written, day, trains, handset, sent, server, former, second, out)
-        error_m = wanders(error_m, day.key, second, TRAINS, WORKER_M, WORKER_MOST_M)
+        error_m = wanders(error_m, day.key, second, TRAINS + day.handset, WORKER_M, WORKER_MOST_M)
         handset = own_fix(day, handset, worker_m, error_m, second)
         heard = sounds(register, handset)
         hold(written, day, trains, numbers.now, sides, handset, heard, before, worker_m, second, out, kept.seconds)

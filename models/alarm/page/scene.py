@@ -29,8 +29,9 @@ from models.alarm.line import (
     TUNNELS_MM,
     name,
 )
-from models.alarm.network import SLOW, is_on
+from models.alarm.network import SLOW
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, Trace, trace, watch
+from models.alarm.windows import is_on
 
 FIRST_TRAIN_AT_S = 5 * 3_600
 """Traffic begins at 5 o'clock."""
