@@ -139,6 +139,11 @@ def a_tram_comes_where_and_when_it_was_confirmed(site: Way, system: Traffic, tra
     )
 
 
+def its_unit_began_since_it_was_confirmed(system: Traffic, tram: Tram, begun_ms: int) -> bool:
+    """A tram's unit began the run since it was confirmed, or what was made for it before does not count any more."""
+    return tram in system.runs and system.runs[tram].at_ms <= begun_ms <= system.now_ms
+
+
 def who_begins_at_the_first_stop_is_last(system: Traffic, tram: Tram, body: Body) -> bool:
     """The way begins at stop 0: who comes there comes behind all that are on the way."""
     return system.runs[tram].stop != 0 or all(other.rank < body.rank for _other, other in system.bodies.items())
@@ -252,17 +257,15 @@ def come(site: Way, system: Traffic, tram: Tram, body: Body, now_ms: int, begun_
     """A tram comes onto the way; its unit begins anew, or began when this way was set, too soon (G6).
 
     It is shown no order yet, but may take one that was made for it since then; what was made before it was confirmed
-    has lapsed, since an order counts for seconds.
+    has lapsed, since an order counts for seconds, so that a unit which began before that is as one which began then.
     """
-    if not clocks_keep_gps_time(system, now_ms) or begun_ms > now_ms:
+    if not clocks_keep_gps_time(system, now_ms) or not its_unit_began_since_it_was_confirmed(system, tram, begun_ms):
         return system
     if not a_tram_comes_where_and_when_it_was_confirmed(site, system, tram, body):
         return system
     if not who_begins_at_the_first_stop_is_last(system, tram, body) or not none_overtakes(system.bodies, tram, body):
         return system
-    if begun_ms < system.runs[tram].at_ms:
-        return system
-    fresh = replace(body, display=replace(on_board.begun(now_ms), made_ms=begun_ms))
+    fresh = replace(body, display=on_board.older(site.limits, on_board.begun(begun_ms), now_ms - begun_ms))
     return replace(
         system,
         bodies=system.bodies | {tram: fresh},

@@ -89,7 +89,7 @@ def none_recovers_where_it_comes() -> None:
 
 
 def who_comes_may_take_what_was_ordered_since_it_was_confirmed() -> None:
-    """Its unit began when the way was set, not before it was confirmed, nor later than now (G6)."""
+    """Its unit began when the way was set; before it was confirmed nothing was made for it that counts (G6)."""
     day = Day()
     day.off(FIRST)
     assert day.confirm(FIRST, 0)
