@@ -8,14 +8,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from kernel.alarm import tone as machine
+from kernel.alarm.distance import GREATEST_PLACE_MM
 from kernel.alarm.tone import NO_DISPLAY, Display, Tone
-from models.alarm.line import REGISTER, SHUNTER, STABLED, TRAINS, YARD_MM
+from models.alarm.columns import COLUMNS
+from models.alarm.draws import drawn
+from models.alarm.faults import KIND
+from models.alarm.figures import joins
+from models.alarm.line import KM, LENGTH_MM, REGISTER, SHUNTER, STABLED, TRAINS, YARD_MM
 from models.alarm.page import scene as data
-from models.alarm.page.scene import Shown, handset, moment, shown
+from models.alarm.page.scene import OF_ANOTHER_LINE, Shown, handset, moment, shown
 from models.alarm.page.writing import FIRST_S, LENGTH_S, LINE, WORKER_M, page_of, write
+from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
 from models.compiled import packed
 from tests.fuzz.failures.browser import CHROMIUM, Browser, browser
 
@@ -63,6 +70,25 @@ def test_cpython_gives_the_tones_that_the_compiled_day_gave(scene: Shown, moment
         assert packed(tone) == scene.kept.seconds[FIRST_S + row, 0]
         assert moments[row]["tone"] == tone.name.lower()
     assert set(Counter(each["tone"] for each in moments)) == {tone.name.lower() for tone in Tone}
+
+
+@pytest.mark.parametrize("kind", OF_ANOTHER_LINE)
+def test_a_page_of_a_day_with_another_line_has_the_pages_line(kind: str) -> None:
+    """Every figure that the handset was told is one of the page's line (A7)."""
+    days = ((day, drawn(1, day)) for day in range(400))
+    day = next(day for day, began in days if began.begin_s[KIND[kind]] >= 0 and (kind == "joined" or joins(began)))
+    seconds = 6 * 3_600
+    scene = shown(1, day, WORKER_M, FIRST_S, seconds)
+    told = scene.kept.told[scene.kept.told[:, :, 0] == 1]
+    places_mm = told[told[:, 1] <= GREATEST_PLACE_MM, 1]
+    assert len(places_mm) > seconds
+    assert places_mm.max() <= LENGTH_MM + KM
+    if kind != "joined":
+        began = drawn(1, day, worker_m=WORKER_M)
+        elsewhere = trace(places=True, first_s=FIRST_S, told_s=seconds)
+        watch(began, REGISTERED, REGISTERED, ALARM_TONE, NOTHING, np.zeros(len(COLUMNS), np.int64), elsewhere)
+        beyond_mm = elsewhere.told[:, :, 1]
+        assert ((beyond_mm > LENGTH_MM + KM) & (beyond_mm <= GREATEST_PLACE_MM)).any(), "else nothing is shown"
 
 
 def test_a_train_is_shown_with_all_that_the_paper_names(moments: list[dict[str, Any]]) -> None:

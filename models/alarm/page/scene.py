@@ -17,6 +17,7 @@ from kernel.alarm.sections import Reason
 from kernel.alarm.tone import ALARM_MM, CAUTION_MM, Display, Handset, Known, Listing, Register, Tone
 from models.alarm.columns import COLUMNS
 from models.alarm.draws import SECONDS, Drawn, drawn, scheduled_s
+from models.alarm.faults import KIND
 from models.alarm.line import (
     LENGTH_MM,
     REGISTER,
@@ -41,6 +42,10 @@ BATTERY = {"full": 100, "an hour": 4, "low": 9}
 """In per cent: full at the beginning, so much less each hour, and what is shown when it does not last (ours)."""
 
 
+OF_ANOTHER_LINE = ("joined", "broken", "adjoined", "branches")
+"""Faults by which the day has another line than the page."""
+
+
 @dataclass(frozen=True)
 class Shown:
     """Some minutes of a day: ``day`` as drawn, what was told, and from which second on."""
@@ -51,8 +56,12 @@ class Shown:
 
 
 def shown(seed: int, day: int, worker_m: float | None, first_s: int, length_s: int, sound: bool = False) -> Shown:
-    """Let the day pass, and keep what the handset was told for so long."""
+    """Let the day pass, and keep what the handset was told for so long.
+
+    On the page the line goes on from end to end: what joins, leaves or breaks it on a day is left out.
+    """
     began = drawn(seed, day, worker_m=worker_m, sound=sound)
+    began.begin_s[[KIND[name] for name in OF_ANOTHER_LINE]] = -1
     kept = trace(places=True, first_s=first_s, told_s=min(length_s, SECONDS - first_s))
     watch(began, REGISTERED, REGISTERED, ALARM_TONE, NOTHING, np.zeros(len(COLUMNS), np.int64), kept)
     return Shown(began, kept, first_s)
