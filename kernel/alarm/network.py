@@ -66,6 +66,12 @@ def may_have_passed_a_join(bounds: AlarmBounds, ways: Map[Way, Connection], fix:
     return any(UM_A_MM * magnitude(connection.to_mm - fix.place_mm) <= off_um for _way, connection in ways.items())
 
 
+def may_be_told_across_a_join(bounds: AlarmBounds, ways: Map[Way, Connection], worker: WorkerFix) -> bool:
+    """Tell whether the worker may be where lines join, and so be on another line than he is told on (A3)."""
+    off_um = worker_off_um(bounds, worker)
+    return any(UM_A_MM * magnitude(connection.to_mm - worker.place_mm) <= off_um for _way, connection in ways.items())
+
+
 def jumps(bounds: AlarmBounds, ways: Map[Way, Connection], before: TrainFix, fix: TrainFix) -> bool:
     """Tell whether a train cannot have been where both fixes say, when they say it, by any way (A1, ours)."""
     if not is_fix(before.place_mm, before.age_ms):

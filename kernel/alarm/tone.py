@@ -59,6 +59,7 @@ from kernel.alarm.network import (
     Way,
     is_over_within,
     jumps,
+    may_be_told_across_a_join,
     may_come_over,
     may_have_passed_a_join,
 )
@@ -371,11 +372,11 @@ def comes_over(register: Register, fix: TrainFix, worker: WorkerFix, limit_mm: i
 def is_departing(register: Register, fix: TrainFix, worker: WorkerFix) -> bool:
     """Tell whether a train is past the worker, all of it, and runs on away along his line (A3).
 
-    That it runs away is not believed where lines may join: see `kernel.alarm.network.may_have_passed_a_join`.
+    That it runs away is not believed where lines may join, nor of a worker who may be there.
     """
-    return distance.is_departing(register.bounds, fix, worker) and not may_have_passed_a_join(
-        register.bounds, register.ways, fix
-    )
+    bounds, ways = register.bounds, register.ways
+    is_at_a_join = may_have_passed_a_join(bounds, ways, fix) or may_be_told_across_a_join(bounds, ways, worker)
+    return distance.is_departing(bounds, fix, worker) and not is_at_a_join
 
 
 def may_be_on_its_way_through(register: Register, known: Known, worker: WorkerFix, limit_mm: int) -> bool:

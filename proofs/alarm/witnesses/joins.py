@@ -143,6 +143,9 @@ def no_train_departs_where_lines_join() -> None:
                 train = known(JOIN_MM - side * before_mm, way, age_ms=age_ms)
                 assert heard(train, worker_mm=JOIN_MM - side * KM) == expected
     assert heard(known(THERE_MM + 400_000, DOWN), worker_mm=JOIN_MM - KM) == ALARM
+    for off_mm, expected in ((15_000, ALARM), (15_001, NORMAL)):
+        for side in (-1, 1):
+            assert heard(known(JOIN_MM + KM, DOWN), worker_mm=JOIN_MM + side * off_mm) == expected
 
 
 def what_is_told_beyond_one_more_join_is_near_yet() -> None:
