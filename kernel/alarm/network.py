@@ -57,19 +57,22 @@ def may_come_over(
     return is_over_within(ways, from_mm, to_mm, worker.place_mm, within_um + off_um)
 
 
+def is_at_a_join(ways: Map[Way, Connection], place_mm: int, within_um: int) -> bool:
+    """Tell whether a place is that near one where lines join, by figures (A3)."""
+    return any(UM_A_MM * magnitude(connection.to_mm - place_mm) <= within_um for _way, connection in ways.items())
+
+
 def may_have_passed_a_join(bounds: AlarmBounds, ways: Map[Way, Connection], fix: TrainFix) -> bool:
     """Tell whether any part of a train may be where lines join, or have passed there since it was told (A3).
 
     It may run towards the worker then without having turned, as round a loop; its direction is not believed.
     """
-    off_um = UM_A_MM * bounds.length_mm + train_off_um(bounds, fix)
-    return any(UM_A_MM * magnitude(connection.to_mm - fix.place_mm) <= off_um for _way, connection in ways.items())
+    return is_at_a_join(ways, fix.place_mm, UM_A_MM * bounds.length_mm + train_off_um(bounds, fix))
 
 
 def may_be_told_across_a_join(bounds: AlarmBounds, ways: Map[Way, Connection], worker: WorkerFix) -> bool:
     """Tell whether the worker may be where lines join, and so be on another line than he is told on (A3)."""
-    off_um = worker_off_um(bounds, worker)
-    return any(UM_A_MM * magnitude(connection.to_mm - worker.place_mm) <= off_um for _way, connection in ways.items())
+    return is_at_a_join(ways, worker.place_mm, worker_off_um(bounds, worker))
 
 
 def jumps(bounds: AlarmBounds, ways: Map[Way, Connection], before: TrainFix, fix: TrainFix) -> bool:

@@ -58,6 +58,7 @@ from models.alarm.worksite import (
     comes_over,
     has_fresh_fix,
     has_just_come,
+    has_listed_fix,
     has_place,
     is_between_the_ends,
     is_in_a_stretch,
@@ -341,8 +342,7 @@ def listen_for_one_with_a_fix(site: Railway, system: Worksite, train: Train, way
     """The worker hears the tone; where another train is, of which GPS tells freshly, goes into history (A3)."""
     if train not in system.bodies:
         return system
-    told, came = system.told, has_just_come(site, system.bodies[train])
-    has_a_fix = is_listed(told, train) and has_fresh_fix(site, told.trains[train])
+    came, has_a_fix = has_just_come(site, system.bodies[train]), has_listed_fix(site, system.told, train)
     return replace(system, heard=heard_of(site, system, train, way) if has_a_fix and not came else system.heard)
 
 
@@ -350,8 +350,7 @@ def listen_for_one_without_a_fix(site: Railway, system: Worksite, train: Train, 
     """The worker hears the tone; where another train is, of which GPS does not, goes into history (A3)."""
     if train not in system.bodies:
         return system
-    told, came = system.told, has_just_come(site, system.bodies[train])
-    has_a_fix = is_listed(told, train) and has_fresh_fix(site, told.trains[train])
+    came, has_a_fix = has_just_come(site, system.bodies[train]), has_listed_fix(site, system.told, train)
     return replace(system, heard=system.heard if has_a_fix or came else heard_of(site, system, train, way))
 
 

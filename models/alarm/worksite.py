@@ -432,6 +432,11 @@ def is_listed(told: Told, train: Train) -> bool:
     return train in told.trains
 
 
+def has_listed_fix(site: Railway, told: Told, train: Train) -> bool:
+    """Tell whether GPS tells freshly of a train that is on the list (A1, A2)."""
+    return is_listed(told, train) and has_fresh_fix(site, told.trains[train])
+
+
 def has_place(site: Railway, told: Told) -> bool:
     """Tell whether the worker's own place is told, no longer ago than is written (A8)."""
     worker = told.worker

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.tram.centre import Tram
-from kernel.tram.dispatching import Known
+from kernel.tram.dispatching import Known, Report
 from models.tram.dispatching import Traffic, Way, mark
 
 
@@ -46,16 +46,24 @@ def what_was_told_beside_is_older_than_what_counts(site: Way, system: Traffic) -
     )
 
 
+def was_beyond(place: int, told_ms: int, report: Report) -> bool:
+    """Tell whether one that told of a place was beyond the stop of a report before that was made (G2)."""
+    return place > mark(report.stop, False) and told_ms < report.made_ms
+
+
+def is_behind(system: Traffic, behind: Tram, ahead: Tram) -> bool:
+    """Tell whether one runs behind another, if both are on the way (G2)."""
+    bodies = system.bodies
+    return ahead not in bodies or behind not in bodies or bodies[ahead].rank < bodies[behind].rank
+
+
 def who_told_from_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic) -> bool:
     """So is who told that of one that told beside the way that it stood at the stop where it then came (G2, ours)."""
     return all(
-        not (mark(beyond.stop, beyond.left) > mark(report.stop, False))
-        or not beyond.made_ms < report.made_ms
+        not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
         or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
         or report.stop < system.centre.trams[behind].comes_at
-        or ahead not in system.bodies
-        or behind not in system.bodies
-        or system.bodies[ahead].rank < system.bodies[behind].rank
+        or is_behind(system, behind, ahead)
         for ahead, beyond in system.told
         for behind, report in system.told_beside
     )
@@ -66,12 +74,9 @@ def who_was_heard_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic)
     return all(
         not is_of_this_run(system, behind, report.made_ms)
         or report.stop < system.centre.trams[behind].comes_at
-        or not (mark(known.stop, known.left) > mark(report.stop, False))
         or not is_under_way(known)
-        or not known.told_ms < report.made_ms
-        or ahead not in system.bodies
-        or behind not in system.bodies
-        or system.bodies[ahead].rank < system.bodies[behind].rank
+        or not was_beyond(mark(known.stop, known.left), known.told_ms, report)
+        or is_behind(system, behind, ahead)
         for ahead, known in system.centre.trams.items()
         for behind, report in system.told_beside
     )

@@ -10,8 +10,10 @@ from models.tram.dispatching import Body, Traffic, Way, mark, may_still_come, pl
 from proofs.theory import Theory, by_name
 from proofs.tram.beside import (
     beside_the_way_no_stop_was_left,
+    is_behind,
     is_of_this_run,
     is_under_way,
+    was_beyond,
     what_was_told_beside_is_older,
     what_was_told_beside_is_older_than_what_counts,
     who_told_from_beyond_is_ahead_of_who_told_beside,
@@ -287,12 +289,9 @@ def who_told_from_beyond_is_ahead(site: Way, system: Traffic) -> bool:
     """Who told that it was beyond a stop, before another told that it stood there, is ahead of that (G2)."""
     return all(
         not report.stands
-        or not (mark(beyond.stop, beyond.left) > mark(report.stop, False))
-        or not beyond.made_ms < report.made_ms
+        or not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
         or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
-        or ahead not in system.bodies
-        or behind not in system.bodies
-        or system.bodies[ahead].rank < system.bodies[behind].rank
+        or is_behind(system, behind, ahead)
         for ahead, beyond in system.told
         for behind, report in system.told
     )
@@ -303,12 +302,9 @@ def who_was_heard_beyond_is_ahead(site: Way, system: Traffic) -> bool:
     return all(
         not report.stands
         or not is_of_this_run(system, behind, report.made_ms)
-        or not (mark(known.stop, known.left) > mark(report.stop, False))
         or not is_under_way(known)
-        or not known.told_ms < report.made_ms
-        or ahead not in system.bodies
-        or behind not in system.bodies
-        or system.bodies[ahead].rank < system.bodies[behind].rank
+        or not was_beyond(mark(known.stop, known.left), known.told_ms, report)
+        or is_behind(system, behind, ahead)
         for ahead, known in system.centre.trams.items()
         for behind, report in system.told
     )
