@@ -121,15 +121,24 @@ def note_taken_off(centre: Centre, tram: Tram) -> Centre:
     return without(centre, tram, centre.now_ms) if tram in centre.trams else centre
 
 
+def note_begun(centre: Centre, tram: Tram, known: Known, report: Report) -> Centre:
+    """Take from a report that does not count that the unit has begun since the tram was confirmed, if it has (ours)."""
+    if not machine.begins(centre.now_ms, known, report):
+        return centre
+    return replace(centre, trams=centre.trams | {tram: machine.begun(known, report)})
+
+
 def note_report(centre: Centre, tram: Tram, report: Report) -> Centre:
     """Take a tram's report, if it counts; one of a tram that is not known does not (G2, G3, G6).
 
     The way is cleared by what tells that a stop was left, and by nothing else: who has left this way, or has not come
     yet, may tell of stops beside which it is (ours).
     """
-    if tram not in centre.trams or not machine.counts(centre.now_ms, centre.trams[tram], report):
+    if tram not in centre.trams:
         return centre
     known = centre.trams[tram]
+    if not machine.counts(centre.now_ms, known, report):
+        return note_begun(centre, tram, known, report)
     left_ms = (
         centre.left_ms | {(tram, machine.stop_left(report)): report.made_ms}
         if machine.tells_a_departure(known, report)

@@ -46,7 +46,7 @@ class Known:
     ``leaves_at``: the last stop of this way that it comes to, by the farthest destination that was told.
     ``since_ms``: since when the centre has known of this run; what was told before is of another one.
     ``stop``, ``left``: it has reached that stop, and left it.  ``stands``: it stood there.
-    ``arrived_ms``: when it first told of that stop.  ``told_ms``: when it has told last.
+    ``arrived_ms``: when it first told of that stop.  ``told_ms``: when it has told last; as ``since_ms`` before that.
     ``recovery_to``: the stop to which it was last ordered to recover; one that it has reached if to none.
     ``comes_at``: the stop for which it was confirmed.
     """
@@ -140,19 +140,37 @@ def coming(now_ms: int, stop: int, leaves_at: int) -> Known:
     )
 
 
+def is_new(now_ms: int, known: Known, report: Report) -> bool:
+    """Tell whether a report is of this run by its time, newer than the last one, and not of the future (G3)."""
+    return known.told_ms < report.made_ms <= now_ms
+
+
 def counts(now_ms: int, known: Known, report: Report) -> bool:
     """Tell whether a report is taken (G3, G6).
 
-    It must be of this run, newer than the last one, and not of the future; and trams do not run
-    backwards.  Before the tram is known to be under way it is of the stop where it is to come, or says that it has
-    left one (ours): its driver may have set this way too soon, beside another stop of it.
+    It must be new, and trams do not run backwards.  Before the tram is known to be under way it is of the stop where it
+    is to come, since its driver may have set this way too soon, beside another stop of it.  That it has left a stop
+    counts only from a unit that has told since the tram was confirmed of one that it had not left: else it may be of
+    the run before, which the unit was never set anew from (ours).
     What is refused leaves the tram to become unknown.
     """
+    begins_there = not report.left and report.stop == known.comes_at
+    leaves = report.left and has_begun(known)
     return (
-        known.told_ms < report.made_ms <= now_ms
+        is_new(now_ms, known, report)
         and mark(report.stop, report.left) >= mark(known.stop, known.left)
-        and (is_under_way(known) or report.left or report.stop == known.comes_at)
+        and (is_under_way(known) or begins_there or leaves)
     )
+
+
+def begins(now_ms: int, known: Known, report: Report) -> bool:
+    """Tell whether a unit has begun since its tram was confirmed, wherever it is: of its last run it tells no more."""
+    return is_new(now_ms, known, report) and not report.left and not is_under_way(known)
+
+
+def begun(known: Known, report: Report) -> Known:
+    """Note that a unit has begun; where its tram is that tells nothing, nor that it still stands (G2, ours)."""
+    return replace(known, stands=False, told_ms=report.made_ms)
 
 
 def reported(known: Known, report: Report) -> Known:
@@ -161,14 +179,14 @@ def reported(known: Known, report: Report) -> Known:
     Of two destinations the farther one counts: the tram may still be on the way then.  It has been at a stop since it
     first told of it, whether it is seen to stand in each report or not: under a roof it is not, and held no longer.
     """
-    stays = is_heard(known) and known.stop == report.stop
+    was_there = known.arrived_ms > known.since_ms and known.stop == report.stop
     return replace(
         known,
         leaves_at=larger(known.leaves_at, report.leaves_at),
         stop=report.stop,
         left=report.left,
         stands=report.stands,
-        arrived_ms=known.arrived_ms if stays else report.made_ms,
+        arrived_ms=known.arrived_ms if was_there else report.made_ms,
         told_ms=report.made_ms,
     )
 
@@ -186,8 +204,8 @@ def tells_a_departure(known: Known, report: Report) -> bool:
 # ---- one tram beside another
 
 
-def is_heard(known: Known) -> bool:
-    """Tell whether a tram has told something on this run (G2)."""
+def has_begun(known: Known) -> bool:
+    """Tell whether a tram's unit has told, since the tram was confirmed, of a stop that it had not left (G2, ours)."""
     return known.told_ms > known.since_ms
 
 

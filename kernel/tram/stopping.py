@@ -2,9 +2,9 @@
 
 What the unit tells is the stop that it reached last, and whether it has left it.  Neither goes back: GPS
 errs to both sides, trams run one way.  So no tram that stands seems to run, and none falls behind one that
-it is ahead of.  A driver may have set another way than his tram is on: until it was seen to run over a stop of the
-way that is set it tells of none there that it has left, and if it is seen before a stop that it has reached there it
-begins anew (ours).
+it is ahead of.  A driver may have set another way than his tram is on, or left it set where he turned off: until it
+was seen to run over a stop of the way that is set, and since it had no place anew, it tells of none there that it
+leaves, and if it is seen before a stop that it has reached there it begins anew (ours).
 Places are those of map matching, in mm along the line; reckoned in 64 bits to 2**61.
 """
 
@@ -47,7 +47,7 @@ class Stopping:
 
     ``stop``: the stop that it reached last.  ``left``: it has left that one.  ``stands``: it stands there.
     ``is_followed``: its last fix had a place; ``least_mm``: the least place since a fix had none, or since the start.
-    ``has_run``: since its start it was seen at a stop, or before it, and then beyond (ours).
+    ``has_run``: since then, too, it was seen at a stop, or before it, and then beyond (ours).
     """
 
     stop: int
@@ -83,7 +83,7 @@ def followed(stopping: Stopping, fix: Fix) -> Stopping:
     Without a place it may come round to another part of a way that it is not on, so what was seen before is forgotten.
     """
     if not fix.is_placed:
-        return replace(stopping, is_followed=False)
+        return replace(stopping, is_followed=False, has_run=False)
     least_mm = smaller(stopping.least_mm, fix.place_mm) if stopping.is_followed else fix.place_mm
     return replace(stopping, is_followed=True, least_mm=least_mm)
 
@@ -133,7 +133,7 @@ def note_fix(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int,
 def passing(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int, fix: Fix) -> Stopping:
     """Take a fix of a tram that runs: behind a stop it has left that one, even if it never stood there (G2, G5)."""
     if is_beyond(limits, next_mm, fix):
-        return leaving(limits, replace(stopping, stop=stopping.stop + 1), next_mm, fix)
+        return leaving(limits, replace(stopping, stop=stopping.stop + 1, left=False), next_mm, fix)
     return leaving(limits, stopping, here_mm, fix)
 
 

@@ -76,6 +76,7 @@ HOLD, LIFT = 1, 3
 """Members of ``Hand`` in compiled code."""
 Report, Order, View = MADE.dispatching.Report, MADE.dispatching.Order, MADE.dispatching.View
 mark, counts, reported = MADE.dispatching.mark, MADE.dispatching.counts, MADE.dispatching.reported
+begins, begun = MADE.dispatching.begins, MADE.dispatching.begun
 stop_left, tells_a_departure = MADE.dispatching.stop_left, MADE.dispatching.tells_a_departure
 has_passed, is_seen_in_the_way = MADE.dispatching.has_passed, MADE.dispatching.is_seen_in_the_way
 may_recover_over, is_known_since = MADE.dispatching.may_recover_over, MADE.dispatching.is_known_since
@@ -159,6 +160,8 @@ def hear_report(traffic: Traffic, tram: int, report: Any, now_ms: int) -> None:
     known = known_of(body)
     if body[K_IS] == 0 or not counts(now_ms, known, report):
         traffic.row[tally.REPORTS_REFUSED] += 1
+        if body[K_IS] == 1 and begins(now_ms, known, report):
+            keep_known(body, begun(known, report))
         return
     if tells_a_departure(known, report):
         traffic.left_ms[tram, stop_left(report)] = report.made_ms

@@ -68,13 +68,18 @@ class Traffic:
     """One moment: GPS time, every tram on the way, what the centre knows, every message ever sent, and the last order.
 
     ``runs``: for each tram a run that was confirmed, until it comes.
-    ``told``, ``told_beside``: what trams have told of the way while they were on it, and while they were not.
+    ``gone_at``: of those that have left the way, where they were when they did.
+    ``unset``: trams that were confirmed, and of whose units nothing shows yet that they tell no more of a run before.
+    ``told``: what trams have told of the way while they were on it, and of the same run after that.
+    ``told_beside``: what they have told of it while they were not, and of a run before.
     ``told_elsewhere``: when they have told from elsewhere that they were away.
     """
 
     now_ms: int
     bodies: Map[Tram, Body]
     runs: Map[Tram, Run]
+    gone_at: Map[Tram, int]
+    unset: frozenset[Tram]
     centre: Centre
     told: frozenset[tuple[Tram, Report]]
     told_beside: frozenset[tuple[Tram, Report]]
@@ -190,8 +195,23 @@ def a_report_tells_where_it_is(system: Traffic, tram: Tram, report: Report) -> b
 
 
 def beside_the_way_no_stop_is_left(system: Traffic, tram: Tram, report: Report) -> bool:
-    """A tram that is not on the way, but set to it, tells of no stop of it that it has left, at the time that it is."""
+    """A tram that is not on the way, but set to it, tells of no stop of it that it leaves, at the time that it is."""
     return tram not in system.bodies and report.made_ms == system.now_ms and not report.left
+
+
+def what_it_left_it_had_left(system: Traffic, tram: Tram, report: Report) -> bool:
+    """Who has turned off the way may go on to tell that it has left a stop of it, one that it had truly left (G2)."""
+    return (
+        tram in system.gone_at
+        and report.made_ms == system.now_ms
+        and report.left
+        and mark(report.stop, True) <= system.gone_at[tram]
+    )
+
+
+def of_a_run_before_it_tells_that_it_left(system: Traffic, tram: Tram, report: Report) -> bool:
+    """A unit that is not set anew between two runs tells of the one before, and no more once it was seen at a stop."""
+    return tram in system.unset and report.made_ms == system.now_ms and report.left
 
 
 def only_who_is_elsewhere_tells_so(system: Traffic, tram: Tram) -> bool:
@@ -246,9 +266,13 @@ def pass_time(site: Way, system: Traffic, elapsed_ms: int) -> Traffic:
 def take_up(site: Way, system: Traffic, tram: Tram, stop: int, leaves_at: int) -> Traffic:
     """Ask the centre to confirm a tram that is to come, whoever asks, and wherever it is (ours)."""
     is_confirmed = machine.may_come(system.centre, tram, stop)
+    if not is_confirmed:
+        return replace(system, centre=machine.note_coming(system.centre, tram, stop, leaves_at))
     return replace(
         system,
-        runs=system.runs | {tram: Run(stop, system.now_ms)} if is_confirmed else system.runs,
+        runs=system.runs | {tram: Run(stop, system.now_ms)},
+        gone_at={other: at for other, at in system.gone_at.items() if other != tram},
+        unset=system.unset | {tram},
         centre=machine.note_coming(system.centre, tram, stop, leaves_at),
     )
 
@@ -299,10 +323,21 @@ def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int
 
 def leave(site: Way, system: Traffic, tram: Tram) -> Traffic:
     """A tram leaves the way, wherever it is: it turns off, turns back, is towed away."""
-    return replace(system, bodies={other: body for other, body in system.bodies.items() if other != tram})
+    if tram not in system.bodies:
+        return system
+    return replace(
+        system,
+        bodies={other: body for other, body in system.bodies.items() if other != tram},
+        gone_at=system.gone_at | {tram: place(system.bodies[tram])},
+    )
 
 
 # ---- what is told
+
+
+def still_unset(system: Traffic, tram: Tram, report: Report) -> frozenset[Tram]:
+    """Give of whose units nothing shows that they have begun, after one has told something."""
+    return system.unset if report.left else frozenset(other for other in system.unset if other != tram)
 
 
 def take_place(site: Way, system: Traffic, tram: Tram, is_located: bool, told_stop: int, stands: bool) -> Traffic:
@@ -326,14 +361,28 @@ def tell(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
     """A tram makes a report, which may come at any time, again and again (G3)."""
     if not a_report_tells_where_it_is(system, tram, report):
         return system
+    return replace(system, told=system.told | {(tram, report)}, unset=still_unset(system, tram, report))
+
+
+def tell_after_leaving(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
+    """A tram that has left the way goes on to tell of it, until it is confirmed anew (G2)."""
+    if not what_it_left_it_had_left(system, tram, report):
+        return system
     return replace(system, told=system.told | {(tram, report)})
+
+
+def tell_of_the_run_before(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
+    """A tram that was confirmed tells of a run before that, on the way or not: nobody has set its unit anew (G2)."""
+    if not of_a_run_before_it_tells_that_it_left(system, tram, report):
+        return system
+    return replace(system, told_beside=system.told_beside | {(tram, report)})
 
 
 def tell_beside(site: Way, system: Traffic, tram: Tram, report: Report) -> Traffic:
     """A tram that is not on the way tells of it: its driver has set it too soon, or has left it so (G2)."""
     if not beside_the_way_no_stop_is_left(system, tram, report):
         return system
-    return replace(system, told_beside=system.told_beside | {(tram, report)})
+    return replace(system, told_beside=system.told_beside | {(tram, report)}, unset=still_unset(system, tram, report))
 
 
 def tell_elsewhere(site: Way, system: Traffic, tram: Tram) -> Traffic:

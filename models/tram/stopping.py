@@ -38,6 +38,9 @@ class Ride:
     ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
     ``stood_at_mm``: where it was when it began to stand.  ``wandered``: a fix made it run that still stood there.
     ``fell_back``: one put it farther back that was on the way that is set.
+    ``turned_mm``: where it turned off the way, if it is not on it.  ``was_lost``: since then it had a fix without a
+    place, or was set anew; ``has_begun``: and since that it has told that it had not left a stop.
+    ``is_unset``: it has come onto the way, and its unit still tells of a run before that it has left a stop.
     """
 
     at_mm: int
@@ -52,6 +55,10 @@ class Ride:
     stood_at_mm: int
     wandered: bool
     fell_back: bool
+    turned_mm: int
+    was_lost: bool
+    has_begun: bool
+    is_unset: bool
 
 
 def trams_do_not_run_backwards(system: Ride, way_mm: int) -> bool:
@@ -110,6 +117,9 @@ def restart(site: Street, system: Ride, at_mm: int, is_astray: bool, here: int, 
         next_mm=next_mm,
         stopping=machine.begun(here),
         has_place=False,
+        was_lost=True,
+        has_begun=True,
+        is_unset=False,
     )
 
 
@@ -130,10 +140,22 @@ def come_round(site: Street, system: Ride, at_mm: int) -> Ride:
 
 
 def turn_onto(site: Street, system: Ride) -> Ride:
-    """A tram comes onto the way that was set before it was there; its unit does not begin anew (G2)."""
-    if not it_begins_at_a_stop_that_it_has_come_to(site, system.at_mm, False, system.here_mm):
+    """A tram comes onto the way that was set before it was there; its unit does not begin anew (G2).
+
+    Or was not set since it turned off, wherever it comes back: it goes on to tell of the run before.
+    """
+    is_unset = system.is_astray and system.stopping.left
+    reached_mm = site.first_mm if is_unset else system.here_mm
+    if not it_begins_at_a_stop_that_it_has_come_to(site, system.at_mm, False, reached_mm):
         return system
-    return replace(system, is_astray=False)
+    return replace(system, is_astray=False, is_unset=system.is_unset or is_unset)
+
+
+def turn_off(site: Street, system: Ride) -> Ride:
+    """A tram turns off the way, and nobody sets another one (G2)."""
+    if system.is_astray:
+        return system
+    return replace(system, is_astray=True, turned_mm=system.at_mm, was_lost=False, has_begun=False)
 
 
 def take_fix(
@@ -153,11 +175,12 @@ def take_fix(
         return system
     before = system.stopping
     now = machine.note_fix(site.limits, before, here_mm, next_mm, fix)
-    has_come = now.stop > before.stop
     was_astray = fix.is_placed and fix.place_mm < system.here_mm - site.limits.held_mm
+    has_come = now.stop > before.stop and not was_astray
     stop_mm = site.first_mm if was_astray else system.here_mm
     is_still = before.stands and system.at_mm == system.stood_at_mm
     is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389
+    was_lost = system.was_lost or not fix.is_placed
     begins = now.stands and (has_come or not before.stands)
     return replace(
         system,
@@ -170,5 +193,8 @@ def take_fix(
         speed_mm_s=speed_mm_s,
         stood_at_mm=system.at_mm if begins else system.stood_at_mm,
         wandered=system.wandered or (is_still and is_told and not (now.stands and not has_come)),
-        fell_back=system.fell_back or (not system.is_astray and fell(before, now)),
+        fell_back=system.fell_back or (not system.is_astray and not system.is_unset and fell(before, now)),
+        was_lost=was_lost,
+        has_begun=system.has_begun or (was_lost and not now.left),
+        is_unset=system.is_unset and now.left and not has_come,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from kernel.tram.centre import Tram
 from kernel.tram.dispatching import Known, Report
-from models.tram.dispatching import Traffic, Way, mark
+from models.tram.dispatching import Traffic, Way, mark, place
 
 
 def is_under_way(known: Known) -> bool:
@@ -17,15 +17,104 @@ def is_of_this_run(system: Traffic, tram: Tram, made_ms: int) -> bool:
     return tram in system.centre.trams and made_ms > system.centre.trams[tram].since_ms
 
 
-def beside_the_way_no_stop_was_left(site: Way, system: Traffic) -> bool:
-    """Nobody has told beside the way that he has left a stop of it (G2)."""
-    return all(not report.left for _tram, report in system.told_beside)
+def who_has_turned_off_is_off_the_way(site: Way, system: Traffic) -> bool:
+    """Who goes on to tell of a run that has ended is not on the way, nor about to come (G2)."""
+    return all(tram not in system.bodies and tram not in system.runs for tram in system.gone_at)
+
+
+def what_is_not_known_is_beyond_where_such_a_tram_turned_off(site: Way, system: Traffic) -> bool:
+    """Where one that came at the first stop has turned off, trams that the centre does not know are farther on (G5)."""
+    return all(
+        tram not in system.centre.trams
+        or system.centre.trams[tram].comes_at != 0
+        or other in system.centre.trams
+        or place(stranger) >= at
+        for tram, at in system.gone_at.items()
+        for other, stranger in system.bodies.items()
+    )
+
+
+# ---- what is told of a run before
+
+
+def has_begun(known: Known) -> bool:
+    """Tell whether anything that a tram has told since it was confirmed has come to the centre."""
+    return known.told_ms > known.since_ms
+
+
+def of_who_is_not_set_nothing_was_heard(site: Way, system: Traffic) -> bool:
+    """As long as a unit may tell of a run before nothing of it was taken since its tram was confirmed (G2, ours)."""
+    return all(tram not in system.centre.trams or not has_begun(system.centre.trams[tram]) for tram in system.unset)
+
+
+def who_is_not_set_has_told_on_the_way_of_no_stop(site: Way, system: Traffic) -> bool:
+    """Nor has it told since then that it was at a stop which it had not left (G2, ours)."""
+    return all(
+        report.left or tram not in system.unset or not is_of_this_run(system, tram, report.made_ms)
+        for tram, report in system.told
+    )
+
+
+def who_is_not_set_has_told_beside_it_of_no_stop(site: Way, system: Traffic) -> bool:
+    """Neither on the way nor beside it (G2, ours)."""
+    return all(
+        report.left or tram not in system.unset or not is_of_this_run(system, tram, report.made_ms)
+        for tram, report in system.told_beside
+    )
+
+
+def of_the_run_before_it_told_before_it_began(site: Way, system: Traffic) -> bool:
+    """What a unit told of the run before it told no later than that it was at a stop of this one (G2, ours)."""
+    return all(
+        report.left
+        or not before.left
+        or not is_of_this_run(system, tram, before.made_ms)
+        or not is_of_this_run(system, tram, report.made_ms)
+        or before.made_ms <= report.made_ms
+        for tram, report in system.told
+        for other, before in system.told_beside
+        if other == tram
+    )
+
+
+def of_the_run_before_it_told_before_it_began_beside_the_way(site: Way, system: Traffic) -> bool:
+    """And so if it told that beside the way (G2, ours)."""
+    return all(
+        report.left
+        or not before.left
+        or not is_of_this_run(system, tram, before.made_ms)
+        or not is_of_this_run(system, tram, report.made_ms)
+        or before.made_ms <= report.made_ms
+        for tram, report in system.told_beside
+        for other, before in system.told_beside
+        if other == tram
+    )
+
+
+def what_was_told_of_the_run_before_counts_no_more(site: Way, system: Traffic) -> bool:
+    """Once anything was taken it is newer than all that the unit has told of the run before (G2, ours)."""
+    return all(
+        not before.left
+        or not is_of_this_run(system, tram, before.made_ms)
+        or not has_begun(system.centre.trams[tram])
+        or before.made_ms <= system.centre.trams[tram].told_ms
+        for tram, before in system.told_beside
+    )
+
+
+def who_is_under_way_has_begun(site: Way, system: Traffic) -> bool:
+    """That a stop was left is taken of no tram of which nothing else was (G2, ours)."""
+    return all(not is_under_way(known) or has_begun(known) for _tram, known in system.centre.trams.items())
+
+
+# ---- what is told beside the way
 
 
 def what_was_told_beside_is_older(site: Way, system: Traffic) -> bool:
-    """Who is on the way has told beside it no later than on it (G2, ours)."""
+    """Who is on the way has told beside it that it is at a stop no later than on it anything (G2, ours)."""
     return all(
-        tram not in system.centre.trams
+        beside.left
+        or tram not in system.centre.trams
         or tram not in system.bodies
         or report.made_ms <= system.centre.trams[tram].since_ms
         or beside.made_ms <= report.made_ms
@@ -46,9 +135,9 @@ def what_was_told_beside_is_older_than_what_counts(site: Way, system: Traffic) -
     )
 
 
-def was_beyond(place: int, told_ms: int, report: Report) -> bool:
+def was_beyond(at: int, told_ms: int, report: Report) -> bool:
     """Tell whether one that told of a place was beyond the stop of a report before that was made (G2)."""
-    return place > mark(report.stop, False) and told_ms < report.made_ms
+    return at > mark(report.stop, False) and told_ms < report.made_ms
 
 
 def is_behind(system: Traffic, behind: Tram, ahead: Tram) -> bool:
@@ -60,7 +149,8 @@ def is_behind(system: Traffic, behind: Tram, ahead: Tram) -> bool:
 def who_told_from_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic) -> bool:
     """So is who told that of one that told beside the way that it stood at the stop where it then came (G2, ours)."""
     return all(
-        not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
+        report.left
+        or not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
         or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
         or report.stop < system.centre.trams[behind].comes_at
         or is_behind(system, behind, ahead)
@@ -72,7 +162,8 @@ def who_told_from_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic)
 def who_was_heard_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic) -> bool:
     """And so is one that was heard from beyond before that (G2, ours)."""
     return all(
-        not is_of_this_run(system, behind, report.made_ms)
+        report.left
+        or not is_of_this_run(system, behind, report.made_ms)
         or report.stop < system.centre.trams[behind].comes_at
         or not is_under_way(known)
         or not was_beyond(mark(known.stop, known.left), known.told_ms, report)

@@ -5,17 +5,27 @@ Neither the timetable's order nor a destination is trusted, and the centre start
 
 from __future__ import annotations
 
+from kernel.tram.centre import Tram
+from kernel.tram.dispatching import Known, Report
 from models.tram import dispatching as world
 from models.tram.dispatching import Body, Traffic, Way, mark, may_still_come, place
 from proofs.theory import Theory, by_name
 from proofs.tram.beside import (
-    beside_the_way_no_stop_was_left,
     is_behind,
     is_of_this_run,
     is_under_way,
+    of_the_run_before_it_told_before_it_began,
+    of_the_run_before_it_told_before_it_began_beside_the_way,
+    of_who_is_not_set_nothing_was_heard,
     was_beyond,
+    what_is_not_known_is_beyond_where_such_a_tram_turned_off,
     what_was_told_beside_is_older,
     what_was_told_beside_is_older_than_what_counts,
+    what_was_told_of_the_run_before_counts_no_more,
+    who_has_turned_off_is_off_the_way,
+    who_is_not_set_has_told_beside_it_of_no_stop,
+    who_is_not_set_has_told_on_the_way_of_no_stop,
+    who_is_under_way_has_begun,
     who_told_from_beyond_is_ahead_of_who_told_beside,
     who_was_heard_beyond_is_ahead_of_who_told_beside,
 )
@@ -39,6 +49,8 @@ def nothing_is_known_yet(site: Way, system: Traffic) -> bool:
         and system.centre.opens_ms == system.now_ms + site.limits.coming_ms
         and system.centre.cleared == -1
         and all(False for _tram in system.runs)
+        and all(False for _tram in system.gone_at)
+        and all(False for _tram in system.unset)
         and all(False for _tram in system.centre.trams)
         and all(False for _pair in system.centre.left_ms)
         and all(False for _pair in system.centre.shown)
@@ -117,6 +129,24 @@ def no_order_outlives_its_time(site: Way, system: Traffic) -> bool:
         not (body.display.stands and (body.display.holds or body.display.recovers))
         or system.now_ms - body.display.made_ms <= site.limits.order_ms
         for _tram, body in system.bodies.items()
+    )
+
+
+def has_told_that_it_stands(told: frozenset[tuple[Tram, Report]], tram: Tram, known: Known) -> bool:
+    """Tell whether a tram has told, when it told last, that it stands where it is known to be (G3)."""
+    return any(
+        other == tram and report.made_ms == known.told_ms and report.stands and report.stop == known.stop
+        for other, report in told
+    )
+
+
+def who_is_known_to_stand_has_told_so(site: Way, system: Traffic) -> bool:
+    """With no order by guess: that a tram stands is known by what it told last, and of the stop where it is (G3)."""
+    return all(
+        not known.stands
+        or has_told_that_it_stands(system.told, tram, known)
+        or has_told_that_it_stands(system.told_beside, tram, known)
+        for tram, known in system.centre.trams.items()
     )
 
 
@@ -370,6 +400,7 @@ SAFETY = (
     unknown_means_no_command,
     recovery_ends_at_the_next_stop,
     no_order_outlives_its_time,
+    who_is_known_to_stand_has_told_so,
     only_who_stands_is_held,
     the_order_shown_is_the_order_on_the_track,
     none_is_taken_up_anew_while_on_the_way,
@@ -383,7 +414,15 @@ INVARIANTS = (
     trams_are_known_no_farther_on_than_they_are,
     reports_of_this_run_were_true,
     who_is_to_come_has_told_nothing,
-    beside_the_way_no_stop_was_left,
+    who_has_turned_off_is_off_the_way,
+    what_is_not_known_is_beyond_where_such_a_tram_turned_off,
+    of_who_is_not_set_nothing_was_heard,
+    who_is_not_set_has_told_on_the_way_of_no_stop,
+    who_is_not_set_has_told_beside_it_of_no_stop,
+    of_the_run_before_it_told_before_it_began,
+    of_the_run_before_it_told_before_it_began_beside_the_way,
+    what_was_told_of_the_run_before_counts_no_more,
+    who_is_under_way_has_begun,
     what_was_told_beside_is_older,
     what_was_told_beside_is_older_than_what_counts,
     no_run_goes_back,
@@ -418,6 +457,8 @@ STEPS = (
     world.take_place,
     world.restart_unit,
     world.tell,
+    world.tell_after_leaving,
+    world.tell_of_the_run_before,
     world.tell_beside,
     world.tell_elsewhere,
     world.hear_report,

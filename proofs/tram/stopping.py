@@ -10,6 +10,7 @@ from models.tram.stopping import (
     restart,
     run_on,
     take_fix,
+    turn_off,
     turn_onto,
 )
 from proofs.theory import Theory, by_name
@@ -29,6 +30,9 @@ def it_begins_at_a_stop(site: Street, system: Ride) -> bool:
         and system.stopping.stop == system.here
         and not system.wandered
         and not system.fell_back
+        and not system.is_unset
+        and system.was_lost
+        and system.has_begun
     )
 
 
@@ -49,7 +53,7 @@ def who_stands_was_slow(site: Street, system: Ride) -> bool:
 
 def what_was_reached_was_reached(site: Street, system: Ride) -> bool:
     """On the way that is set the tram is at the stop that it is said to have reached, or farther on (G2)."""
-    return system.is_astray or system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
+    return system.is_astray or system.is_unset or system.at_mm >= system.here_mm - site.limits.near_mm - site.error_mm
 
 
 def stops_are_counted_one_by_one(site: Street, system: Ride) -> bool:
@@ -59,12 +63,22 @@ def stops_are_counted_one_by_one(site: Street, system: Ride) -> bool:
 
 def what_was_left_is_behind(site: Street, system: Ride) -> bool:
     """The tram is beyond the stop that it is said to have left, on the line itself and not by its fixes (G2, G5)."""
-    return not system.stopping.left or system.at_mm > system.here_mm
+    return not system.stopping.left or system.is_astray or system.is_unset or system.at_mm > system.here_mm
 
 
-def who_has_left_a_stop_is_on_the_way(site: Street, system: Ride) -> bool:
-    """A tram on another way than its driver has set tells of none there that it has left (G3, G5, ours)."""
-    return not (system.stopping.left and system.is_astray)
+def beside_the_way_only_what_was_left_on_it_is_told(site: Street, system: Ride) -> bool:
+    """A tram beside the way tells of a stop that it has left only if it was beyond it where it turned off (G2)."""
+    return not (system.stopping.left and system.is_astray) or system.is_unset or (system.turned_mm > system.here_mm)
+
+
+def who_has_begun_leaves_no_stop_beside_the_way(site: Street, system: Ride) -> bool:
+    """One that was set anew there, or lost its place and then told of a stop, tells of none that it left (G3, G5)."""
+    return not (system.stopping.left and system.is_astray and system.has_begun)
+
+
+def who_tells_of_a_run_before_has_left_a_stop(site: Street, system: Ride) -> bool:
+    """On the way a unit that was not set anew tells of the run before only that it has left a stop (G2, ours)."""
+    return not system.is_unset or system.stopping.left
 
 
 def a_standing_tram_never_seems_to_run(site: Street, system: Ride) -> bool:
@@ -77,10 +91,10 @@ def no_tram_falls_back(site: Street, system: Ride) -> bool:
     return not system.fell_back
 
 
-def beside_another_way_none_is_told_far_beyond(site: Street, system: Ride) -> bool:
-    """Nor is one on another way told to have reached a stop beyond where it was seen, but for errors (G2, ours)."""
+def none_is_told_far_beyond(site: Street, system: Ride) -> bool:
+    """On the way or beside it no tram is told to have reached a stop beyond where it was seen, but for errors (G2)."""
     return (
-        not (system.is_astray and system.has_place)
+        not system.has_place
         or system.stopping.stop == 0
         or system.fixed_at_mm >= system.here_mm - site.limits.held_mm - site.error_mm
     )
@@ -96,14 +110,14 @@ def it_began_to_stand_near_the_stop(site: Street, system: Ride) -> bool:
     )
 
 
-def who_was_seen_to_run_is_on_the_way(site: Street, system: Ride) -> bool:
-    """No tram on another way than is set is seen to run over a stop of that one (G2)."""
-    return not (system.stopping.has_run and system.is_astray)
+def who_was_seen_to_run_has_not_lost_the_way(site: Street, system: Ride) -> bool:
+    """No tram on another way than is set is seen to run over a stop of that one, once it had no place there (G2)."""
+    return not (system.stopping.has_run and system.is_astray and system.was_lost)
 
 
 def who_is_astray_was_seen_no_farther_back(site: Street, system: Ride) -> bool:
     """Beside a way that it is not on a tram was seen, since its last fix without a place, no farther back (G2)."""
-    return not (system.is_astray and system.stopping.is_followed) or (
+    return not (system.is_astray and system.was_lost and system.stopping.is_followed) or (
         system.stopping.least_mm >= system.at_mm - site.error_mm
     )
 
@@ -113,6 +127,23 @@ def the_unit_knows_whether_it_has_had_a_place(site: Street, system: Ride) -> boo
     return system.stopping.is_followed == system.has_place
 
 
+def who_has_turned_off_was_no_farther_on(site: Street, system: Ride) -> bool:
+    """Until it has no place a tram that has turned off is no farther along the way than where it did (G2)."""
+    return not system.is_astray or system.was_lost or system.at_mm <= system.turned_mm
+
+
+def who_has_begun_has_lost_the_way(site: Street, system: Ride) -> bool:
+    """Beside the way a unit has begun only since it had no place, or was set (G2)."""
+    return system.was_lost or not system.has_begun
+
+
+def a_way_is_not_run_before_its_first_stop(site: Street, system: Ride) -> bool:
+    """Nor by a tram whose unit is not set anew (G2)."""
+    return (
+        not system.is_unset or system.is_astray or system.at_mm >= site.first_mm - site.limits.near_mm - site.error_mm
+    )
+
+
 INITIAL = (it_begins_at_a_stop,)
 SAFETY = (
     who_stands_is_at_that_stop,
@@ -120,19 +151,24 @@ SAFETY = (
     what_was_reached_was_reached,
     stops_are_counted_one_by_one,
     what_was_left_is_behind,
-    who_has_left_a_stop_is_on_the_way,
+    beside_the_way_only_what_was_left_on_it_is_told,
+    who_has_begun_leaves_no_stop_beside_the_way,
+    who_tells_of_a_run_before_has_left_a_stop,
     a_standing_tram_never_seems_to_run,
     no_tram_falls_back,
-    beside_another_way_none_is_told_far_beyond,
+    none_is_told_far_beyond,
 )
 INVARIANTS = (
     *SAFETY,
     it_began_to_stand_near_the_stop,
-    who_was_seen_to_run_is_on_the_way,
+    who_was_seen_to_run_has_not_lost_the_way,
+    who_has_turned_off_was_no_farther_on,
+    who_has_begun_has_lost_the_way,
+    a_way_is_not_run_before_its_first_stop,
     who_is_astray_was_seen_no_farther_back,
     the_unit_knows_whether_it_has_had_a_place,
 )
-STEPS = (run_on, come_round, turn_onto, take_fix, restart)
+STEPS = (run_on, come_round, turn_onto, turn_off, take_fix, restart)
 
 THEORY = Theory(
     "stopping",

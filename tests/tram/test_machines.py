@@ -269,7 +269,7 @@ def test_in_drawn_days_every_invariant_holds_and_orders_are_given() -> None:
     recovered = held = 0
     for seed in range(25):
         drawn = Drawn(seed)
-        for _ in range(250):
+        for _ in range(300):
             drawn.act()
         recovered += drawn.recovered
         held += drawn.held

@@ -21,6 +21,7 @@ from kernel.tram import display as on_board
 from kernel.tram.centre import Centre, Command, Tram
 from kernel.tram.cycle import Answer, CycleLimits, Heard
 from kernel.tram.dispatching import DispatchLimits, Hand, Report, mark
+from kernel.tram.map_matching import Point
 from tests.tram.street import (
     APART_MM,
     FAST_MM_S,
@@ -42,14 +43,16 @@ LIMITS = DispatchLimits(60_000, 400_000, 90_000, 100_000, 11_000, 18_000, 120_00
 CYCLE = CycleLimits(request_ms=800, slot_ms=800, answer_ms=300)
 JOINS = LAST - JUNCTION
 EACH_S, FIX_S = 7, 3
+FAR_AWAY = Point(-(10**9), -(10**9))
 APPROACH_MM = 60_000
 """So far before a stop a tram waits, and from there comes to it: nearer its unit may tell that it stands there."""
 
-ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways", "early")
+ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways", "early", "kept")
 """Units start anew under way; the centre of each way does, several times; another car runs under the number of one that
 was taken off; doors jam, and trams bunch; cycles and answers come early and late, and another tram answers; drivers set
 the way in the other direction where a unit starts, until they notice, and leave what is set when they turn, as it was
-or as it is to be; a tram is confirmed for the way back while it is on this one, and its driver sets that at once."""
+or as it is to be; a tram is confirmed for the way back while it is on this one, and its driver sets that at once; one
+turns off, is taken off by a person and comes back to the same way, and nobody sets its unit anew."""
 BEYOND = ("runs_along", "fixes_beyond", "taken_off_on_the_way", "begins_ahead")
 """Each breaks an assumption: ``test_an_assumption_that_is_broken_matters`` says which, and that it matters."""
 
@@ -61,6 +64,7 @@ class Car:
     ``at``: its mark, since ``since_s``; ``until_s``: until then it stays at it.  ``place_mm``: along its way; it stands
     ``offset_mm`` beyond its stop.  ``comes_at``: where it wants to come, from ``due_s`` on.  ``asked_s``: when the
     station asks it; ``heard``: what that has, of ``made_s``.  ``noticed_s``: when its driver notices a wrong setting.
+    ``is_kept``: its unit still tells of the run before.
     """
 
     name: Tram
@@ -79,6 +83,7 @@ class Car:
     asked_s: int = 0
     made_s: int = 0
     noticed_s: int = 0
+    is_kept: bool = False
     heard: Heard = field(default_factory=lambda: cycle.nothing_heard(0))
     unit: Unit = field(default_factory=Unit)
 
@@ -92,7 +97,8 @@ class World:
     """Two ways, each a centre's view and the trams on it, the first one in front.
 
     ``apart`` draws clocks that are ahead, whom the centre is asked for anew, the street and its fixes, and ``days``:
-    the rest is drawn as without.  ``settings`` draws what drivers set wrong, ``early`` who is confirmed too soon.
+    the rest is drawn as without.  ``settings`` draws what drivers set wrong, ``early`` who is confirmed too soon,
+    ``back`` who comes back to the way that he has left.
     ``restarts``: when the centre of which way starts anew.  ``happened`` and ``broken`` count what came about, and what
     must not.
     """
@@ -101,6 +107,7 @@ class World:
     apart: Random
     settings: Random
     early: Random
+    back: Random
     days: frozenset[str] = frozenset()
     lost: float = 0.1
     late_s: int = 300
@@ -149,11 +156,14 @@ class World:
         jitters = "jitter" in self.days
         car.asked_s += EACH_S + (self.apart.choice((-1, 0, 0, 1, 2)) if jitters else 0)
         car.heard = cycle.note_cycle(car.heard)
-        if car.way < 0 or car.unit.fixed_s is None:
-            if car.way < 0:
+        is_away = car.way < 0 and not car.is_kept
+        if is_away or car.unit.fixed_s is None:
+            if is_away:
                 self.tell_elsewhere(car)
             return
-        answers = self.apart.choice(self.lines[car.way]) if self.comes_about("jitter", 20) else car
+        answers = car
+        if car.way >= 0 and self.comes_about("jitter", 20):
+            answers = self.apart.choice(self.lines[car.way])
         if answers.unit.fixed_s is None:
             return
         late_ms = self.apart.choice((0, 100, 500, 600)) if jitters else 0
@@ -216,8 +226,9 @@ class World:
             holds, recovers = car.unit.display.holds, car.unit.display.recovers
             if self.now_s < car.until_s or (holds and self.chance.random() < 0.9):
                 continue
-            if car.at >= 2 * car.leaves_at:
-                self.leave(car)
+            turns_off = "kept" in self.days and not car.stands and self.back.random() < 0.04
+            if turns_off or car.at >= 2 * car.leaves_at:
+                self.leave(car, turns_off)
             elif car.at + 1 <= ahead_at:
                 car.at, car.since_s = car.at + 1, self.now_s
                 shortest_s, longest_s = (10, 60) if car.stands else (30, 40) if recovers else (60, 110)
@@ -268,16 +279,30 @@ class World:
         if unit.chosen != car.way:
             self.happened["fixes of another way"] += 1
             return
+        car.is_kept = car.is_kept and unit.stopping.left
+        if car.is_kept:
+            self.happened["fixes of who tells of the run before"] += 1
+            return
         told = mark(unit.stopping.stop, unit.stopping.left)
         self.broken["place"] += unit.place_mm is not None and abs(unit.place_mm - car.place_mm) > MATCH.most_mm
         self.broken["told too soon"] += told > car.at or (unit.stopping.stands and told < car.at)
 
-    def leave(self, car: Car) -> None:
-        """Turn, or turn off at the junction."""
+    def leave(self, car: Car, turns_off: bool) -> None:
+        """Turn, or turn off: at the junction to the other line, or between two stops, to come back to the same way."""
         self.lines[car.way].remove(car)
         is_other_line = car.way == 0 and car.leaves_at == JUNCTION
-        car.onto, car.comes_at, car.way = 1 - car.way, JOINS if is_other_line else 0, -1
-        car.due_s = self.now_s + self.chance.randrange(400 if is_other_line else 200)
+        away_s = self.chance.randrange(400 if is_other_line else 200)
+        car.is_kept = turns_off and car.unit.chosen == car.way
+        if turns_off:
+            car.onto, car.comes_at, away_s = car.way, 0, 30 + self.back.randrange(100)
+        else:
+            car.onto, car.comes_at = 1 - car.way, JOINS if is_other_line else 0
+        car.way, car.due_s = -1, self.now_s + away_s
+
+    def fix_away(self, car: Car) -> None:
+        """Take a fix on board of a tram that has turned off: it is nowhere near the way that is set."""
+        note(car.unit, self.tables[car.unit.chosen], FAR_AWAY, FAST_MM_S, self.now_s)
+        self.happened["told of a run that has ended"] += car.unit.stopping.left
 
     def come(self, car: Car) -> None:
         """Ask to come, when it is time; come when confirmed; ask anew, by a person, when that has lapsed."""
@@ -300,7 +325,7 @@ class World:
         car.way, car.at, car.confirmed_s = car.onto, 2 * car.comes_at, -(10**6)
         car.since_s, car.until_s, car.place_mm, car.offset_mm = self.now_s, self.now_s + 20, 0, 3_000
         car.leaves_at = JUNCTION if car.way == 0 and self.chance.random() < 0.4 else LAST
-        was_set = car.unit.chosen == car.way and bool(self.days & {"ways", "early"})
+        was_set = car.unit.chosen == car.way and (car.is_kept or bool(self.days & {"ways", "early"}))
         self.happened["ways set too soon"] += was_set
         if was_set or (car.unit.chosen >= 0 and self.is_set_wrong(car, 0.2)):
             self.happened["ways left as they were"] += 1
@@ -376,6 +401,10 @@ class World:
         together = any(sum(abs(car.at - other.at) <= 2 for other in line) >= 3 for car in line)
         self.happened["seconds bunched"] += together
 
+    def takes_a_fix(self, car: Car) -> bool:
+        """Tell whether a unit takes a fix in this second."""
+        return (self.now_s + int(car.name)) % FIX_S == 0 and self.now_s >= car.unit.starts_s
+
     # ---- a second
 
     def second(self) -> None:
@@ -388,13 +417,15 @@ class World:
             if self.now_s >= car.asked_s:
                 self.ask(car)
             if car.way < 0:
+                if car.is_kept and self.takes_a_fix(car):
+                    self.fix_away(car)
                 self.come(car)
         for way, line in enumerate(self.lines):
             self.run(way)
             for place, car in enumerate(line):
                 self.move(car, line[place - 1] if place > 0 else None)
                 self.set_right(car)
-                if (self.now_s + int(car.name)) % FIX_S == 0 and self.now_s >= car.unit.starts_s:
+                if self.takes_a_fix(car):
                     self.fix(car)
             self.ask_anew(way)
             self.now_and_then(way)
@@ -424,11 +455,11 @@ class World:
 
 def random_world(number: int, days: frozenset[str] | None = None) -> World:
     """Draw a world and live an hour of it; without ``days`` they are drawn too, each of them in most worlds."""
-    chance, apart, settings, early = (Random(source * 10**6 + number) for source in range(4))
+    chance, apart, settings, early, back = (Random(source * 10**6 + number) for source in range(5))
     lost, late_s = chance.choice((0.0, 0.1, 0.4)), chance.choice((10, 100, 600))
-    by_day = {"ways": settings, "early": early}
+    by_day = {"ways": settings, "early": early, "kept": back}
     drawn = frozenset(day for day in ORDINARY if by_day.get(day, apart).random() < 0.7)
     restarts = {(apart.randrange(1_100, 4_500), way) for way in range(2) for _ in range(apart.randrange(5))}
-    world = World(chance, apart, settings, early, drawn if days is None else days, lost, late_s)
+    world = World(chance, apart, settings, early, back, drawn if days is None else days, lost, late_s)
     world.restarts = restarts if "centres" in world.days else set()
     return world.seconds(3_600, chance.choice((-1, chance.randrange(1_500, 3_500))))

@@ -43,14 +43,16 @@ class Day(Play[Way, Traffic]):
         nothing = frozenset[Any]()
         given = Given(holds=False, recovers=False, own_unknown=False, way_unknown=False)
         begun_centre = Centre(now_ms, now_ms + LIMITS.coming_ms, -1, {}, {}, nothing, {})
-        super().__init__(THEORY, SITE, Traffic(now_ms, {}, {}, begun_centre, nothing, nothing, nothing, nothing, given))
+        super().__init__(
+            THEORY, SITE, Traffic(now_ms, {}, {}, {}, nothing, begun_centre, nothing, nothing, nothing, nothing, given)
+        )
         if is_cleared:
             self.wait(LIMITS.coming_ms + 1)
             self.clear(EARLY)
 
     def clear(self, tram: Tram) -> None:
         """A tram runs over the way from its first stop, tells so, and leaves it."""
-        self.come(tram, 0, 0, tells=False)
+        self.come(tram, 0, 0)
         for _ in range(CLEARED):
             self.step("depart", tram=tram)
             self.step("arrive", tram=tram, noticed=True, told_stop=self.body(tram).stop + 1, stands=False)
@@ -126,7 +128,7 @@ class Day(Play[Way, Traffic]):
 
     def run_to(self, tram: Tram, rank: int, stop: int, leaves_at: int = TERMINUS, *, tells: bool = True) -> None:
         """A tram comes at the stop before that, tells that it leaves it, and arrives: it is known to be under way."""
-        self.come(tram, rank, stop - 1, leaves_at, tells=False)
+        self.come(tram, rank, stop - 1, leaves_at)
         self.depart(tram)
         self.arrive(tram, tells=tells)
 

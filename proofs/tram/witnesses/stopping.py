@@ -18,7 +18,9 @@ class Along(Play[Street, Ride]):
 
     def __init__(self, at_mm: int = 0) -> None:
         """Begin."""
-        first = Ride(at_mm, 0, 0, STOPS_MM[1], False, begun(0), False, at_mm, 0, at_mm, False, False)
+        first = Ride(
+            at_mm, 0, 0, STOPS_MM[1], False, begun(0), False, at_mm, 0, at_mm, False, False, 0, True, True, False
+        )
         super().__init__(THEORY, SITE, first)
 
     def restart(self, here: int, at_mm: int | None = None, *, is_astray: bool = False) -> None:
@@ -178,20 +180,68 @@ def after_a_start_a_stop_is_left_once_it_was_run_over() -> None:
         assert along.system.stopping.has_run == has_run
         along.run(1_221_000)
         assert along.fix(speed_mm_s=8_000) == (3, True, False)
-        along.fix(is_placed=False)
-        along.run(1_621_000)
-        assert along.fix(speed_mm_s=8_000) == (4, True, False)
-        along.run(2_000_000)
-        assert along.fix() == (5, False, True)
-        along.fix(is_placed=False)
-        along.run(2_100_000)
-        assert along.fix(speed_mm_s=8_000) == (5, True, False)
     along = Along(830_000)
     along.restart(2)
     assert along.fix(speed_mm_s=8_000) == (2, False, False)
     assert along.fix(-15_000, speed_mm_s=8_000) == (2, False, False)
     along.run(846_000)
     assert along.fix(speed_mm_s=8_000) == (2, True, False)
+
+
+def where_the_place_was_lost_a_stop_is_run_over_anew() -> None:
+    """What was left stays so; that a next one was left is told once it was run over where there is a place (G2, G5)."""
+    along = Along()
+    along.fix()
+    along.run(60_000)
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    assert along.fix(speed_mm_s=8_000, is_placed=False) == (0, True, False)
+    assert not along.system.stopping.has_run
+    along.run(421_000)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    along.run(821_000)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+
+
+def who_turns_off_leaves_no_more_of_the_way() -> None:
+    """It tells on what it had left; without a place, beside another stop, that is over, and nothing more is left."""
+    along = Along()
+    along.fix()
+    along.run(60_000)
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    along.step("turn_off")
+    assert (along.system.is_astray, along.system.turned_mm) == (True, 60_000)
+    before = along.system
+    assert along.step("turn_off") == before
+    assert along.fix(speed_mm_s=8_000) == (0, True, False)
+    assert along.fix(is_placed=False) == (0, True, False)
+    assert (along.system.was_lost, along.system.has_begun) == (True, False)
+    along.step("come_round", at_mm=430_000)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    assert along.system.has_begun
+    along.fix(is_placed=False)
+    along.step("come_round", at_mm=830_000)
+    assert along.fix(speed_mm_s=8_000) == (2, False, False)
+
+
+def who_comes_back_begins_by_its_fixes() -> None:
+    """A tram turned off and comes back where the way begins; its unit tells of the run before until it has a place."""
+    along = Along()
+    for to_mm in (0, 460_000):
+        along.run(to_mm)
+        along.fix(speed_mm_s=8_000)
+    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    along.step("turn_off")
+    along.fix(is_placed=False)
+    along.step("come_round", at_mm=-35_001)
+    before = along.system
+    assert along.step("turn_onto") == before
+    along.step("come_round", at_mm=-35_000)
+    unset = along.step("turn_onto")
+    assert (unset.is_astray, unset.is_unset) == (False, True)
+    assert along.fix(is_placed=False) == (1, True, False)
+    assert along.system.is_unset
+    assert along.fix() == (0, False, False)
+    assert (along.system.is_unset, along.system.fell_back) == (False, False)
 
 
 def who_runs_over_no_stop_leaves_none() -> None:
@@ -315,6 +365,9 @@ WITNESSES = (
     what_is_lost_is_not_made_up,
     a_unit_that_starts_anew_finds_its_stop_by_its_fixes,
     after_a_start_a_stop_is_left_once_it_was_run_over,
+    where_the_place_was_lost_a_stop_is_run_over_anew,
+    who_turns_off_leaves_no_more_of_the_way,
+    who_comes_back_begins_by_its_fixes,
     who_runs_over_no_stop_leaves_none,
     a_tram_set_to_another_way_leaves_no_stop_there,
     what_is_set_before_a_tram_turns_is_right_when_it_has_turned,

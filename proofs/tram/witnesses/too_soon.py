@@ -4,10 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.tram.dispatching import Hand, mark
+from kernel.tram.centre import Tram
+from kernel.tram.dispatching import Hand, Report, mark
 from kernel.tram.display import begun
 from models.tram.dispatching import Body
-from proofs.tram.witnesses.line import FIRST, HELD, LIMITS, NEITHER, RECOVERS, SECOND, THIRD, Day, two_stops_apart
+from proofs.tram.witnesses.line import (
+    CLEARED,
+    EARLY,
+    FIRST,
+    HELD,
+    LIMITS,
+    NEITHER,
+    RECOVERS,
+    SECOND,
+    TERMINUS,
+    THIRD,
+    Day,
+    two_stops_apart,
+)
 
 
 def with_a_stranger() -> Day:
@@ -26,9 +40,9 @@ def with_a_stranger() -> Day:
 def who_is_to_come_clears_no_way_beside_it() -> None:
     """Its driver sets the way at once, on the other one, beside a stop far on; a third comes at the first (G5)."""
     day = with_a_stranger()
-    before = day.system.centre
-    day.tell_beside(SECOND, 3, stands=False)
-    assert day.system.centre == before
+    known = day.known(SECOND)
+    told = day.tell_beside(SECOND, 3, stands=False)
+    assert day.known(SECOND) == replace(known, told_ms=told.made_ms)
     day.off(THIRD)
     assert day.confirm(THIRD, 0)
     day.begin(THIRD, 2)
@@ -49,8 +63,9 @@ def a_run_that_is_still_to_come_stays_confirmed() -> None:
     day.step("tell_elsewhere", tram=FIRST)
     before = day.system
     assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=before.now_ms) == before
-    day.tell_beside(FIRST, 3, stands=True)
-    assert day.system.centre == before.centre
+    known = day.known(FIRST)
+    told = day.tell_beside(FIRST, 3, stands=True)
+    assert day.known(FIRST) == replace(known, told_ms=told.made_ms)
     day.begin(FIRST, 1)
     day.depart(FIRST)
     assert (day.known(FIRST).stop, day.known(FIRST).left) == (0, True)
@@ -123,6 +138,107 @@ def who_has_left_the_way_clears_no_more_of_it() -> None:
     day.off(SECOND)
 
 
+def tells_of_the_run_before(day: Day, tram: Tram, stop: int) -> None:
+    """A tram whose unit nobody has set anew tells that it has left a stop, and nothing is taken from that."""
+    told = Report(stop, True, False, TERMINUS, day.system.now_ms)
+    day.step("tell_of_the_run_before", tram=tram, report=told)
+    before = day.system
+    assert (tram, told) in before.told_beside
+    assert day.step("hear_report", tram=tram, told=told) == before
+
+
+def what_is_told_of_the_run_before_does_not_count() -> None:
+    """It turned off and was taken off; its unit stays as it was, and tells so before it comes, and when it has (G2)."""
+    day = with_a_stranger()
+    for _ in range(2):
+        day.wait(1)
+        tells_of_the_run_before(day, SECOND, 5)
+    day.begin(SECOND, 2, tells=False)
+    tells_of_the_run_before(day, SECOND, 5)
+    day.tell(SECOND)
+    assert SECOND not in day.system.unset
+    late = Report(5, True, False, TERMINUS, day.system.now_ms)
+    before = day.system
+    assert day.step("tell_of_the_run_before", tram=SECOND, report=late) == before
+    day.depart(SECOND)
+    assert day.system.centre.cleared == mark(0, True)
+
+
+def what_was_told_of_the_run_before_comes_too_late() -> None:
+    """It was told before the first report of this run, and is heard after that (G2, G3)."""
+    day = with_a_stranger()
+    told = Report(5, True, False, TERMINUS, day.system.now_ms)
+    day.step("tell_of_the_run_before", tram=SECOND, report=told)
+    day.begin(SECOND, 2)
+    before = day.system
+    assert day.step("hear_report", tram=SECOND, told=told) == before
+
+
+def who_is_not_heard_where_it_comes_is_under_way_after_the_next_stop() -> None:
+    """Its reports from the first stop are lost; that it left that one counts not, that it left the next one does."""
+    day = Day()
+    day.come(FIRST, 1, 0, tells=False)
+    day.depart(FIRST, tells=False)
+    known = day.known(FIRST)
+    day.step("hear_report", tram=FIRST, told=day.report(FIRST))
+    assert day.known(FIRST) == known
+    day.wait(1)
+    day.arrive(FIRST, tells=False)
+    now_ms = day.system.now_ms
+    day.step("hear_report", tram=FIRST, told=day.report(FIRST))
+    assert day.known(FIRST) == replace(known, told_ms=now_ms)
+    day.wait(1)
+    day.depart(FIRST)
+    assert (day.known(FIRST).stop, day.known(FIRST).left) == (1, True)
+    assert day.system.centre.cleared == mark(CLEARED, True)
+
+
+def when_it_first_stood_there_is_of_its_stop() -> None:
+    """What it told beside another stop, of which nothing was taken, is no time of arrival where it comes (G4)."""
+    day = Day()
+    day.off(FIRST)
+    assert day.confirm(FIRST, 0)
+    day.wait(1)
+    day.tell_beside(FIRST, 3, stands=True)
+    day.wait(10)
+    day.begin(FIRST, 1)
+    assert day.known(FIRST).arrived_ms == day.known(FIRST).told_ms
+    arrived_ms = day.known(FIRST).arrived_ms
+    day.wait(10)
+    day.tell(FIRST)
+    assert day.known(FIRST).arrived_ms == arrived_ms
+
+
+def who_has_turned_off_may_go_on_to_tell_of_it() -> None:
+    """No more than it had left, at the time that it is, and until it is confirmed anew (G2)."""
+    day = Day()
+    day.come(FIRST, 1, 0)
+    day.depart(FIRST)
+    day.arrive(FIRST)
+    day.depart(FIRST, tells=False)
+    day.leave(FIRST)
+    assert day.system.gone_at == {FIRST: mark(1, True)} | {EARLY: mark(CLEARED, True)}
+    day.wait(1)
+    good = Report(1, True, False, TERMINUS, day.system.now_ms)
+    before = day.system
+    for bad in (replace(good, stop=2), replace(good, left=False), replace(good, made_ms=good.made_ms - 1)):
+        assert day.step("tell_after_leaving", tram=FIRST, report=bad) == before
+    assert day.step("tell_after_leaving", tram=SECOND, report=good) == before
+    assert day.step("leave", tram=FIRST) == before
+    day.step("tell_after_leaving", tram=FIRST, report=good)
+    day.step("hear_report", tram=FIRST, told=good)
+    assert (day.known(FIRST).stop, day.known(FIRST).left) == (1, True)
+    day.wait(1)
+    day.off(FIRST)
+    assert day.confirm(FIRST, 0)
+    assert FIRST not in day.system.gone_at
+    now_good = replace(good, made_ms=day.system.now_ms)
+    before = day.system
+    assert day.step("tell_after_leaving", tram=FIRST, report=now_good) == before
+    for bad in (replace(now_good, left=False), replace(now_good, made_ms=now_good.made_ms - 1)):
+        assert day.step("tell_of_the_run_before", tram=FIRST, report=bad) == before
+
+
 def what_is_not_told_beside_the_way() -> None:
     """That a stop was left, at another time than now, or of a tram that is on it (G2)."""
     day = two_stops_apart()
@@ -145,5 +261,10 @@ WITNESSES = (
     none_recovers_where_it_comes,
     who_comes_may_take_what_was_ordered_since_it_was_confirmed,
     who_has_left_the_way_clears_no_more_of_it,
+    what_is_told_of_the_run_before_does_not_count,
+    what_was_told_of_the_run_before_comes_too_late,
+    who_is_not_heard_where_it_comes_is_under_way_after_the_next_stop,
+    when_it_first_stood_there_is_of_its_stop,
+    who_has_turned_off_may_go_on_to_tell_of_it,
     what_is_not_told_beside_the_way,
 )
