@@ -323,12 +323,11 @@ def arrive(site: Way, system: Traffic, tram: Tram, noticed: bool, told_stop: int
 
 def leave(site: Way, system: Traffic, tram: Tram) -> Traffic:
     """A tram leaves the way, wherever it is: it turns off, turns back, is towed away."""
-    if tram not in system.bodies:
-        return system
+    bodies = system.bodies
     return replace(
         system,
-        bodies={other: body for other, body in system.bodies.items() if other != tram},
-        gone_at=system.gone_at | {tram: place(system.bodies[tram])},
+        bodies={other: body for other, body in bodies.items() if other != tram},
+        gone_at=system.gone_at | {tram: place(bodies[tram])} if tram in bodies else system.gone_at,
     )
 
 

@@ -153,9 +153,14 @@ def turn_onto(site: Street, system: Ride) -> Ride:
 
 def turn_off(site: Street, system: Ride) -> Ride:
     """A tram turns off the way, and nobody sets another one (G2)."""
-    if system.is_astray:
-        return system
-    return replace(system, is_astray=True, turned_mm=system.at_mm, was_lost=False, has_begun=False)
+    was_off = system.is_astray
+    return replace(
+        system,
+        is_astray=True,
+        turned_mm=system.turned_mm if was_off else system.at_mm,
+        was_lost=was_off and system.was_lost,
+        has_begun=was_off and system.has_begun,
+    )
 
 
 def take_fix(

@@ -65,7 +65,7 @@ def a_run_that_is_still_to_come_stays_confirmed() -> None:
     assert day.step("hear_elsewhere", tram=FIRST, is_away=True, made_ms=before.now_ms) == before
     known = day.known(FIRST)
     told = day.tell_beside(FIRST, 3, stands=True)
-    assert day.known(FIRST) == replace(known, told_ms=told.made_ms)
+    assert day.known(FIRST) == replace(known, told_ms=told.made_ms, stands=False)
     day.begin(FIRST, 1)
     day.depart(FIRST)
     assert (day.known(FIRST).stop, day.known(FIRST).left) == (0, True)
