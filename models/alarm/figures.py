@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from kernel.alarm.extents import End, Extent, Line
 from kernel.alarm.least_ways import Equation, Join
-from kernel.alarm.network import Connection, Way
+from kernel.alarm.network import Connection, Opening, Way
 from kernel.alarm.sections import NoUse, Section
 from kernel.alarm.tone import Register
 from kernel.maps import Map
 from models.alarm.connections import connections
 from models.alarm.faults import KIND
 from models.alarm.line import KM, LENGTH_MM, REGISTER
+from models.alarm.moving import end_m, joint_m
 from models.alarm.routes import BRANCHES, junction_m
 from models.compiled import compiled, packed
 
@@ -102,14 +104,49 @@ def joins(day: Any) -> dict[Join, Equation]:
     return found
 
 
+def openings(day: Any) -> dict[int, int]:
+    """Give the openings of the day, by number: where an unregistered line joins, and the end of the next line (A1)."""
+    place_m, found = joint_m(day), {}
+    if place_m >= 0:
+        found[0] = figure_mm(day, int(1_000 * place_m), False)
+    if day.begin_s[ADJOINED] >= 0:
+        found[1] = figure_mm(day, int(1_000 * end_m(day, False)), False)
+    return found
+
+
+def lines(day: Any) -> dict[Line, Extent]:
+    """Give from where to where the figures of the day run: of the line, of what is beyond a break, of a branch (A1)."""
+    at_mm, last_mm = break_mm(day), int(1_000 * end_m(day, False))
+    last = End.OPENING if day.begin_s[ADJOINED] >= 0 else End.BUFFER_STOP
+    if at_mm < 0:
+        found = {Line("line"): Extent(0, last_mm, End.BUFFER_STOP, last)}
+    else:
+        found = {
+            Line("line"): Extent(0, at_mm, End.BUFFER_STOP, End.JOIN),
+            Line("beyond"): from_join(THERE_MM, figure_mm(day, last_mm, False), last),
+        }
+    if day.begin_s[BRANCHES] >= 0:
+        branch_mm = figure_mm(day, int(1_000 * end_m(day, True)), True)
+        found[Line("branch")] = from_join(BRANCH_MM, branch_mm, End.BUFFER_STOP)
+    return found
+
+
+def from_join(join_mm: int, last_mm: int, last: End) -> Extent:
+    """Give the extent of a line from a join to its other end, whichever way its figures grow."""
+    if join_mm <= last_mm:
+        return Extent(join_mm, last_mm, End.JOIN, last)
+    return Extent(last_mm, join_mm, last, End.JOIN)
+
+
 def written(day: Any) -> Register:
-    """Give what the register of the day says, in its figures: of its joins, and of the sections beyond a break (A1)."""
+    """Give what the register of the day says, in its figures: joins, openings, and the sections beyond a break (A1)."""
     ways = connections(REGISTER, joins(day))
     sections = {}
     for name, each in REGISTER.sections.items():
         from_mm, to_mm = sorted((figure_mm(day, each.from_mm, False), figure_mm(day, each.to_mm, False)))
         sections[name] = NoUse(each.reason, from_mm, to_mm, each.zone_mm)
-    return replace(REGISTER, ways=ways, sections=sections)
+    opened = {Opening(f"{number}"): place_mm for number, place_mm in openings(day).items()}
+    return replace(REGISTER, ways=ways, sections=sections, openings=opened)
 
 
 def with_joins(register: Any, day: Any) -> Any:
