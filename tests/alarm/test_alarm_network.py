@@ -8,18 +8,21 @@ from random import Random
 
 import pytest
 
-from kernel.alarm.distance import UM_A_MM
-from kernel.alarm.extents import End
-from kernel.alarm.least_ways import has_least_ways
+from kernel.alarm import tone as machine
+from kernel.alarm.distance import UM_A_MM, Direction, TrainFix, WorkerFix
+from kernel.alarm.extents import End, Extent, Line
+from kernel.alarm.least_ways import Equation, Join, has_least_ways
 from kernel.alarm.limits import is_lawful
 from kernel.alarm.network import Connection
+from kernel.alarm.tone import Display, Handset, Known, Tone, Train
 from models.alarm.alarm_network import Tracks, Walk
 from models.alarm.along import far_um
 from models.alarm.connections import connections
 from models.alarm.line import REGISTER
 from proofs.alarm.alarm_network import THEORY
 from proofs.alarm.witnesses.alarm_network import WITNESSES
-from tests.alarm.networks import Network, joins, lines, nearest_lines_mm, openings, ways
+from tests.alarm.networks import KM, Network, joins, lines, nearest_lines_mm, openings, ways
+from tests.alarm.test_openings import READ
 
 
 @pytest.mark.parametrize("witness", WITNESSES)
@@ -115,7 +118,7 @@ def test_a_slip_of_the_surveyor_is_noticed() -> None:
     for chance, network in apart(range(200), 0.7):
         places, extents = joins(network), lines(network)
         register = replace(PLAIN, openings=openings(network), ways=connections(PLAIN, places))
-        opened = set(register.openings.values())
+        opened = {place_mm for _opening, place_mm in register.openings.items()}
         ends_mm = {each.from_mm: each.from_end for each in extents.values()}
         ends_mm |= {each.to_mm: each.to_end for each in extents.values()}
         for join, place in places.items():
@@ -133,12 +136,28 @@ def test_a_slip_of_the_surveyor_is_noticed() -> None:
         for line, extent in extents.items():
             off_mm = chance.choice((-1, 1)) * chance.randrange(1, 1_000_000)
             moved = replace(extent, from_mm=extent.from_mm + off_mm, to_mm=extent.to_mm + off_mm)
+            without = {other: each for other, each in extents.items() if other != line}
             if {extent.from_end, extent.to_end} != {End.BUFFER_STOP}:
                 assert not is_lawful(register, places, extents | {line: moved})
+                assert not is_lawful(register, places, without)
             for end in set(End) - {extent.from_end}:
                 is_both = (extent.from_end, end) == (End.JOIN, End.OPENING) and extent.from_mm in opened
                 assert is_lawful(register, places, extents | {line: replace(extent, from_end=end)}) == is_both
-            without = {other: each for other, each in extents.items() if other != line}
-            is_noticed = bool(places) and line != "line"
-            assert not is_noticed or not is_lawful(register, places, without)
     assert noticed > 50
+
+
+def test_what_is_refused_would_be_heard_as_normal_with_a_train_near() -> None:
+    """Two lines begin with 0 where they join; a train runs up to there on the one, and on to the worker (A1, A3)."""
+    for begins_mm, expected in ((0, Tone.NORMAL), (200 * KM, Tone.ALARM)):
+        begins = End.JOIN if begins_mm else End.BUFFER_STOP
+        extents = {
+            Line("main"): Extent(0, 40 * KM, begins, End.BUFFER_STOP),
+            Line("other"): Extent(begins_mm, begins_mm + 10 * KM, begins, End.BUFFER_STOP),
+        }
+        places = {Join("junction"): Equation(0, begins_mm)} if begins_mm else {}
+        register = replace(PLAIN, ways=connections(PLAIN, places))
+        fix = TrainFix(begins_mm + 500_000, 0, Direction.UP, is_running=True)
+        train = Known(fix, Display(begins_mm, begins_mm + KM, 0), jumped=False, newest=fix)
+        handset = Handset(WorkerFix(1_000_000, 0), 0, True, True, READ, {Train("1D"): train})
+        assert machine.tone(register, handset) == expected
+        assert is_lawful(register, places, extents) == (expected == Tone.ALARM)
