@@ -51,13 +51,12 @@ def reach_mm(register: Register) -> int:
     return larger(told_mm, register.tolerance_mm)
 
 
-def are_apart(register: Register, one: Extent, other: Extent) -> bool:
-    """Tell whether what is told of two lines lies apart: as far beyond the end of either as it may (A1).
+def ends_before(register: Register, one: Extent, other: Extent) -> bool:
+    """Tell whether a line begins after another, or ends as far before it as what is told of both may lie beyond (A1).
 
     Nearer, a fix just beyond the end of one would be in a section of the other, or agree with the display there.
     """
-    between_mm = 2 * reach_mm(register)
-    return one.to_mm + between_mm < other.from_mm or other.to_mm + between_mm < one.from_mm
+    return other.from_mm < one.from_mm or one.to_mm + 2 * reach_mm(register) < other.from_mm
 
 
 def is_joined(joins: Map[Join, Equation], place_mm: int) -> bool:
@@ -88,7 +87,7 @@ def are_surveyed(register: Register, joins: Map[Join, Equation], lines: Map[Line
         and is_end_as_written(register, joins, extent.to_end, extent.to_mm)
         for _line, extent in lines.items()
     ) and all(
-        line == other or are_apart(register, extent, beside)
+        line == other or ends_before(register, extent, beside)
         for line, extent in lines.items()
         for other, beside in lines.items()
     )

@@ -95,7 +95,7 @@ def cross(site: Tracks, system: Walk, join: Join, is_turned: bool) -> Walk:
 
 def leave(site: Tracks, system: Walk, line: Line) -> Walk:
     """It leaves a line by an end, onto whatever track goes on there."""
-    if not system.is_under_way or not track_ends_at_buffer_stops(site, system, line):
+    if not track_ends_at_buffer_stops(site, system, line):
         return system
     return replace(system, is_under_way=False, has_left=True)
 

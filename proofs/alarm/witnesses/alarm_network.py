@@ -181,6 +181,8 @@ def ends_are_as_written() -> None:
     ):
         assert is_refused(lines=LINES | {LOOP: line}), line
     assert is_refused(replace(REGISTER, openings={}))
+    mirrored = {MAIN: replace(main, from_end=OPENING, to_end=BUFFER_STOP), LOOP: loop}
+    assert not is_refused(replace(REGISTER, openings={NORTH: 0}), lines=mirrored)
     turned = {MAIN: Extent(-40 * KM, 40 * KM, OPENING, OPENING), LOOP: loop}
     both = replace(REGISTER, openings={NORTH: 40 * KM, Opening("south"): -40 * KM})
     assert not is_refused(both, lines=turned)
