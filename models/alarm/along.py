@@ -73,3 +73,10 @@ def told_far_um(register: Register) -> int:
     bounds = register.bounds
     off_mm = greater(bounds.train_error_mm, register.display_error_mm) + bounds.worker_error_mm
     return far_um(register) + UM_A_MM * off_mm + bounds.worker_mm_s * register.fresh.worker_ms
+
+
+def beyond_um(register: Register) -> int:
+    """Give how far from where something is the figures may lie that are told of it, or agree with what is told (A1)."""
+    bounds = register.bounds
+    told_mm = greater(greater(bounds.train_error_mm, bounds.worker_error_mm), register.display_error_mm)
+    return UM_A_MM * greater(told_mm, register.tolerance_mm)

@@ -12,8 +12,7 @@ from kernel.maps import Map
 from models.alarm.columns import ASSUMPTIONS, CLAIMS, COLUMNS, COUNTS, DRAWN, MONITORS, NUMBER, PRICES
 from models.alarm.draws import HOURS, Drawn, another, drawn
 from models.alarm.faults import BEYOND, FAULTS, KIND
-from models.alarm.figures import figure_mm, joins, with_joins, written
-from models.alarm.moving import end_m, joint_m
+from models.alarm.figures import joins, lines, openings, with_joins, written
 from models.alarm.watch import ALARM_TONE, NOTHING, REGISTERED, trace, watch
 from models.compiled import packed
 from models.days.system import Numbers, System
@@ -25,11 +24,7 @@ FIRST_FAULT = NUMBER[f"fault_{FAULTS[0].name}"]
 
 def of_the_day(register: Any, began: Drawn) -> Any:
     """Give a register with the openings of the day, if it has any, and with the joins of its lines (A1)."""
-    place_m = joint_m(began)
-    openings = {} if place_m < 0 else {0: figure_mm(began, int(1_000 * place_m), False)}
-    if began.begin_s[KIND["adjoined"]] >= 0:
-        openings[1] = figure_mm(began, int(1_000 * end_m(began, False)), False)
-    return with_joins(register._replace(openings=packed(openings, Map[Opening, int])), began)
+    return with_joins(register._replace(openings=packed(openings(began), Map[Opening, int])), began)
 
 
 def one_day(
@@ -41,7 +36,7 @@ def one_day(
     """
     out = np.zeros(len(COLUMNS), np.int64)
     began = drawn(seed, day, beyond)
-    assert is_lawful(written(began), joins(began))
+    assert is_lawful(written(began), joins(began), lines(began))
     written_now, register_now = of_the_day(REGISTERED, began), of_the_day(register, began)
     watch(began, written_now, register_now, sounds, NOTHING, out, trace())
     if began.begin_s[KIND["two_workers"]] >= 0:

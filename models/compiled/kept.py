@@ -36,6 +36,12 @@ core: Any = numba_core
 DIGEST_BYTES = hashlib.sha256().digest_size
 UNUSED_S = 30 * 24 * 3_600
 """What nobody has read for so long is deleted."""
+UNCOUNTED: dict[str, bool] = {"_nrt": False}
+"""For a function that makes no map and no array anew, and gives back none: no references are counted in it.
+
+Counting takes most of the time of a function that is handed records with many of them.  One that does make any is not
+compiled so; one that gave back what it was handed would have it freed too soon.
+"""
 Place = tuple[int, ...]
 """Where among arguments something is: which argument; if that is a tuple, which of its members; and so on."""
 

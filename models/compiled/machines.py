@@ -69,16 +69,16 @@ class NotCompilable(Exception):
         super().__init__(f"{path}:{line}: {what}")
 
 
-def compile_machines(modules: Iterable[types.ModuleType]) -> SimpleNamespace:
+def compile_machines(modules: Iterable[types.ModuleType], **options: Any) -> SimpleNamespace:
     """Compile some modules of the kernel, and whatever they call.
 
     The result has an attribute for each module, by its last name, with the module's functions, its records as
-    named tuples, and its constants packed: ``compile_machines([odometry]).odometry``.
+    named tuples, and its constants packed: ``compile_machines([odometry]).odometry``.  ``options`` are numba's.
 
     Raises:
         NotCompilable: a function, or a type, is not of the kind that can be rewritten.
     """
-    program = _Program()
+    program = _Program(options)
     return SimpleNamespace(
         **{each.__name__.rpartition(".")[2]: SimpleNamespace(**program.names(each)) for each in modules}
     )
@@ -87,8 +87,9 @@ def compile_machines(modules: Iterable[types.ModuleType]) -> SimpleNamespace:
 class _Program:
     """Every function rewritten so far, and one table of global names for each module."""
 
-    def __init__(self) -> None:
+    def __init__(self, options: dict[str, Any]) -> None:
         self._names: dict[str, dict[str, Any]] = {}
+        self._options = options
 
     def names(self, module: types.ModuleType) -> dict[str, Any]:
         """Return what the global names of a module stand for."""
@@ -105,7 +106,7 @@ class _Program:
                 names[name] = packed(value)
         for tree in _parsed(module).body:
             if isinstance(tree, ast.FunctionDef):
-                names[tree.name] = compiled(Rewriting(module, tree, self.names).function(names))
+                names[tree.name] = compiled(Rewriting(module, tree, self.names).function(names), **self._options)
             elif isinstance(tree, ast.ClassDef):
                 _check_class(module, tree)
             elif not isinstance(tree, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.Expr):

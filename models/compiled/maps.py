@@ -56,7 +56,14 @@ def _contains(container: Any, key: Any) -> Any:
     if isinstance(container, types.BaseTuple):
         return lambda container, key: key in container
     if isinstance(container, types.ListType) and container.item_type == key:
-        return lambda container, key: key in container
+
+        def in_set(container, key):  # type: ignore[no-untyped-def]
+            for each in container:  # noqa: SIM110
+                if each == key:
+                    return True
+            return False
+
+        return in_set
     if isinstance(container, types.ListType) and _is_pair_of(container.item_type, key):
 
         def in_map(container, key):  # type: ignore[no-untyped-def]

@@ -12,10 +12,8 @@ MADE = machine_code.compile_machines((cycle, dispatching, display, stopping))
 """Each function is compiled when it is first called."""
 
 Code = TypeVar("Code", bound=Callable[..., Any])
-UNCOUNTED: dict[str, Any] = {"_nrt": False}
-"""Nothing is made anew in what calls the machines, so no references are counted, which takes most of the time."""
 
 
 def compiled(function: Code) -> Code:
-    """Compile a function that calls the machines."""
-    return machine_code.compiled(function, **UNCOUNTED)
+    """Compile a function that calls the machines; nothing is made anew there."""
+    return machine_code.compiled(function, **machine_code.UNCOUNTED)

@@ -7,12 +7,14 @@ on the register; where others leave these, an opening is written.  All ways are 
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import combinations, pairwise
+from operator import itemgetter
 from random import Random
 from typing import NamedTuple
 
 import networkx as nx
 
+from kernel.alarm.extents import End, Extent, Line
 from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.network import Connection, Opening, Way
 
@@ -148,6 +150,35 @@ def joins(network: Network) -> dict[Join, Equation]:
         if one_mm < other_mm
     ]
     return {Join(f"{number}"): Equation(*pair) for number, pair in enumerate(pairs)}
+
+
+def lines(network: Network) -> dict[Line, Extent]:
+    """Write down the first and the last figure of each line on the register, and what is there."""
+    found = {Line("line"): Extent(0, LINE_MM, End.BUFFER_STOP, End.BUFFER_STOP)}
+    for number, edge in enumerate(network.edges):
+        if edge.is_listed and not edge.is_line:
+            ends = [(edge.end_mm(node), what_is_at(network, number, node)) for node in (edge.one, edge.other)]
+            if edge.one == edge.other:
+                ends = [(edge.figure_mm(0), End.JOIN), (edge.figure_mm(edge.mm), End.JOIN)]
+            (from_mm, from_end), (to_mm, to_end) = sorted(ends, key=itemgetter(0))
+            found[Line(f"{number}")] = Extent(from_mm, to_mm, from_end, to_end)
+    return found
+
+
+def what_is_at(network: Network, number: int, node: int) -> End:
+    """Look what is at an end of a line: first for track that is on the register, then for other track."""
+    beside = [each for other, each in enumerate(network.edges) if other != number and node in (each.one, each.other)]
+    if any(each.is_listed for each in beside):
+        return End.JOIN
+    return End.OPENING if beside else End.BUFFER_STOP
+
+
+def nearest_lines_mm(network: Network) -> int:
+    """Give how far the figures of the two lines are from each other that are nearest; below 0 where they overlap."""
+    extents = sorted((extent.from_mm, extent.to_mm) for extent in lines(network).values())
+    return min(
+        (max(here[0], there[0]) - min(here[1], there[1]) for here, there in combinations(extents, 2)), default=LINE_MM
+    )
 
 
 def ways(network: Network) -> dict[Way, Connection]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import Direction, TrainFix, WorkerFix
+from kernel.alarm.extents import End, Extent, Line
 from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.limits import is_lawful
 from kernel.alarm.tone import Display, Handset, Known, Register, Tone, Train
@@ -27,7 +28,11 @@ def beside(every_mm: int) -> Register:
     )
     written = replace(REGISTER, bounds=bounds)
     register = replace(written, ways=connections(written, places))
-    assert is_lawful(register, places)
+    lines = {
+        Line("through"): Extent(-10 * KM, 20 * KM, End.BUFFER_STOP, End.BUFFER_STOP),
+        Line("beside"): Extent(200 * KM, 220 * KM, End.JOIN, End.BUFFER_STOP),
+    }
+    assert is_lawful(register, places, lines)
     return register
 
 

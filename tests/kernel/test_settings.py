@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from kernel.alarm.extents import End, Extent, Line
 from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.limits import GREATEST_SERVER_MS, is_lawful
 from kernel.crossing import arrival, crossing
@@ -16,7 +17,7 @@ from kernel.tram import stopping
 from kernel.tram.limits import are_lawful, are_lawful_at_stops
 from models.alarm import tone_assumptions
 from models.alarm.connections import connections
-from models.alarm.line import REGISTER
+from models.alarm.line import LENGTH_MM, REGISTER
 from models.alarm.worksite import Railway
 from models.crossing import arrival as ranged
 from models.crossing import due
@@ -70,7 +71,8 @@ def test_a_crossing_has_one_warning_time_and_one_cycle() -> None:
 
 def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     """Nothing in it is below zero; what fits the line is another matter (A1)."""
-    assert is_lawful(REGISTER, {})
+    whole = {Line("line"): Extent(0, LENGTH_MM, End.BUFFER_STOP, End.BUFFER_STOP)}
+    assert is_lawful(REGISTER, {}, whole)
     premises = (
         tone_assumptions.the_alarm_limit_is_within_an_hour,
         tone_assumptions.the_error_is_not_negative,
@@ -78,15 +80,26 @@ def test_a_register_is_lawful_only_where_the_premises_hold() -> None:
     )
     verdicts = set()
     for each in spoilt(REGISTER, (*VALUES, GREATEST_SERVER_MS, GREATEST_SERVER_MS + 1)):
-        verdict = is_lawful(each, {})
+        verdict = is_lawful(each, {}, whole)
         numbers = [*vars(each.bounds).values(), *vars(each.fresh).values(), each.display_error_mm, each.tolerance_mm]
         assert verdict == (min(numbers) >= 0 and each.fresh.server_ms <= 3_600_000)
         assert not verdict or all(premise(Railway(each)) for premise in premises)
         verdicts.add(verdict)
     assert verdicts == {True, False}
     broken = {Join("break"): Equation(20_000_000, 200_000_000)}
-    assert not is_lawful(REGISTER, broken), "it has no way over the break"
-    assert is_lawful(replace(REGISTER, ways=connections(REGISTER, broken)), broken)
+    pieces = {
+        Line("before"): Extent(0, 20_000_000, End.BUFFER_STOP, End.JOIN),
+        Line("beyond"): Extent(200_000_000, 220_000_000, End.JOIN, End.BUFFER_STOP),
+    }
+    plain = replace(REGISTER, sections={})
+    joined = replace(plain, ways=connections(plain, broken))
+    assert not is_lawful(plain, broken, pieces), "it has no way over the break"
+    assert is_lawful(joined, broken, pieces)
+    assert not is_lawful(joined, broken, pieces | whole), "two lines have one figure"
+    assert not is_lawful(replace(joined, sections=REGISTER.sections), broken, pieces), "sections lie on no line"
+    stopped = broken | {Join("typed"): Equation(0, 210_000_000)}
+    elsewhere = replace(plain, ways=connections(plain, stopped))
+    assert not is_lawful(elsewhere, stopped, pieces), "an equation is written where buffer stops are"
 
 
 def test_limits_of_trams_are_lawful_only_where_none_is_below_zero() -> None:

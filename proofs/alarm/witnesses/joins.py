@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from kernel.alarm import tone as machine
 from kernel.alarm.distance import NO_TRAIN_FIX, UM_A_MM, Direction, TrainFix
+from kernel.alarm.extents import End, Extent, Line
 from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.limits import is_lawful
 from kernel.alarm.network import Connection, Way, jumps
@@ -159,7 +160,13 @@ def what_is_told_beyond_one_more_join_is_near_yet() -> None:
         }
         register = replace(REGISTER, openings={BRANCH: 300 * KM + 1_000})
         register = replace(register, ways=connections(register, joins))
-        assert is_lawful(register, joins)
+        lines = {
+            Line("main"): Extent(0, 100 * KM, End.BUFFER_STOP, End.BUFFER_STOP),
+            Line("branch"): Extent(THERE_MM, THERE_MM + 10 * KM, End.JOIN, End.BUFFER_STOP),
+            Line("beyond"): Extent(300 * KM, 310 * KM, End.JOIN, End.BUFFER_STOP),
+            Line("own"): Extent(400 * KM, 410 * KM, End.JOIN, End.BUFFER_STOP),
+        }
+        assert is_lawful(register, joins, lines)
         for worker_mm, more_mm in ((JOIN_MM, 0), (400 * KM + 2_000, 5_000)):
             for told, off_mm in (
                 (known(300 * KM + 12_000, UP, age_ms=12_000, shown=False), 20_000 - 12_000),
