@@ -76,7 +76,7 @@ def may_come(centre: Centre, tram: Tram, stop: int) -> bool:
     if tram in centre.trams or tram not in centre.elsewhere_ms or stop < machine.FIRST_STOP:
         return False
     return stop == machine.FIRST_STOP or (
-        centre.cleared > machine.mark(stop, False)
+        centre.cleared > machine.mark(stop, True)
         and not any(machine.may_recover_over(known, stop) for _other, known in centre.trams.items())
     )
 
@@ -117,8 +117,12 @@ def note_elsewhere(centre: Centre, tram: Tram, is_away: bool, made_ms: int) -> C
 
 
 def note_taken_off(centre: Centre, tram: Tram) -> Centre:
-    """Take a person's word that a known tram is off the way, where its radio does not tell (G5, ours)."""
-    return without(centre, tram, centre.now_ms) if tram in centre.trams else centre
+    """Take a person's word that a tram is off the way, where its radio does not tell (G5, ours).
+
+    Of one that the centre does not know too, or one without radio could never be confirmed; after a start not before
+    confirmations from before that have lapsed.
+    """
+    return without(centre, tram, centre.now_ms) if centre.opens_ms < centre.now_ms else centre
 
 
 def note_begun(centre: Centre, tram: Tram, known: Known, report: Report) -> Centre:

@@ -223,21 +223,21 @@ def clears(known: Known) -> bool:
 
 
 def was_beyond(ahead: Known, report: Report) -> bool:
-    """Tell whether a tram had told that it was beyond a stop before another one stood there: so it is ahead (G2).
+    """Tell whether a tram had told of a later stop before another one stood at this one: so it is ahead (G2).
 
-    None overtakes on one track, so it stays ahead (002, 3.1.2).
+    None overtakes on one track, so it stays ahead (002, 3.1.2).  That it had left this stop is not enough: where trams
+    queue at a signal just beyond, GPS has the one behind leave while the one in front still stands there (ours).
     """
-    is_farther = mark(ahead.stop, ahead.left) > mark(report.stop, False)
-    return report.stands and is_farther and is_under_way(ahead) and ahead.told_ms < report.made_ms
+    return report.stands and ahead.stop > report.stop and is_under_way(ahead) and ahead.told_ms < report.made_ms
 
 
 def is_before_who_comes(known: Known, stop: int) -> bool:
     """Tell whether a tram on the way is ahead of one that is confirmed to come at a stop (G2, ours).
 
-    It has told that it is beyond that stop; and whoever is under way is beyond the first one.
+    It has told of a later stop: the points where trams come may lie beyond this one.  At the first stop it is enough to
+    be under way, since who comes there comes behind all.
     """
-    is_farther = mark(known.stop, known.left) > mark(stop, False)
-    return is_under_way(known) and is_farther
+    return is_under_way(known) and (stop == FIRST_STOP or known.stop > stop)
 
 
 def is_ahead(own: Known, other: Known) -> bool:
@@ -279,10 +279,12 @@ def is_seen_in_the_way(limits: DispatchLimits, now_ms: int, own: Known, other: K
 
 
 def may_recover_over(own: Known, stop: int) -> bool:
-    """Tell whether a tram may still run, by its last order, over the stop at which another is to come (G5)."""
-    return mark(own.stop, own.left) <= mark(stop, False) <= mark(own.recovery_to, False) and mark(
-        own.stop, own.left
-    ) < mark(own.recovery_to, False)
+    """Tell whether a tram may still run, by its last order, over the stop at which another is to come, or from it (G5).
+
+    The points where that one comes may lie beyond the stop.
+    """
+    may_recover = mark(own.stop, own.left) < mark(own.recovery_to, False)
+    return may_recover and own.stop <= stop <= own.recovery_to
 
 
 def is_off(known: Known, made_ms: int) -> bool:

@@ -26,3 +26,12 @@ def are_lawful_at_stops(limits: StopLimits, error_mm: int) -> bool:
     held for what one error to one side, and one to the other, make of it.
     """
     return 0 <= error_mm <= limits.near_mm and limits.near_mm + 2 * error_mm <= limits.held_mm
+
+
+def are_told_apart(limits: StopLimits, error_mm: int, apart_mm: int) -> bool:
+    """Tell whether a way may be run whose stops are that far apart at the least; if not, it is not put to use (G2).
+
+    A tram that is held at a stop may be so far beyond it, and one is told at the next so far before that: who has come
+    to a later stop is ahead of who stands at this one.
+    """
+    return limits.held_mm + limits.near_mm + 2 * error_mm < apart_mm

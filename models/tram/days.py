@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kernel.tram.dispatching import DispatchLimits
-from kernel.tram.limits import are_lawful, are_lawful_at_stops
+from kernel.tram.limits import are_lawful, are_lawful_at_stops, are_told_apart
 from models.days.system import Numbers, System
 from models.tram import tally
 from models.tram.deciding import (
@@ -26,6 +26,7 @@ from models.tram.line import (
     DEPOT,
     FIRST_S,
     HOURS,
+    LEAST_APART_MM,
     OPEN_S,
     STOPS,
     TAKEN_UP_S,
@@ -233,7 +234,7 @@ def one_day(
 ) -> tuple[Numbers, Given, Whole]:
     """Simulate a day: its row, what it was given, and when each run left each stop; ``beyond``: faults besides."""
     assert are_lawful(limits)
-    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM)
+    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM) and are_told_apart(STOP_LIMITS, BOUND_MM, LEAST_APART_MM)
     chance, apart = np.random.default_rng((seed, number)), np.random.default_rng((seed, number, 2))
     day, drawn = given(chance, apart, limits, present, plant, frozenset(beyond))
     back = other_way(day, apart)

@@ -102,7 +102,7 @@ def may_take_up(traffic: Traffic, tram: int, stop: int) -> bool:
         body = traffic.trams[other]
         if body[K_IS] == 1 and may_recover_over(known_of(body), stop):
             return False
-    return bool(traffic.known[1] > mark(stop, False))
+    return bool(traffic.known[1] > mark(stop, True))
 
 
 @compiled
@@ -137,10 +137,9 @@ def hear_elsewhere(traffic: Traffic, tram: int, is_away: bool, made_ms: int, now
 @compiled
 def take_off_by_hand(traffic: Traffic, tram: int, now_ms: int) -> None:
     """As :func:`kernel.tram.centre.note_taken_off`."""
-    body = traffic.trams[tram]
-    if body[K_IS] == 1:
+    if traffic.known[0] < now_ms:
         forget(traffic, tram, now_ms)
-        traffic.row[tally.TAKEN_OFF_THERE] += body[ON]
+        traffic.row[tally.TAKEN_OFF_THERE] += traffic.trams[tram, ON]
 
 
 @compiled

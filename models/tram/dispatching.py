@@ -136,12 +136,8 @@ def clocks_keep_gps_time(system: Traffic, now_ms: int) -> bool:
 
 
 def a_tram_comes_where_and_when_it_was_confirmed(site: Way, system: Traffic, tram: Tram, body: Body) -> bool:
-    """A tram comes onto the way at the stop for which it was confirmed, before that lapses."""
-    return (
-        tram not in system.bodies
-        and may_still_come(site, system, tram)
-        and place(body) == mark(system.runs[tram].stop, False)
-    )
+    """A tram comes onto the way at the stop for which it was confirmed, or just beyond it, before that lapses."""
+    return tram not in system.bodies and may_still_come(site, system, tram) and body.stop == system.runs[tram].stop
 
 
 def its_unit_began_since_it_was_confirmed(system: Traffic, tram: Tram, begun_ms: int) -> bool:
@@ -185,12 +181,15 @@ def it_knows_the_stop_that_it_comes_to(system: Traffic, tram: Tram, noticed: boo
 
 
 def a_report_tells_where_it_is(system: Traffic, tram: Tram, report: Report) -> bool:
-    """A tram on the way tells a place that it has reached, at the time that it is; who stands is at that stop (G2)."""
+    """A tram on the way tells a place that it has reached, at the time that it is (G2).
+
+    Who stands is at that stop, or so little beyond that another one has left it there.
+    """
     if tram not in system.bodies or report.made_ms != system.now_ms:
         return False
     body = system.bodies[tram]
     if report.stands:
-        return not report.left and mark(report.stop, False) == place(body)
+        return not report.left and report.stop == body.stop
     return mark(report.stop, report.left) <= place(body)
 
 

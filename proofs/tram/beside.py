@@ -135,9 +135,9 @@ def what_was_told_beside_is_older_than_what_counts(site: Way, system: Traffic) -
     )
 
 
-def was_beyond(at: int, told_ms: int, report: Report) -> bool:
-    """Tell whether one that told of a place was beyond the stop of a report before that was made (G2)."""
-    return at > mark(report.stop, False) and told_ms < report.made_ms
+def was_beyond(stop: int, told_ms: int, report: Report) -> bool:
+    """Tell whether one had told of a stop beyond that of a report before that was made (G2)."""
+    return stop > report.stop and told_ms < report.made_ms
 
 
 def is_behind(system: Traffic, behind: Tram, ahead: Tram) -> bool:
@@ -150,7 +150,7 @@ def who_told_from_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic)
     """So is who told that of one that told beside the way that it stood at the stop where it then came (G2, ours)."""
     return all(
         report.left
-        or not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
+        or not was_beyond(beyond.stop, beyond.made_ms, report)
         or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
         or report.stop < system.centre.trams[behind].comes_at
         or is_behind(system, behind, ahead)
@@ -166,7 +166,7 @@ def who_was_heard_beyond_is_ahead_of_who_told_beside(site: Way, system: Traffic)
         or not is_of_this_run(system, behind, report.made_ms)
         or report.stop < system.centre.trams[behind].comes_at
         or not is_under_way(known)
-        or not was_beyond(mark(known.stop, known.left), known.told_ms, report)
+        or not was_beyond(known.stop, known.told_ms, report)
         or is_behind(system, behind, ahead)
         for ahead, known in system.centre.trams.items()
         for behind, report in system.told_beside

@@ -319,7 +319,7 @@ def who_told_from_beyond_is_ahead(site: Way, system: Traffic) -> bool:
     """Who told that it was beyond a stop, before another told that it stood there, is ahead of that (G2)."""
     return all(
         not report.stands
-        or not was_beyond(mark(beyond.stop, beyond.left), beyond.made_ms, report)
+        or not was_beyond(beyond.stop, beyond.made_ms, report)
         or not (is_of_this_run(system, ahead, beyond.made_ms) and is_of_this_run(system, behind, report.made_ms))
         or is_behind(system, behind, ahead)
         for ahead, beyond in system.told
@@ -333,7 +333,7 @@ def who_was_heard_beyond_is_ahead(site: Way, system: Traffic) -> bool:
         not report.stands
         or not is_of_this_run(system, behind, report.made_ms)
         or not is_under_way(known)
-        or not was_beyond(mark(known.stop, known.left), known.told_ms, report)
+        or not was_beyond(known.stop, known.told_ms, report)
         or is_behind(system, behind, ahead)
         for ahead, known in system.centre.trams.items()
         for behind, report in system.told
@@ -350,7 +350,7 @@ def who_is_shown_ahead_of_one_to_come_is_beyond_where_it_comes(site: Way, system
             behind not in system.runs
             or ahead not in system.bodies
             or system.runs[behind].stop == 0
-            or place(system.bodies[ahead]) > mark(system.runs[behind].stop, False)
+            or system.bodies[ahead].stop > system.runs[behind].stop
         )
         for ahead, behind in system.centre.shown
     )

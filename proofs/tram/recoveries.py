@@ -65,7 +65,7 @@ def nor_will_one_come_before_one_sent(site: Way, system: Traffic) -> bool:
         not may_be_taken(system, command)
         or not may_still_come(site, system, other)
         or run.stop == 0
-        or place(system.bodies[command.tram]) > mark(run.stop, False)
+        or system.bodies[command.tram].stop > run.stop
         or run.stop > command.stop + 1
         for command in system.sent
         if command.tram in system.bodies
@@ -79,7 +79,7 @@ def nor_will_one_come_before_one_shown(site: Way, system: Traffic) -> bool:
         not body.display.recovers
         or not may_still_come(site, system, other)
         or run.stop == 0
-        or place(body) > mark(run.stop, False)
+        or body.stop > run.stop
         or run.stop > body.stop + 1
         for _tram, body in system.bodies.items()
         for other, run in system.runs.items()

@@ -14,7 +14,7 @@ from kernel.alarm.least_ways import Equation, Join
 from kernel.alarm.limits import GREATEST_SERVER_MS, is_lawful
 from kernel.crossing import arrival, crossing
 from kernel.tram import stopping
-from kernel.tram.limits import are_lawful, are_lawful_at_stops
+from kernel.tram.limits import are_lawful, are_lawful_at_stops, are_told_apart
 from models.alarm import tone_assumptions
 from models.alarm.connections import connections
 from models.alarm.line import LENGTH_MM, REGISTER
@@ -24,6 +24,7 @@ from models.crossing import due
 from models.crossing.sites import TRIALS, lawful
 from models.tram.given import LIMITS, STOP_LIMITS
 from models.tram.gps import BOUND_MM
+from models.tram.line import LEAST_APART_MM
 from proofs.mutants.edits import Mutant, mutants_of
 from proofs.mutated import running
 
@@ -122,12 +123,25 @@ def test_limits_at_stops_are_lawful_where_what_places_err_fits_them_and_only_the
     assert verdicts == {True, False}
 
 
+def test_stops_are_told_apart_where_none_is_told_at_both_and_only_there() -> None:
+    """A tram held at a stop is before each place by which one has come to the next (G2)."""
+    assert are_told_apart(STOP_LIMITS, BOUND_MM, LEAST_APART_MM)
+    verdicts = set()
+    for near_mm, held_mm, error_mm, apart_mm in product(range(4), range(4), range(3), range(14)):
+        verdict = are_told_apart(stopping.StopLimits(near_mm, held_mm), error_mm, apart_mm)
+        farthest_mm, nearest_mm = held_mm + error_mm, apart_mm - near_mm - error_mm
+        assert verdict == (farthest_mm < nearest_mm)
+        verdicts.add(verdict)
+    assert verdicts == {True, False}
+
+
 CHECKS: dict[Callable[..., Any], Callable[[], None]] = {
     arrival.are_lawful: test_bounds_of_trains_before_a_crossing_are_lawful_where_the_premises_hold_and_only_there,
     crossing.have_one_warning_time: test_a_crossing_has_one_warning_time_and_one_cycle,
     is_lawful: test_a_register_is_lawful_only_where_the_premises_hold,
     are_lawful: test_limits_of_trams_are_lawful_only_where_none_is_below_zero,
     are_lawful_at_stops: test_limits_at_stops_are_lawful_where_what_places_err_fits_them_and_only_there,
+    are_told_apart: test_stops_are_told_apart_where_none_is_told_at_both_and_only_there,
 }
 WITHOUT = [(dropped, test) for check, test in CHECKS.items() for dropped in mutants_of(check)]
 

@@ -21,10 +21,10 @@ from kernel.tram.centre import Centre, Command, Tram
 from kernel.tram.cycle import Answer, CycleLimits, Heard
 from kernel.tram.dispatching import DispatchLimits, Known, Report, mark
 from kernel.tram.display import Display
-from kernel.tram.limits import are_lawful, are_lawful_at_stops
+from kernel.tram.limits import are_lawful, are_lawful_at_stops, are_told_apart
 from kernel.tram.map_matching import Found, MatchLimits
 from kernel.tram.stopping import Fix, StopLimits, Stopping
-from tests.tram.street import FIX_ERROR_MM, MATCH, NEAR
+from tests.tram.street import APART_MM, FIX_ERROR_MM, MATCH, NEAR
 from tests.tram.two_ways import BEYOND, CYCLE, LIMITS, ORDINARY, World, random_world
 
 FEW, MANY = range(20), range(20, 1_020)
@@ -56,6 +56,7 @@ def test_a_thousand_worlds_at_random() -> None:
 def test_limits_are_lawful_and_errors_as_written() -> None:
     assert are_lawful(LIMITS)
     assert are_lawful_at_stops(NEAR, MATCH.most_mm)
+    assert are_told_apart(NEAR, MATCH.most_mm, APART_MM)
     assert MATCH.most_mm > FIX_ERROR_MM
     assert cycle.slot_begins_ms(CYCLE, cycle.SLOTS) <= cycle.CYCLE_MS
 
@@ -81,6 +82,7 @@ def test_all_of_it_comes_about() -> None:
         "fixes of another way": 1_000,
         "confirmed on the other way": 100,
         "told of a run that has ended": 100,
+        "waits at a signal": 100,
     }
     assert {name: count for name, count in least.items() if happened[name] < count} == {}
     assert {day for number in range(8) for day in lived(number).days} == set(ORDINARY)
@@ -133,6 +135,12 @@ def of_who_has_not_begun(now_ms: int, known: Known, report: Report) -> bool:
         and mark(report.stop, report.left) >= mark(known.stop, known.left)
         and (dispatching.is_under_way(known) or report.left or report.stop == known.comes_at)
     )
+
+
+def of_who_has_left_the_stop(ahead: Known, report: Report) -> bool:
+    """A tram that has left a stop is ahead of one that stands there after that, wherever trams queue beyond it."""
+    is_farther = mark(ahead.stop, ahead.left) > mark(report.stop, False)
+    return report.stands and is_farther and dispatching.is_under_way(ahead) and ahead.told_ms < report.made_ms
 
 
 def of_any_stop(now_ms: int, known: Known, report: Report) -> bool:
@@ -191,6 +199,7 @@ SEEN: list[tuple[Rule, int, tuple[str, ...] | None, str]] = [
     ((dispatcher, "restarted", knows_the_way), 1, ("centres",), "not clear"),
     ((dispatching, "counts", of_any_run), 45, ("numbers",), "not clear"),
     ((dispatching, "counts", of_who_has_not_begun), 14, ("kept",), "not clear"),
+    ((dispatching, "was_beyond", of_who_has_left_the_stop), 0, ("signals",), "not clear"),
     ((cycle, "note_answer", whoever_answers), 0, ("jitter",), "not clear"),
     ((cycle, "is_fresh", however_old), 0, None, "heard long ago"),
     ((map_matching, "place_mm", nearest), 0, None, "place"),

@@ -43,16 +43,18 @@ LIMITS = DispatchLimits(60_000, 400_000, 90_000, 100_000, 11_000, 18_000, 120_00
 CYCLE = CycleLimits(request_ms=800, slot_ms=800, answer_ms=300)
 JOINS = LAST - JUNCTION
 EACH_S, FIX_S = 7, 3
+SIGNAL_MM = 44_000
 FAR_AWAY = Point(-(10**9), -(10**9))
 APPROACH_MM = 60_000
 """So far before a stop a tram waits, and from there comes to it: nearer its unit may tell that it stands there."""
 
-ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways", "early", "kept")
+ORDINARY = ("units", "centres", "numbers", "bunching", "jitter", "ways", "early", "kept", "signals")
 """Units start anew under way; the centre of each way does, several times; another car runs under the number of one that
 was taken off; doors jam, and trams bunch; cycles and answers come early and late, and another tram answers; drivers set
 the way in the other direction where a unit starts, until they notice, and leave what is set when they turn, as it was
 or as it is to be; a tram is confirmed for the way back while it is on this one, and its driver sets that at once; one
-turns off, is taken off by a person and comes back to the same way, and nobody sets its unit anew."""
+turns off, is taken off by a person and comes back to the same way, and nobody sets its unit anew; at road signals just
+beyond a stop trams wait, and queue behind one another."""
 BEYOND = ("runs_along", "fixes_beyond", "taken_off_on_the_way", "begins_ahead")
 """Each breaks an assumption: ``test_an_assumption_that_is_broken_matters`` says which, and that it matters."""
 
@@ -64,7 +66,7 @@ class Car:
     ``at``: its mark, since ``since_s``; ``until_s``: until then it stays at it.  ``place_mm``: along its way; it stands
     ``offset_mm`` beyond its stop.  ``comes_at``: where it wants to come, from ``due_s`` on.  ``asked_s``: when the
     station asks it; ``heard``: what that has, of ``made_s``.  ``noticed_s``: when its driver notices a wrong setting.
-    ``is_kept``: its unit still tells of the run before.
+    ``is_kept``: its unit still tells of the run before.  ``signal_s``: until then it waits at a signal beyond its stop.
     """
 
     name: Tram
@@ -84,6 +86,7 @@ class Car:
     made_s: int = 0
     noticed_s: int = 0
     is_kept: bool = False
+    signal_s: int = 0
     heard: Heard = field(default_factory=lambda: cycle.nothing_heard(0))
     unit: Unit = field(default_factory=Unit)
 
@@ -98,7 +101,7 @@ class World:
 
     ``apart`` draws clocks that are ahead, whom the centre is asked for anew, the street and its fixes, and ``days``:
     the rest is drawn as without.  ``settings`` draws what drivers set wrong, ``early`` who is confirmed too soon,
-    ``back`` who comes back to the way that he has left.
+    ``back`` who comes back to the way that he has left, ``signals`` which are red.
     ``restarts``: when the centre of which way starts anew.  ``happened`` and ``broken`` count what came about, and what
     must not.
     """
@@ -108,6 +111,7 @@ class World:
     settings: Random
     early: Random
     back: Random
+    signals: Random
     days: frozenset[str] = frozenset()
     lost: float = 0.1
     late_s: int = 300
@@ -235,6 +239,10 @@ class World:
                 car.until_s = self.now_s + self.chance.randrange(shortest_s, longest_s)
                 if car.stands:
                     self.stop_behind(car)
+                elif "signals" in self.days and self.signals.random() < 0.3:
+                    car.signal_s = self.now_s + self.signals.randrange(20, 90)
+                    car.until_s += car.signal_s - self.now_s
+                    self.happened["waits at a signal"] += 1
 
     def stop_behind(self, car: Car) -> None:
         """Where a tram stands that has come to a stop: behind those at it."""
@@ -251,15 +259,15 @@ class World:
             to_mm = here_mm + min(car.offset_mm, FAST_MM_S * so_far_s - APPROACH_MM)
             car.is_slow = to_mm == here_mm + car.offset_mm
         else:
-            way_mm = APART_MM - APPROACH_MM - car.offset_mm
-            to_mm = (
-                here_mm
-                + car.offset_mm
-                + way_mm * min(so_far_s, car.until_s - car.since_s) // (car.until_s - car.since_s)
-            )
+            is_at_signal = self.now_s < car.signal_s
+            begins_s, way_mm = max(car.since_s, car.signal_s), APART_MM - APPROACH_MM - car.offset_mm
+            share_s = min(self.now_s, car.until_s) - begins_s
+            to_mm = here_mm + car.offset_mm + way_mm * share_s // (car.until_s - begins_s)
+            if is_at_signal:
+                to_mm = here_mm + SIGNAL_MM
             if ahead is not None and ahead.at == car.at:
                 to_mm = min(to_mm, ahead.place_mm - 18_000)
-            car.is_slow = to_mm <= car.place_mm and car.place_mm > here_mm + 100_000
+            car.is_slow = to_mm <= car.place_mm and (is_at_signal or car.place_mm > here_mm + 100_000)
         car.place_mm = max(car.place_mm, to_mm)
 
     def fix(self, car: Car) -> None:
@@ -285,7 +293,7 @@ class World:
             return
         told = mark(unit.stopping.stop, unit.stopping.left)
         self.broken["place"] += unit.place_mm is not None and abs(unit.place_mm - car.place_mm) > MATCH.most_mm
-        self.broken["told too soon"] += told > car.at or (unit.stopping.stands and told < car.at)
+        self.broken["told too soon"] += told > car.at or (unit.stopping.stands and told < car.at - 1)
 
     def leave(self, car: Car, turns_off: bool) -> None:
         """Turn, or turn off: at the junction to the other line, or between two stops, to come back to the same way."""
@@ -433,7 +441,11 @@ class World:
         self.judge()
 
     def judge(self) -> None:
-        for line in self.lines:
+        for centre, line in zip(self.centres, self.lines, strict=True):
+            places = {car.name: place for place, car in enumerate(line)}
+            self.broken["order turned"] += any(
+                places[ahead] > places[behind] for ahead, behind in centre.shown if ahead in places and behind in places
+            )
             for place, car in enumerate(line):
                 display = car.unit.display
                 next_mm, most_mm = stop_mm(display.stop + 1), NEAR.near_mm + MATCH.most_mm + FIX_S * FASTEST_MM_S
@@ -455,11 +467,11 @@ class World:
 
 def random_world(number: int, days: frozenset[str] | None = None) -> World:
     """Draw a world and live an hour of it; without ``days`` they are drawn too, each of them in most worlds."""
-    chance, apart, settings, early, back = (Random(source * 10**6 + number) for source in range(5))
+    chance, apart, settings, early, back, signals = (Random(source * 10**6 + number) for source in range(6))
     lost, late_s = chance.choice((0.0, 0.1, 0.4)), chance.choice((10, 100, 600))
-    by_day = {"ways": settings, "early": early, "kept": back}
+    by_day = {"ways": settings, "early": early, "kept": back, "signals": signals}
     drawn = frozenset(day for day in ORDINARY if by_day.get(day, apart).random() < 0.7)
     restarts = {(apart.randrange(1_100, 4_500), way) for way in range(2) for _ in range(apart.randrange(5))}
-    world = World(chance, apart, settings, early, back, drawn if days is None else days, lost, late_s)
+    world = World(chance, apart, settings, early, back, signals, drawn if days is None else days, lost, late_s)
     world.restarts = restarts if "centres" in world.days else set()
     return world.seconds(3_600, chance.choice((-1, chance.randrange(1_500, 3_500))))

@@ -180,7 +180,7 @@ def a_destination_that_is_told_farther_counts() -> None:
 
 
 def who_comes_behind_matters_not() -> None:
-    """At the first stop, or at one that the other has left; at its own stop it may come before it (G2, G5)."""
+    """At the first stop, or at one before that of the other; at its own stop, or just beyond, it may come before it."""
     for stop, says in ((0, RECOVERS), (1, NEITHER)):
         day = two_stops_apart()
         day.off(THIRD)
@@ -192,7 +192,7 @@ def who_comes_behind_matters_not() -> None:
     assert day.confirm(THIRD, 1)
     day.wait(1)
     day.arrive(SECOND)
-    assert day.says(SECOND, Hand.RECOVER) == RECOVERS
+    assert day.says(SECOND, Hand.RECOVER) == NEITHER
     day.wait(1)
     day.begin(THIRD, 3)
     assert day.says(SECOND, Hand.RECOVER) == RECOVERS
@@ -231,17 +231,48 @@ def reports_show_who_is_ahead() -> None:
     day.depart(THIRD)
     day.wait(1)
     day.tell(SECOND)
-    assert (THIRD, SECOND) in day.system.centre.shown
-    assert (SECOND, THIRD) not in day.system.centre.shown
+    assert (THIRD, SECOND) not in day.system.centre.shown
     day.arrive(THIRD)
     day.wait(61_000)
     day.tell(THIRD)
+    day.wait(1)
     day.tell(SECOND)
+    assert (THIRD, SECOND) in day.system.centre.shown
+    assert (SECOND, THIRD) not in day.system.centre.shown
     assert day.says(THIRD, Hand.RECOVER) == NEITHER
     day.arrive(FIRST)
     day.depart(FIRST)
     assert day.says(THIRD, Hand.RECOVER) == RECOVERS
     assert day.says(SECOND, Hand.RECOVER) == NEITHER
+
+
+def who_queues_beyond_a_stop_is_ahead_of_nobody() -> None:
+    """At a signal beyond it GPS has the one behind leave, and the one in front still stand there (G2, ours)."""
+    day = Day()
+    day.come(FIRST, 1, 0)
+    day.come(SECOND, 2, 0)
+    day.step("depart", tram=FIRST)
+    day.depart(SECOND)
+    day.wait(1)
+    told = Report(0, False, True, TERMINUS, day.system.now_ms)
+    day.step("tell", tram=FIRST, report=told)
+    day.step("hear_report", tram=FIRST, told=told)
+    assert (day.known(FIRST).told_ms, day.known(FIRST).stands) == (told.made_ms, True)
+    assert (SECOND, FIRST) not in day.system.centre.shown
+
+
+def points_beyond_a_stop_let_one_come_before_who_has_left_it() -> None:
+    """A tram has left the stop, and waits before the points by which another comes: neither is shown ahead (G2)."""
+    day = Day()
+    day.run_to(FIRST, 1, 2)
+    day.depart(FIRST)
+    day.off(SECOND)
+    assert day.confirm(SECOND, 2)
+    assert not day.system.centre.shown
+    now_ms = day.system.now_ms
+    body = Body(0, 2, True, on_board.begun(0), 0)
+    day.step("come", tram=SECOND, body=body, now_ms=now_ms, begun_ms=now_ms)
+    assert day.body(SECOND).rank < day.body(FIRST).rank
 
 
 def none_is_taken_up_before_one_that_recovers() -> None:
@@ -252,8 +283,8 @@ def none_is_taken_up_before_one_that_recovers() -> None:
     for stop in (1, 2, -1):
         assert not day.confirm(THIRD, stop)
     day.depart(SECOND)
-    assert not day.confirm(THIRD, 2)
-    assert day.confirm(THIRD, 1)
+    for stop in (1, 2):
+        assert not day.confirm(THIRD, stop)
     for stop in (0, 3):
         day = two_stops_apart()
         day.arrive(FIRST)
@@ -477,6 +508,8 @@ WITNESSES = (
     a_destination_that_is_told_farther_counts,
     who_comes_behind_matters_not,
     reports_show_who_is_ahead,
+    who_queues_beyond_a_stop_is_ahead_of_nobody,
+    points_beyond_a_stop_let_one_come_before_who_has_left_it,
     none_is_taken_up_before_one_that_recovers,
     who_is_on_the_way_is_not_taken_up_anew,
     after_a_start_nobody_recovers_until_the_way_is_known,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.tram.centre import Tram
 from kernel.tram.dispatching import Hand, is_beyond_its_destination
 from proofs.tram.witnesses.line import (
+    CLEARED,
     FIRST,
     HELD,
     NEITHER,
@@ -136,7 +137,7 @@ def a_tram_is_held_far_before_the_next() -> None:
     """The one behind is ten minutes behind: it left its stop as long ago where that one has not come yet (G4)."""
     for since_ms, says in ((600_000, RECOVERS), (600_001, HELD)):
         day = Day()
-        day.come(Tram("17"), 0, 6)
+        day.come(Tram("17"), 0, CLEARED - 1)
         day.depart(Tram("17"))
         day.come(FIRST, 1, 1)
         day.run(FIRST)

@@ -144,7 +144,7 @@ def what_nature_does_not_do() -> None:
     good = Body(3, 1, False, on_board.begun(0), 0)
     assert good.display.stop == 0
     before = day.system
-    for bad in (replace(good, rank=2), replace(good, rank=0), replace(good, stop=0), replace(good, left=True)):
+    for bad in (replace(good, rank=2), replace(good, rank=0), replace(good, stop=0), replace(good, stop=2)):
         assert day.step("come", tram=THIRD, body=bad, now_ms=now_ms, begun_ms=now_ms) == before
     assert day.step("come", tram=THIRD, body=good, now_ms=now_ms + 1, begun_ms=now_ms) == before
     assert day.step("depart", tram=THIRD) == before

@@ -239,6 +239,20 @@ def who_has_turned_off_may_go_on_to_tell_of_it() -> None:
         assert day.step("tell_of_the_run_before", tram=FIRST, report=bad) == before
 
 
+def who_has_no_radio_is_confirmed_by_a_persons_word() -> None:
+    """It tells nothing, and the centre does not know it: a person says that it is off, once all counts again (G5)."""
+    day = Day(is_cleared=False)
+    before = day.system
+    assert day.step("take_off", tram=FIRST) == before
+    day.wait(LIMITS.coming_ms)
+    before = day.system
+    assert day.step("take_off", tram=FIRST) == before
+    day.wait(1)
+    assert not day.confirm(FIRST, 0)
+    day.step("take_off", tram=FIRST)
+    assert day.confirm(FIRST, 0)
+
+
 def what_is_not_told_beside_the_way() -> None:
     """That a stop was left, at another time than now, or of a tram that is on it (G2)."""
     day = two_stops_apart()
@@ -266,5 +280,6 @@ WITNESSES = (
     who_is_not_heard_where_it_comes_is_under_way_after_the_next_stop,
     when_it_first_stood_there_is_of_its_stop,
     who_has_turned_off_may_go_on_to_tell_of_it,
+    who_has_no_radio_is_confirmed_by_a_persons_word,
     what_is_not_told_beside_the_way,
 )
