@@ -126,7 +126,7 @@ def note_taken_off(centre: Centre, tram: Tram) -> Centre:
 
 
 def note_begun(centre: Centre, tram: Tram, known: Known, report: Report) -> Centre:
-    """Take from a report that does not count that the unit has begun since the tram was confirmed, if it has (ours)."""
+    """Take from a report that does not count that the unit has begun since its tram was confirmed, if so (G2)."""
     if not machine.begins(centre.now_ms, known, report):
         return centre
     return replace(centre, trams=centre.trams | {tram: machine.begun(known, report)})

@@ -164,7 +164,7 @@ def counts(now_ms: int, known: Known, report: Report) -> bool:
 
 
 def begins(now_ms: int, known: Known, report: Report) -> bool:
-    """Tell whether a unit has begun since its tram was confirmed, wherever it is: of its last run it tells no more."""
+    """Tell whether a unit has begun since its tram was confirmed: of the run before it tells no more (G2, ours)."""
     return is_new(now_ms, known, report) and not report.left and not is_under_way(known)
 
 

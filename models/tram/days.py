@@ -234,7 +234,8 @@ def one_day(
 ) -> tuple[Numbers, Given, Whole]:
     """Simulate a day: its row, what it was given, and when each run left each stop; ``beyond``: faults besides."""
     assert are_lawful(limits)
-    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM) and are_told_apart(STOP_LIMITS, BOUND_MM, LEAST_APART_MM)
+    assert are_lawful_at_stops(STOP_LIMITS, BOUND_MM)
+    assert are_told_apart(STOP_LIMITS, BOUND_MM, LEAST_APART_MM)
     chance, apart = np.random.default_rng((seed, number)), np.random.default_rng((seed, number, 2))
     day, drawn = given(chance, apart, limits, present, plant, frozenset(beyond))
     back = other_way(day, apart)
