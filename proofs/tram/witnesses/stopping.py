@@ -245,6 +245,7 @@ def who_changes_ends_beyond_its_stop_begins_anew() -> None:
         along = off_the_way()
         along.run(850_000)
         assert along.fix() == (2, True, False)
+        assert along.system.farthest_mm == 860_000
         along.run(830_000 - off_mm)
         assert along.fix(off_mm) == (2, True, False)
         along.run(829_999 - off_mm)
