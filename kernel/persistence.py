@@ -149,6 +149,7 @@ TRAM_STOPPING: Mapping[str, tuple[Memory, str]] = {
     "stands": (Memory.LOST, "False"),
     "is_followed": (Memory.LOST, "False"),
     "least_mm": (Memory.LOST, "0"),
+    "most_mm": (Memory.LOST, "0"),
     "has_run": (Memory.LOST, "False"),
 }
 """Where a tram stands: at the first stop, or farther on (`kernel.tram.stopping.begun`)."""

@@ -4,7 +4,7 @@ What the unit tells is the stop that it reached last, and whether it has left it
 errs to both sides, trams run one way.  So no tram that stands seems to run, and none falls behind one that
 it is ahead of.  A driver may have set another way than his tram is on, or left it set where he turned off: until it
 was seen to run over a stop of the way that is set, and since it had no place anew, it tells of none there that it
-leaves, and if it is seen before a stop that it has reached there it begins anew (ours).
+leaves.  If it is seen before a stop that it has reached there, or back along that way, it begins anew (ours).
 Places are those of map matching, in mm along the line; reckoned in 64 bits to 2**61.
 """
 
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from kernel.onboard.arithmetic import magnitude, smaller
+from kernel.onboard.arithmetic import larger, magnitude, smaller
 from kernel.tram.dispatching import FIRST_STOP
 
 SLOW_MM_S = 1_389
@@ -47,7 +47,8 @@ class Stopping:
 
     ``stop``: the stop that it reached last.  ``left``: it has left that one.  ``stands``: it stands there.
     ``is_followed``: its last fix had a place; ``least_mm``: the least place since a fix had none, or since the start.
-    ``has_run``: since then, too, it was seen at a stop, or before it, and then beyond (ours).
+    ``most_mm``: the greatest place since it has told that it left that stop; until then the last one (ours).
+    ``has_run``: since a fix had no place, too, it was seen at a stop, or before it, and then beyond (ours).
     """
 
     stop: int
@@ -55,6 +56,7 @@ class Stopping:
     stands: bool
     is_followed: bool
     least_mm: int
+    most_mm: int
     has_run: bool
 
 
@@ -64,7 +66,7 @@ def begun(stop: int) -> Stopping:
     After a restart that is the first one of the way: the others it finds by its fixes, one after the other (ours).
     Whoever sets a way, or another one, begins the unit so.
     """
-    return Stopping(stop=stop, left=False, stands=False, is_followed=False, least_mm=0, has_run=False)
+    return Stopping(stop=stop, left=False, stands=False, is_followed=False, least_mm=0, most_mm=0, has_run=False)
 
 
 def is_slow(fix: Fix) -> bool:
@@ -78,14 +80,16 @@ def is_within(fix: Fix, stop_mm: int, within_mm: int) -> bool:
 
 
 def followed(stopping: Stopping, fix: Fix) -> Stopping:
-    """Note how far back the tram has been seen (G2, ours).
+    """Note how far back the tram has been seen, and how far on since it left its stop (G2, ours).
 
-    Without a place it may come round to another part of a way that it is not on, so what was seen before is forgotten.
+    Without a place it may come round to another part of a way that it is not on, so that it ran there is forgotten.
+    How far on it was stays: farther back it cannot come round on the way that is set.
     """
     if not fix.is_placed:
         return replace(stopping, is_followed=False, has_run=False)
     least_mm = smaller(stopping.least_mm, fix.place_mm) if stopping.is_followed else fix.place_mm
-    return replace(stopping, is_followed=True, least_mm=least_mm)
+    most_mm = larger(stopping.most_mm, fix.place_mm) if stopping.left else fix.place_mm
+    return replace(stopping, is_followed=True, least_mm=least_mm, most_mm=most_mm)
 
 
 def is_beyond(limits: StopLimits, stop_mm: int, fix: Fix) -> bool:
@@ -93,12 +97,15 @@ def is_beyond(limits: StopLimits, stop_mm: int, fix: Fix) -> bool:
     return fix.place_mm > stop_mm + limits.near_mm
 
 
-def is_before(limits: StopLimits, stop_mm: int, fix: Fix) -> bool:
-    """Tell whether a tram is before a stop that it was said to have reached: it was on another way than is set (G2).
+def is_seen_back(limits: StopLimits, stopping: Stopping, stop_mm: int, fix: Fix) -> bool:
+    """Tell whether a tram is farther back than it was said to have come: it is on another way than is set (G2, ours).
 
-    Where the way is right the place is within the error by which it is told, and the error by which the stop was.
+    It had come near the stop that it reached, and, once it has left that one, to where it was farthest.
+    On the right way a place is less than that by two errors at most: the one by which it is told, and the one by
+    which the other was.
     """
-    return fix.is_placed and fix.place_mm < stop_mm - limits.held_mm
+    come_mm = stopping.most_mm if stopping.left else stop_mm - limits.near_mm
+    return fix.is_placed and fix.place_mm < come_mm - (limits.held_mm - limits.near_mm)
 
 
 def runs_over(limits: StopLimits, stopping: Stopping, stop_mm: int, fix: Fix) -> bool:
@@ -116,7 +123,7 @@ def note_fix(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int,
 
     Without place or speed nothing is known but what was reached, and the tram does not count as standing.
     """
-    if is_before(limits, here_mm, fix):
+    if is_seen_back(limits, stopping, here_mm, fix):
         return followed(begun(FIRST_STOP), fix)
     seen = followed(stopping, fix)
     if not (fix.is_placed and fix.has_speed):
@@ -133,7 +140,8 @@ def note_fix(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int,
 def passing(limits: StopLimits, stopping: Stopping, here_mm: int, next_mm: int, fix: Fix) -> Stopping:
     """Take a fix of a tram that runs: behind a stop it has left that one, even if it never stood there (G2, G5)."""
     if is_beyond(limits, next_mm, fix):
-        return leaving(limits, replace(stopping, stop=stopping.stop + 1, left=False), next_mm, fix)
+        reached = replace(stopping, stop=stopping.stop + 1, left=False, most_mm=fix.place_mm)
+        return leaving(limits, reached, next_mm, fix)
     return leaving(limits, stopping, here_mm, fix)
 
 

@@ -38,8 +38,10 @@ class Ride:
     ``fixed_at_mm``, ``speed_mm_s``: where it was at the last fix, and how fast.
     ``stood_at_mm``: where it was when it began to stand.  ``wandered``: a fix made it run that still stood there.
     ``fell_back``: one put it farther back that was on the way that is set.
-    ``turned_mm``: where it turned off the way, if it is not on it.  ``was_lost``: since then it had a fix without a
-    place, or was set anew; ``has_begun``: and since that it has told that it had not left a stop.
+    ``turned_mm``: where it turned off the way, if it is not on it.  ``was_lost``: there, or since, its fix had no
+    place, or it was set or put back; ``has_begun``: and since that it has told that it had not left a stop.
+    ``farthest_mm``: where it was farthest at a fix with a place, since it told that it left the stop that it tells of;
+    until then where it was at the last one.
     ``is_unset``: it has come onto the way, and its unit still tells of a run before that it has left a stop.
     """
 
@@ -58,6 +60,7 @@ class Ride:
     turned_mm: int
     was_lost: bool
     has_begun: bool
+    farthest_mm: int
     is_unset: bool
 
 
@@ -89,6 +92,16 @@ def a_speed_is_within_its_error(site: Street, fix: Fix, speed_mm_s: int) -> bool
 def fell(before: Stopping, now: Stopping) -> bool:
     """Tell whether a unit tells less of the way than it did: an earlier stop, or one that it had left (G2)."""
     return now.stop < before.stop or (now.stop == before.stop and before.left and not now.left)
+
+
+def is_put_back(site: Street, system: Ride, fix: Fix) -> bool:
+    """Tell whether a place is before the stop that is told, or back from where the unit was told since it left it (G2).
+
+    Each by more than errors make of it: a place is held for both of them, and a stop was reached from so near.
+    """
+    told, held_mm, near_mm = system.stopping, site.limits.held_mm, site.limits.near_mm
+    is_back = told.left and told.most_mm - fix.place_mm > held_mm - near_mm
+    return fix.is_placed and (is_back or fix.place_mm < system.here_mm - held_mm)
 
 
 def the_table_has_the_stops(system: Ride, here_mm: int, next_mm: int) -> bool:
@@ -158,7 +171,7 @@ def turn_off(site: Street, system: Ride) -> Ride:
         system,
         is_astray=True,
         turned_mm=system.turned_mm if was_off else system.at_mm,
-        was_lost=was_off and system.was_lost,
+        was_lost=system.was_lost if was_off else not system.has_place,
         has_begun=was_off and system.has_begun,
     )
 
@@ -180,18 +193,19 @@ def take_fix(
         return system
     before = system.stopping
     now = machine.note_fix(site.limits, before, here_mm, next_mm, fix)
-    was_astray = fix.is_placed and fix.place_mm < system.here_mm - site.limits.held_mm
-    has_come = now.stop > before.stop and not was_astray
-    stop_mm = site.first_mm if was_astray else system.here_mm
+    begins_anew = is_put_back(site, system, fix)
+    has_come = now.stop > before.stop and not begins_anew
+    stop_mm = site.first_mm if begins_anew else system.here_mm
+    was_farther = before.left and not has_come and not begins_anew and system.at_mm < system.farthest_mm
     is_still = before.stands and system.at_mm == system.stood_at_mm
     is_told = fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389
-    was_lost = system.was_lost or not fix.is_placed
+    was_lost = system.was_lost or not fix.is_placed or begins_anew
     begins = now.stands and (has_come or not before.stands)
     return replace(
         system,
-        here=0 if was_astray else system.here + 1 if has_come else system.here,
+        here=0 if begins_anew else system.here + 1 if has_come else system.here,
         here_mm=system.next_mm if has_come else stop_mm,
-        next_mm=further_mm if has_come or was_astray else system.next_mm,
+        next_mm=further_mm if has_come or begins_anew else system.next_mm,
         stopping=now,
         has_place=fix.is_placed,
         fixed_at_mm=system.at_mm,
@@ -201,5 +215,6 @@ def take_fix(
         fell_back=system.fell_back or (not system.is_astray and not system.is_unset and fell(before, now)),
         was_lost=was_lost,
         has_begun=system.has_begun or (was_lost and not now.left),
+        farthest_mm=system.at_mm if fix.is_placed and not was_farther else system.farthest_mm,
         is_unset=system.is_unset and now.left and not has_come,
     )

@@ -58,6 +58,7 @@ from models.tram.state import (
     U_FOLLOWED,
     U_LEAST,
     U_LEFT,
+    U_MOST,
     U_RUN,
     U_STANDS,
     U_STOOD,
@@ -164,14 +165,23 @@ def is_behind(traffic: Traffic, tram: int, other: int) -> bool:
 def stopping_of(day: Given, body: Any) -> Any:
     """What a unit tells, and has seen of the way that is set."""
     has_run = body[U_RUN] == 1 or day.plant == LEAVES_AT_ONCE
-    return Stopping(body[U_STOP], body[U_LEFT] == 1, body[U_STANDS] == 1, body[U_FOLLOWED] == 1, body[U_LEAST], has_run)
+    return Stopping(
+        body[U_STOP],
+        body[U_LEFT] == 1,
+        body[U_STANDS] == 1,
+        body[U_FOLLOWED] == 1,
+        body[U_LEAST],
+        body[U_MOST],
+        has_run,
+    )
 
 
 @compiled
 def keep_stopping(body: Any, told: Any) -> None:
     """Keep it."""
     body[U_STOP], body[U_LEFT], body[U_STANDS] = told.stop, told.left, told.stands
-    body[U_FOLLOWED], body[U_LEAST], body[U_RUN] = told.is_followed, told.least_mm, told.has_run
+    body[U_FOLLOWED], body[U_RUN] = told.is_followed, told.has_run
+    body[U_LEAST], body[U_MOST] = told.least_mm, told.most_mm
 
 
 @compiled

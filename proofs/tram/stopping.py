@@ -72,7 +72,7 @@ def beside_the_way_only_what_was_left_on_it_is_told(site: Street, system: Ride) 
 
 
 def who_has_begun_leaves_no_stop_beside_the_way(site: Street, system: Ride) -> bool:
-    """One that was set anew there, or lost its place and then told of a stop, tells of none that it left (G3, G5)."""
+    """One that was set there, or seen to run back, or was lost and then told of a stop, tells of none left (G3, G5)."""
     return not (system.stopping.left and system.is_astray and system.has_begun)
 
 
@@ -100,7 +100,39 @@ def none_is_told_far_beyond(site: Street, system: Ride) -> bool:
     )
 
 
+def who_has_left_a_stop_has_not_run_back(site: Street, system: Ride) -> bool:
+    """On the way or beside it a tram that tells of a stop that it left was, where it had a place, about foremost (G2).
+
+    It was no farther back than where it was farthest since it told so, but for the difference of the two limits for
+    stops, and two errors: one that is beside the way, and runs back there, begins anew.
+    """
+    run_back_mm = system.farthest_mm - system.fixed_at_mm
+    return not (system.stopping.left and system.has_place) or (
+        run_back_mm <= site.limits.held_mm - site.limits.near_mm + 2 * site.error_mm
+    )
+
+
 # ---- what it rests on
+
+
+def who_has_left_a_stop_was_seen_beyond(site: Street, system: Ride) -> bool:
+    """The greatest place that a tram was told since it left a stop is beyond that one, and not near it (G2)."""
+    return not system.stopping.left or system.stopping.most_mm > system.here_mm + site.limits.near_mm
+
+
+def what_is_farthest_was_told(site: Street, system: Ride) -> bool:
+    """Where a tram was farthest since it left a stop its unit was told a place, within the error of GPS (G2)."""
+    return not system.stopping.left or system.stopping.most_mm >= system.farthest_mm - site.error_mm
+
+
+def on_the_way_none_was_seen_farther_on(site: Street, system: Ride) -> bool:
+    """A tram on the way that is set is no farther back than it was seen since it left a stop, but for errors (G2)."""
+    return (
+        not system.stopping.left
+        or system.is_astray
+        or system.is_unset
+        or system.stopping.most_mm <= system.at_mm + site.error_mm
+    )
 
 
 def it_began_to_stand_near_the_stop(site: Street, system: Ride) -> bool:
@@ -111,12 +143,12 @@ def it_began_to_stand_near_the_stop(site: Street, system: Ride) -> bool:
 
 
 def who_was_seen_to_run_has_not_lost_the_way(site: Street, system: Ride) -> bool:
-    """No tram on another way than is set is seen to run over a stop of that one, once it had no place there (G2)."""
+    """No tram on another way than is set is seen to run over a stop of that one, once lost or put back there (G2)."""
     return not (system.stopping.has_run and system.is_astray and system.was_lost)
 
 
 def who_is_astray_was_seen_no_farther_back(site: Street, system: Ride) -> bool:
-    """Beside a way that it is not on a tram was seen, since its last fix without a place, no farther back (G2)."""
+    """Beside a way that it is not on a tram was seen no farther back since it had no place, or was put back (G2)."""
     return not (system.is_astray and system.was_lost and system.stopping.is_followed) or (
         system.stopping.least_mm >= system.at_mm - site.error_mm
     )
@@ -128,12 +160,22 @@ def the_unit_knows_whether_it_has_had_a_place(site: Street, system: Ride) -> boo
 
 
 def who_has_turned_off_was_no_farther_on(site: Street, system: Ride) -> bool:
-    """Until it has no place a tram that has turned off is no farther along the way than where it did (G2)."""
+    """Until it has no place, or is put back, one that has turned off is no farther along the way than there (G2)."""
     return not system.is_astray or system.was_lost or system.at_mm <= system.turned_mm
 
 
+def who_has_no_place_has_lost_the_way(site: Street, system: Ride) -> bool:
+    """A tram beside the way whose last fix had no place is lost there, wherever it was taken (G2)."""
+    return not system.is_astray or system.has_place or system.was_lost
+
+
+def who_was_seen_to_run_has_a_place(site: Street, system: Ride) -> bool:
+    """That a tram was seen to run over a stop is forgotten with the first fix without a place (G2)."""
+    return system.has_place or not system.stopping.has_run
+
+
 def who_has_begun_has_lost_the_way(site: Street, system: Ride) -> bool:
-    """Beside the way a unit has begun only since it had no place, or was set (G2)."""
+    """Beside the way a unit has begun only since it had no place, or was set or put back (G2)."""
     return system.was_lost or not system.has_begun
 
 
@@ -157,16 +199,22 @@ SAFETY = (
     a_standing_tram_never_seems_to_run,
     no_tram_falls_back,
     none_is_told_far_beyond,
+    who_has_left_a_stop_has_not_run_back,
 )
 INVARIANTS = (
     *SAFETY,
     it_began_to_stand_near_the_stop,
     who_was_seen_to_run_has_not_lost_the_way,
     who_has_turned_off_was_no_farther_on,
+    who_has_no_place_has_lost_the_way,
+    who_was_seen_to_run_has_a_place,
     who_has_begun_has_lost_the_way,
     a_way_is_not_run_before_its_first_stop,
     who_is_astray_was_seen_no_farther_back,
     the_unit_knows_whether_it_has_had_a_place,
+    who_has_left_a_stop_was_seen_beyond,
+    what_is_farthest_was_told,
+    on_the_way_none_was_seen_farther_on,
 )
 STEPS = (run_on, come_round, turn_onto, turn_off, take_fix, restart)
 

@@ -38,15 +38,17 @@ def test_witness(witness: Callable[[], None]) -> None:
 # ---- stopping
 
 
-@given(st.builds(Stopping, ANY, FLAG, FLAG, FLAG, ANY, FLAG), ANY, ANY, st.builds(Fix, FLAG, ANY, FLAG, ANY))
+@given(st.builds(Stopping, ANY, FLAG, FLAG, FLAG, ANY, ANY, FLAG), ANY, ANY, st.builds(Fix, FLAG, ANY, FLAG, ANY))
 def test_no_fix_puts_a_tram_back(stopping_: Stopping, here_mm: int, next_mm: int, fix: Fix) -> None:
     """Whatever is measured: it goes on by one stop at most, and who stands has a place and a low speed (G2).
 
-    But one that is before the stop that it had reached, by more than errors make of it, begins anew.
+    But one that is before the stop that it had reached, or farther back than it was since it left that one, by more
+    than errors make of it, begins anew.
     """
     now = note_fix(StopLimits(20_000, 50_000), stopping_, here_mm, next_mm, fix)
-    if fix.is_placed and fix.place_mm < here_mm - 50_000:
-        assert now == replace(on_the_way.begun(0), is_followed=True, least_mm=fix.place_mm)
+    if fix.is_placed and fix.place_mm < (stopping_.most_mm - 30_000 if stopping_.left else here_mm - 50_000):
+        begun_anew = replace(on_the_way.begun(0), least_mm=fix.place_mm, most_mm=fix.place_mm)
+        assert now == replace(begun_anew, is_followed=True)
     else:
         assert mark(stopping_.stop, stopping_.left) <= mark(now.stop, now.left) <= mark(stopping_.stop + 1, True)
     assert not now.stands or (fix.is_placed and fix.has_speed and fix.speed_mm_s < 1_389)

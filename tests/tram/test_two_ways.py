@@ -185,7 +185,7 @@ def as_soon_as_it_is_beyond(_limits: StopLimits, _stopping: Stopping, _stop_mm: 
     return True
 
 
-def never_astray(_limits: StopLimits, _stop_mm: int, _fix: Fix) -> bool:
+def never_astray(_limits: StopLimits, _stopping: Stopping, _stop_mm: int, _fix: Fix) -> bool:
     """A stop that was reached stays reached, although the tram is seen before it."""
     return False
 
@@ -205,7 +205,7 @@ SEEN: list[tuple[Rule, int, tuple[str, ...] | None, str]] = [
     ((map_matching, "place_mm", nearest), 0, None, "place"),
     ((stopping, "passing", at_the_platform), 0, None, "told too soon"),
     ((stopping, "runs_over", as_soon_as_it_is_beyond), 0, ("units", "ways"), "not clear"),
-    ((stopping, "is_before", never_astray), 3, ("units", "ways"), "told too soon"),
+    ((stopping, "is_seen_back", never_astray), 3, ("units", "ways"), "told too soon"),
     ((on_board, "located", never_lost), 0, (), "not clear"),
 ]
 """A rule left out, a world that shows it, with which days, and what is broken there."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from kernel.tram import display as cab
 from kernel.tram.stopping import SLOW_MM_S, Fix, StopLimits, Stopping, begun
-from models.tram.stopping import Ride, Street, fell
+from models.tram.stopping import Ride, Street, fell, is_put_back
 from proofs.onboard.witnesses.play import Play
 from proofs.tram.stopping import THEORY
 
@@ -19,7 +20,7 @@ class Along(Play[Street, Ride]):
     def __init__(self, at_mm: int = 0) -> None:
         """Begin."""
         first = Ride(
-            at_mm, 0, 0, STOPS_MM[1], False, begun(0), False, at_mm, 0, at_mm, False, False, 0, True, True, False
+            at_mm, 0, 0, STOPS_MM[1], False, begun(0), False, at_mm, 0, at_mm, False, False, 0, True, True, at_mm, False
         )
         super().__init__(THEORY, SITE, first)
 
@@ -28,7 +29,7 @@ class Along(Play[Street, Ride]):
         at_mm = self.system.at_mm if at_mm is None else at_mm
         event = {"at_mm": at_mm, "is_astray": is_astray, "here": here}
         self.step("restart", **event, here_mm=STOPS_MM[here], next_mm=STOPS_MM[here + 1])
-        assert self.system.stopping == begun(here) == Stopping(here, False, False, False, 0, False)
+        assert self.system.stopping == begun(here) == Stopping(here, False, False, False, 0, 0, False)
         assert (self.system.here, self.system.here_mm, self.system.next_mm) == (here, *STOPS_MM[here : here + 2])
         assert (self.system.at_mm, self.system.is_astray, self.system.has_place) == (at_mm, is_astray, False)
 
@@ -49,7 +50,7 @@ class Along(Play[Street, Ride]):
             speed_mm_s=speed_mm_s,
             here_mm=before.here_mm,
             next_mm=before.next_mm,
-            further_mm=before.next_mm + 400_000 if fix.place_mm >= before.here_mm - 50_000 else STOPS_MM[1],
+            further_mm=STOPS_MM[1] if is_put_back(SITE, before, fix) else before.next_mm + 400_000,
         )
         now = self.system
         assert now.has_place == now.stopping.is_followed == is_placed
@@ -223,6 +224,113 @@ def who_turns_off_leaves_no_more_of_the_way() -> None:
     assert along.fix(speed_mm_s=8_000) == (2, False, False)
 
 
+def off_the_way(left_at_mm: int = 860_000) -> Along:
+    """A tram that has left its third stop, by a fix without an error, and turns off there."""
+    along = Along(790_000)
+    along.restart(2)
+    assert along.fix(speed_mm_s=8_000) == (2, False, False)
+    along.run(left_at_mm)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+    along.step("turn_off")
+    assert along.system.farthest_mm == along.system.stopping.most_mm == left_at_mm
+    return along
+
+
+def who_changes_ends_beyond_its_stop_begins_anew() -> None:
+    """On a tail track, and back beside the way that is set: 30 m from where it was farthest, however slowly (G2).
+
+    It is beyond the stop that it has left, and tells of none there any more, until it is on a way again.
+    """
+    for off_mm in (0, 15_000, -15_000):
+        along = off_the_way()
+        along.run(850_000)
+        assert along.fix() == (2, True, False)
+        assert along.system.farthest_mm == 860_000
+        along.run(830_000 - off_mm)
+        assert along.fix(off_mm) == (2, True, False)
+        along.run(829_999 - off_mm)
+        assert along.fix(off_mm) == (0, False, False)
+        assert along.system.stopping.most_mm == along.system.stopping.least_mm == 829_999
+        assert (along.system.here_mm, along.system.next_mm) == (0, 400_000)
+        assert along.system.farthest_mm == along.system.at_mm == 829_999 - off_mm
+        assert (along.system.was_lost, along.system.has_begun, along.system.fell_back) == (True, True, False)
+        assert along.fix(speed_mm_s=8_000) == (1, False, False)
+        along.run(600_000)
+        assert along.fix(speed_mm_s=8_000) == (1, False, False)
+
+
+def who_was_lost_on_the_tail_track_begins_anew() -> None:
+    """It has no place where it changes ends: what counts is where it was seen before (G2)."""
+    along = off_the_way()
+    along.fix(is_placed=False)
+    assert along.system.stopping.most_mm == 860_000
+    along.step("come_round", at_mm=830_000)
+    assert along.fix(speed_mm_s=8_000) == (2, True, False)
+    along.run(829_999)
+    assert along.fix(speed_mm_s=8_000) == (0, False, False)
+
+
+def errors_of_gps_begin_nothing_anew() -> None:
+    """On the way a place falls by two errors at most, one ahead and one behind; neither lasts (002, 3.1.2; G2)."""
+    along = Along()
+    for at_mm, off_mm, told in (
+        (0, 0, (0, False, False)),
+        (60_000, 15_000, (0, True, False)),
+        (60_000, -15_000, (0, True, False)),
+        (460_000, 15_000, (1, True, False)),
+        (460_000, -15_000, (1, True, False)),
+        (460_000, 0, (1, True, False)),
+        (470_000, -15_000, (1, True, False)),
+    ):
+        along.run(at_mm)
+        assert along.fix(off_mm, speed_mm_s=8_000) == told
+        assert along.system.farthest_mm == at_mm
+    assert along.system.stopping.most_mm == 475_000
+    assert along.fix(is_placed=False) == (1, True, False)
+    assert along.fix(-15_000, speed_mm_s=8_000) == (1, True, False)
+    assert not along.system.fell_back
+
+
+def who_has_come_back_onto_the_way_goes_on_from_there() -> None:
+    """Where it was seen beside the way counts no more once it has left a stop on it (G2)."""
+    along = Along()
+    along.restart(1, 700_000, is_astray=True)
+    assert along.fix(15_000, speed_mm_s=8_000) == (1, False, False)
+    along.run(400_000)
+    assert along.fix(speed_mm_s=8_000) == (1, False, False)
+    along.step("turn_onto")
+    along.run(460_000)
+    assert along.fix(speed_mm_s=8_000) == (1, True, False)
+    assert (along.system.stopping.most_mm, along.system.farthest_mm) == (460_000, 460_000)
+    assert along.fix(-15_000, speed_mm_s=8_000) == (1, True, False)
+
+
+def who_begins_anew_is_shown_no_recovery() -> None:
+    """The stop is another one; but for who had left the first of the way, which it tells of anew (G5, G6).
+
+    That one is shown it until it stands near a stop, or has no place, or comes to another stop.
+    """
+    along = off_the_way()
+    shown = cab.Display(0, True, 2, False, False, True, 0)
+    along.run(829_999)
+    stop, _left, stands = along.fix(speed_mm_s=8_000)
+    assert not cab.located(shown, True, stop, stands).recovers
+    along = Along()
+    for at_mm in (0, 60_000):
+        along.run(at_mm)
+        along.fix(speed_mm_s=8_000)
+    assert along.system.stopping.left
+    along.step("turn_off")
+    along.run(29_999)
+    stop, left, stands = along.fix(speed_mm_s=8_000)
+    assert (stop, left, stands) == (0, False, False)
+    shown = cab.located(cab.Display(0, True, 0, False, False, True, 0), True, stop, stands)
+    assert shown.recovers
+    along.run(20_000)
+    stop, _left, stands = along.fix()
+    assert not cab.located(shown, True, stop, stands).recovers
+
+
 def who_comes_back_begins_by_its_fixes() -> None:
     """A tram turned off and comes back where the way begins; its unit tells of the run before until it has a place."""
     along = Along()
@@ -367,6 +475,11 @@ WITNESSES = (
     after_a_start_a_stop_is_left_once_it_was_run_over,
     where_the_place_was_lost_a_stop_is_run_over_anew,
     who_turns_off_leaves_no_more_of_the_way,
+    who_changes_ends_beyond_its_stop_begins_anew,
+    who_was_lost_on_the_tail_track_begins_anew,
+    errors_of_gps_begin_nothing_anew,
+    who_has_come_back_onto_the_way_goes_on_from_there,
+    who_begins_anew_is_shown_no_recovery,
     who_comes_back_begins_by_its_fixes,
     who_runs_over_no_stop_leaves_none,
     a_tram_set_to_another_way_leaves_no_stop_there,
