@@ -204,7 +204,7 @@ SEEN: list[tuple[Rule, int, tuple[str, ...] | None, str]] = [
     ((cycle, "is_fresh", however_old), 0, None, "heard long ago"),
     ((map_matching, "place_mm", nearest), 0, None, "place"),
     ((stopping, "passing", at_the_platform), 0, None, "told too soon"),
-    ((stopping, "runs_over", as_soon_as_it_is_beyond), 0, ("units", "ways"), "not clear"),
+    ((stopping, "runs_over", as_soon_as_it_is_beyond), 1, ("units", "ways"), "not clear"),
     ((stopping, "is_seen_back", never_astray), 3, ("units", "ways"), "told too soon"),
     ((on_board, "located", never_lost), 0, (), "not clear"),
 ]

@@ -179,102 +179,6 @@ def a_destination_that_is_told_farther_counts() -> None:
     assert day.says(SECOND, Hand.RECOVER) == NEITHER
 
 
-def who_comes_behind_matters_not() -> None:
-    """At the first stop, or at one before that of the other; at its own stop, or just beyond, it may come before it."""
-    for stop, says in ((0, RECOVERS), (1, NEITHER)):
-        day = two_stops_apart()
-        day.off(THIRD)
-        assert day.confirm(THIRD, stop)
-        assert day.says(SECOND) == says
-    day = two_stops_apart()
-    day.depart(SECOND)
-    day.off(THIRD)
-    assert day.confirm(THIRD, 1)
-    day.wait(1)
-    day.arrive(SECOND)
-    assert day.says(SECOND, Hand.RECOVER) == NEITHER
-    day.wait(1)
-    day.begin(THIRD, 3)
-    assert day.says(SECOND, Hand.RECOVER) == RECOVERS
-
-
-def reports_show_who_is_ahead() -> None:
-    """Two trams at one stop: which is ahead follows from where the other stood before, and from nothing else (G2)."""
-    day = Day()
-    day.come(FIRST, 1, 1)
-    day.come(SECOND, 2, 1)
-    assert day.says(FIRST, Hand.RECOVER) == NEITHER
-    day = holds.at_one_stop()
-    assert (FIRST, SECOND) in day.system.centre.shown
-    assert day.says(FIRST, Hand.RECOVER) == RECOVERS
-    day = Day()
-    day.come(FIRST, 1, 0)
-    day.depart(FIRST)
-    day.off(SECOND)
-    day.off(THIRD)
-    assert day.confirm(SECOND, 0)
-    assert day.confirm(THIRD, 0)
-    day.begin(THIRD, 2)
-    day.begin(SECOND, 3)
-    assert {(FIRST, SECOND), (FIRST, THIRD)} == day.system.centre.shown
-    for tram in (SECOND, THIRD):
-        assert day.says(tram, Hand.RECOVER) != RECOVERS
-    day.arrive(FIRST)
-    day.depart(FIRST)
-    for tram in (SECOND, THIRD):
-        assert day.says(tram, Hand.LIFT) == NEITHER
-        assert day.system.given.way_unknown == (tram == SECOND)
-    day.wait(61_000)
-    for tram in (SECOND, THIRD):
-        day.tell(tram)
-        assert day.says(tram, Hand.RECOVER) == NEITHER
-    day.depart(THIRD)
-    day.wait(1)
-    day.tell(SECOND)
-    assert (THIRD, SECOND) not in day.system.centre.shown
-    day.arrive(THIRD)
-    day.wait(61_000)
-    day.tell(THIRD)
-    day.wait(1)
-    day.tell(SECOND)
-    assert (THIRD, SECOND) in day.system.centre.shown
-    assert (SECOND, THIRD) not in day.system.centre.shown
-    assert day.says(THIRD, Hand.RECOVER) == NEITHER
-    day.arrive(FIRST)
-    day.depart(FIRST)
-    assert day.says(THIRD, Hand.RECOVER) == RECOVERS
-    assert day.says(SECOND, Hand.RECOVER) == NEITHER
-
-
-def who_queues_beyond_a_stop_is_ahead_of_nobody() -> None:
-    """At a signal beyond it GPS has the one behind leave, and the one in front still stand there (G2, ours)."""
-    day = Day()
-    day.come(FIRST, 1, 0)
-    day.come(SECOND, 2, 0)
-    day.step("depart", tram=FIRST)
-    day.depart(SECOND)
-    day.wait(1)
-    told = Report(0, False, True, TERMINUS, day.system.now_ms)
-    day.step("tell", tram=FIRST, report=told)
-    day.step("hear_report", tram=FIRST, told=told)
-    assert (day.known(FIRST).told_ms, day.known(FIRST).stands) == (told.made_ms, True)
-    assert (SECOND, FIRST) not in day.system.centre.shown
-
-
-def points_beyond_a_stop_let_one_come_before_who_has_left_it() -> None:
-    """A tram has left the stop, and waits before the points by which another comes: neither is shown ahead (G2)."""
-    day = Day()
-    day.run_to(FIRST, 1, 2)
-    day.depart(FIRST)
-    day.off(SECOND)
-    assert day.confirm(SECOND, 2)
-    assert not day.system.centre.shown
-    now_ms = day.system.now_ms
-    body = Body(0, 2, True, on_board.begun(0), 0)
-    day.step("come", tram=SECOND, body=body, now_ms=now_ms, begun_ms=now_ms)
-    assert day.body(SECOND).rank < day.body(FIRST).rank
-
-
 def none_is_taken_up_before_one_that_recovers() -> None:
     """A tram from the depot waits until the other has told that it arrived; farther on it may come (G5)."""
     day = two_stops_apart()
@@ -506,10 +410,6 @@ WITNESSES = (
     a_deaf_tram_is_taken_off_by_a_person,
     a_tram_gets_no_order_where_it_leaves,
     a_destination_that_is_told_farther_counts,
-    who_comes_behind_matters_not,
-    reports_show_who_is_ahead,
-    who_queues_beyond_a_stop_is_ahead_of_nobody,
-    points_beyond_a_stop_let_one_come_before_who_has_left_it,
     none_is_taken_up_before_one_that_recovers,
     who_is_on_the_way_is_not_taken_up_anew,
     after_a_start_nobody_recovers_until_the_way_is_known,
