@@ -73,7 +73,7 @@ def if_proved(answer: Answer, spent: int) -> tuple[Answer, int]:
 
 
 def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
-    """Ask Z3 with a fresh solver; at a loss the weaker question, and once more in a context of its own, and by text.
+    """Ask Z3 with a fresh solver; at a loss the weaker one, so and by text; then again in a new context, and by text.
 
     In the context that all questions share, what terms are numbered by depends on what was made before, and so,
     now and then, does whether an answer is found; the order of terms goes with them into another context.  By its text
@@ -84,11 +84,9 @@ def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
     yield _ask_z3_once(solver, seed)
     if (less := weaker(part)) is not None:
         yield if_proved(*_ask_z3_once(_told(less), seed))
+        yield if_proved(*_ask_z3_once(_by_text(less), seed))
     yield _ask_z3_once(solver.translate(z3.Context()), seed)
-    by_text = z3.Solver(ctx=z3.Context())
-    by_text.set("auto_config", False)
-    by_text.from_string(smtlib.script(part))
-    yield _ask_z3_once(by_text, seed)
+    yield _ask_z3_once(_by_text(part), seed)
 
 
 def _told(part: Part) -> z3.Solver:
@@ -98,6 +96,14 @@ def _told(part: Part) -> z3.Solver:
         solver.add(*part.hypotheses[name])
     solver.add(*part.given)
     solver.add(z3.Not(part.goal))
+    return solver
+
+
+def _by_text(part: Part) -> z3.Solver:
+    """Give a solver, in a context of its own, that was told the question by its text."""
+    solver = z3.Solver(ctx=z3.Context())
+    solver.set("auto_config", False)
+    solver.from_string(smtlib.script(part))
     return solver
 
 
