@@ -47,30 +47,40 @@ def of_who_is_not_set_nothing_was_heard(site: Way, system: Traffic) -> bool:
     return all(tram not in system.centre.trams or not has_begun(system.centre.trams[tram]) for tram in system.unset)
 
 
+def tells_that_it_is_set(system: Traffic, tram: Tram, report: Report) -> bool:
+    """Tell whether a report, made since its tram was confirmed, is of a stop that was not left (G2, ours)."""
+    return not report.left and is_of_this_run(system, tram, report.made_ms)
+
+
 def who_is_not_set_has_told_on_the_way_of_no_stop(site: Way, system: Traffic) -> bool:
     """Nor has it told since then that it was at a stop which it had not left (G2, ours)."""
     return all(
-        report.left or tram not in system.unset or not is_of_this_run(system, tram, report.made_ms)
-        for tram, report in system.told
+        tram not in system.unset or not tells_that_it_is_set(system, tram, report) for tram, report in system.told
     )
 
 
 def who_is_not_set_has_told_beside_it_of_no_stop(site: Way, system: Traffic) -> bool:
     """Neither on the way nor beside it (G2, ours)."""
     return all(
-        report.left or tram not in system.unset or not is_of_this_run(system, tram, report.made_ms)
+        tram not in system.unset or not tells_that_it_is_set(system, tram, report)
         for tram, report in system.told_beside
+    )
+
+
+def is_in_order(system: Traffic, tram: Tram, before: Report, report: Report) -> bool:
+    """Tell whether a tram told of the run before no later than in a report by which it is set (G2, ours)."""
+    return (
+        not before.left
+        or not is_of_this_run(system, tram, before.made_ms)
+        or not tells_that_it_is_set(system, tram, report)
+        or before.made_ms <= report.made_ms
     )
 
 
 def of_the_run_before_it_told_before_it_began(site: Way, system: Traffic) -> bool:
     """What a unit told of the run before it told no later than that it was at a stop of this one (G2, ours)."""
     return all(
-        report.left
-        or not before.left
-        or not is_of_this_run(system, tram, before.made_ms)
-        or not is_of_this_run(system, tram, report.made_ms)
-        or before.made_ms <= report.made_ms
+        is_in_order(system, tram, before, report)
         for tram, report in system.told
         for other, before in system.told_beside
         if other == tram
@@ -80,11 +90,7 @@ def of_the_run_before_it_told_before_it_began(site: Way, system: Traffic) -> boo
 def of_the_run_before_it_told_before_it_began_beside_the_way(site: Way, system: Traffic) -> bool:
     """And so if it told that beside the way (G2, ours)."""
     return all(
-        report.left
-        or not before.left
-        or not is_of_this_run(system, tram, before.made_ms)
-        or not is_of_this_run(system, tram, report.made_ms)
-        or before.made_ms <= report.made_ms
+        is_in_order(system, tram, before, report)
         for tram, report in system.told_beside
         for other, before in system.told_beside
         if other == tram
