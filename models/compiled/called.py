@@ -4,9 +4,23 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.core import registry
+from numba.core import datamodel, registry
 
 CPUDispatcher: Any = registry.CPUDispatcher
+numbas_records: Any = datamodel
+
+
+class FreedTooSoon(Exception):
+    """A function in which no references are counted gives back what has some."""
+
+
+def refuse_uncounted(function: Any, given_back: Any) -> None:
+    """Refuse one that would have what it was handed freed while others still refer to it."""
+    if (
+        not function.targetoptions.get("_nrt", True)
+        and numbas_records.default_manager.lookup(given_back).contains_nrt_meminfo()
+    ):
+        raise FreedTooSoon(f"{function.py_func.__qualname__} gives back {given_back}; its references must be counted")
 
 
 class Inner(CPUDispatcher):  # type: ignore[misc]
@@ -22,7 +36,12 @@ class Inner(CPUDispatcher):  # type: ignore[misc]
         self.outer = outer
 
     def add_overload(self, cres: Any) -> None:
-        """Keep code for compiled callers alone: there is no way into it from Python."""
+        """Keep code for compiled callers alone: there is no way into it from Python.
+
+        Raises:
+            FreedTooSoon: no references are counted in it, and it gives back what has some.
+        """
+        refuse_uncounted(self, cres.signature.return_type)
         self.overloads[tuple(cres.signature.args)] = cres
 
     def _compile_for_args(self, *given: Any, **named: Any) -> Any:

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from numba.core.runtime import nrt
 
-from models.compiled import compiled
+from models.compiled import UNCOUNTED, compiled
+from models.compiled.called import FreedTooSoon
 
 rtsys: Any = nrt.rtsys
 counted: Any = vars(nrt)["_nrt"]
@@ -33,6 +34,37 @@ def handed_on(places: Any, times: int) -> int:
         other = numba.typed.List([(1, 2), (3, 4)])
         kept, other = other, kept
     return len(kept) + len(places)
+
+
+@compiled(**UNCOUNTED)
+def given_back(places: Any) -> Any:
+    """Give back a list that was handed on, and count no reference to it."""
+    return places
+
+
+@compiled(**UNCOUNTED)
+def number_of(places: Any) -> int:
+    """Give back a number."""
+    return len(places)
+
+
+@compiled
+def asks_for_it(places: Any) -> int:
+    """Call the one that gives back what it was handed."""
+    return len(given_back(places))
+
+
+@compiled
+def asks_for_a_number(places: Any) -> int:
+    """Call the one that gives back a number."""
+    return int(number_of(places))
+
+
+def test_what_counts_no_references_gives_back_nothing_that_has_some() -> None:
+    places = numba.typed.List([(1, 2), (3, 4)])
+    assert asks_for_a_number(places) == 2
+    with pytest.raises(FreedTooSoon, match="given_back gives back"):
+        asks_for_it(places)
 
 
 @compiled
