@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 from kernel.alarm import distance, network, sections, tone, train_list
-from models.compiled import UNCOUNTED, compile_machines
+from models.compiled import compile_machines
 
 MADE = compile_machines((tone, network, sections, distance, train_list))
 """The kernel's own functions and records, as attributes of ``MADE.tone``, ``MADE.distance`` and ``MADE.train_list``."""
-
-DECIDING = compile_machines((tone,), **UNCOUNTED)
-"""What decides and changes nothing, as ``DECIDING.tone.tone``: the same code, and nothing is counted in it."""

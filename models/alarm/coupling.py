@@ -12,7 +12,7 @@ from models.alarm.faults import KIND
 from models.alarm.line import REGULAR
 from models.alarm.moving import COMES_AFTER_S, FAR, LENGTH_M, STATIONS_M
 from models.alarm.routes import is_of_the_branch
-from models.compiled import UNCOUNTED, compiled
+from models.compiled import compiled
 
 COUPLED, PARTED = KIND["coupled"], KIND["parted"]
 STAYS_S = 30
@@ -22,13 +22,13 @@ STOPS_WITHIN_M = 1_000.0
 TOUCH_M = 0.01
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def first_of(day: Any, kind: int) -> int:
     """Give the first of the two trains; the other one is the next, which runs the other way."""
     return int(min(day.train[kind], REGULAR - 2))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def stands_at_a_station(trains: Any, train: int, second: int) -> bool:
     """Tell whether a train stands at a station on its way."""
     if not trains.came_s[train] <= second < trains.left_s[train] or trains.speed_m_s[train] > 0:
@@ -39,25 +39,25 @@ def stands_at_a_station(trains: Any, train: int, second: int) -> bool:
     return False
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def run_alike(day: Any, one: int) -> bool:
     """Tell whether a train and the next are of the same route."""
     return is_of_the_branch(day, one) == is_of_the_branch(day, one + 1)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def parts(day: Any) -> bool:
     """Tell whether a train is to part on this day."""
     return bool(day.begin_s[PARTED] >= 0 and run_alike(day, first_of(day, PARTED)))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def ahead_m(trains: Any, train: int) -> float:
     """Give how far a train reaches before its antenna."""
     return float(trains.above_m[train] if trains.heading[train] > 0 else trains.below_m[train])
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def reach_on(trains: Any, train: int, heading: int, more_m: float) -> None:
     """Make a train longer on one side of its antenna, or shorter."""
     if heading > 0:
@@ -66,7 +66,7 @@ def reach_on(trains: Any, train: int, heading: int, more_m: float) -> None:
         trains.below_m[train] += more_m
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_to_meet(day: Any, trains: Any, one: int, other: int, meets_m: float, second: int) -> bool:
     """Tell whether a train is yet to come to the station where another one waits for it."""
     if trains.heading[other] == trains.heading[one] or day.turns[other] or trains.came_s[other] >= FAR:
@@ -77,7 +77,7 @@ def is_to_meet(day: Any, trains: Any, one: int, other: int, meets_m: float, seco
     return bool(second < trains.left_s[other] and (far_m > STOPS_WITHIN_M or trains.stop_m[other] == meets_m))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def couple(day: Any, trains: Any, second: int) -> None:
     """A train waits at a station for the one that it is to meet, and they couple when that has come (A2)."""
     one = first_of(day, COUPLED)
@@ -103,7 +103,7 @@ def couple(day: Any, trains: Any, second: int) -> None:
         trains.waits_until_s[one] = max(trains.waits_until_s[one], second + STAYS_S)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def part(day: Any, trains: Any, second: int) -> None:
     """A train stands at a station; its rear is entered under another number, and is a train once it may be (A2)."""
     one = first_of(day, PARTED)
@@ -126,7 +126,7 @@ def part(day: Any, trains: Any, second: int) -> None:
         trains.waits_until_s[other] = second + STAYS_S
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def wait_to_part(day: Any, trains: Any) -> None:
     """In the morning what is yet to part is one train, and the other number runs nowhere (A2)."""
     if parts(day):
@@ -135,7 +135,7 @@ def wait_to_part(day: Any, trains: Any) -> None:
         trains.came_s[one + 1] = FAR
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def couple_and_part(day: Any, trains: Any, second: int) -> None:
     """A second passes for trains that couple or part, after all have moved."""
     if day.begin_s[COUPLED] >= 0 and second >= day.begin_s[COUPLED]:

@@ -16,7 +16,7 @@ from models.alarm.faults import KIND
 from models.alarm.line import KM, LENGTH_MM, REGISTER
 from models.alarm.moving import end_m, joint_m
 from models.alarm.routes import BRANCHES, junction_m
-from models.compiled import UNCOUNTED, compiled, packed
+from models.compiled import compiled, packed
 
 BROKEN, ADJOINED = KIND["broken"], KIND["adjoined"]
 THERE_MM, BRANCH_MM = 200 * KM, 400 * KM
@@ -25,13 +25,13 @@ has it."""
 SECTIONS_MM = tuple((each.from_mm, each.to_mm) for _name, each in REGISTER.sections.items())
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def junction_mm(day: Any) -> int:
     """Give where a branch leaves the line, in mm."""
     return int(1_000 * junction_m(day))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def break_mm(day: Any) -> int:
     """Give where kilometrage breaks; below 0 where it does not, or would within a section that is not to be used.
 
@@ -48,13 +48,13 @@ def break_mm(day: Any) -> int:
     return int(at_mm) if day.begin_s[BROKEN] >= 0 else -1
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def grows(day: Any) -> bool:
     """Tell whether figures beyond the break grow with those before it."""
     return bool(day.size[ADJOINED if day.begin_s[ADJOINED] >= 0 else BROKEN] > 0)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def figure_mm(day: Any, there_mm: int, on_branch: bool) -> int:
     """Give the figure of a place of the line, or of the way from it to the branch."""
     joint_mm = junction_mm(day)
@@ -66,19 +66,19 @@ def figure_mm(day: Any, there_mm: int, on_branch: bool) -> int:
     return int(THERE_MM + (there_mm - at_mm if grows(day) else at_mm - there_mm))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_beyond(written_mm: int) -> bool:
     """Tell whether a figure is of a place beyond the break."""
     return bool(THERE_MM // 2 < written_mm <= (THERE_MM + BRANCH_MM) // 2)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_a_branchs(written_mm: int) -> bool:
     """Tell whether a figure is of a place on the branch."""
     return bool(written_mm > (THERE_MM + BRANCH_MM) // 2)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def place_mm(day: Any, written_mm: int) -> int:
     """Give the place of a figure."""
     if is_a_branchs(written_mm):
@@ -86,7 +86,7 @@ def place_mm(day: Any, written_mm: int) -> int:
     return int(break_mm(day) + abs(written_mm - THERE_MM) if is_beyond(written_mm) else written_mm)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def falls(day: Any, written_mm: int) -> bool:
     """Tell whether figures fall there where elsewhere they grow."""
     if is_a_branchs(written_mm):

@@ -12,7 +12,7 @@ from models.alarm.line import STABLED, STATION_MM, STATIONS_MM, TUNNELS_MM
 from models.alarm.moving import end_m, noise
 from models.alarm.routes import is_of_the_branch
 from models.alarm.windows import is_of
-from models.compiled import UNCOUNTED, compiled
+from models.compiled import compiled
 
 OUT, JUMP, DRIFT, BACKWARDS, FROZEN, CREEPS, PARALLEL = (
     KIND[name] for name in ("gps_out", "gps_jump", "gps_drift", "backwards", "gps_frozen", "gps_creeps", "gps_parallel")
@@ -23,7 +23,7 @@ VALID_M_S = 5 / 3.6
 """Below 5 km/h a receiver tells no direction (engineering practice)."""
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def in_tunnel(place_m: float) -> bool:
     """Tell whether there is no sky."""
     for from_mm, to_mm in TUNNELS_MM:  # noqa: SIM110
@@ -32,7 +32,7 @@ def in_tunnel(place_m: float) -> bool:
     return False
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def wanders(error_m: float, key: int, second: int, who: int, deviation_m: float, most_m: float) -> float:
     """Give the next error of a receiver."""
     bits, drawn = noise(key, second, 3_000 + who), 0.0
@@ -42,13 +42,13 @@ def wanders(error_m: float, key: int, second: int, who: int, deviation_m: float,
     return float(min(most_m, max(-most_m, KEEPS * error_m + spread * drawn)))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def sees(day: Any, train: int, place_m: float, second: int) -> bool:
     """Tell whether a train's GPS gives a fix: engine on, sky above, no fault (A4, A6)."""
     return train != STABLED and not in_tunnel(place_m) and not is_of(day, OUT, train, second)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -> int:
     """Give the figure of where GPS puts a train."""
     off_m = error_m
@@ -62,13 +62,13 @@ def told_mm(day: Any, train: int, place_m: float, error_m: float, second: int) -
     return int(figure_mm(day, int(np.floor(1_000 * (place_m + off_m) + 0.5)), is_of_the_branch(day, train)))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_frozen(day: Any, train: int, second: int) -> bool:
     """Tell whether GPS tells once more what it told a second ago, as if it were new: place, direction, running."""
     return is_of(day, FROZEN, train, second) and is_of(day, FROZEN, train, second - 1)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def stretch_mm(day: Any, train: int, place_m: float) -> Any:
     """Give the stretch that the display shows: a station, or all between two."""
     place_mm = 1_000 * place_m

@@ -10,7 +10,7 @@ from models.alarm.faults import KIND
 from models.alarm.line import BOUNDS, LENGTH_MM, REGULAR, SHUNTER, STATIONS_MM, TRAINS, YARD_MM
 from models.alarm.routes import NOWHERE_M, from_line_m, is_apart, is_of_the_branch, junction_m
 from models.alarm.windows import is_of
-from models.compiled import UNCOUNTED, compiled
+from models.compiled import compiled
 
 STATIONS_M = tuple(place / 1_000 for place in STATIONS_MM)
 LENGTH_M = LENGTH_MM / 1_000
@@ -55,7 +55,7 @@ ON_AFTER_S = 16
 """Its unit is on for so long after it has left: the list has dropped it by then."""
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def end_m(day: Any, on_branch: bool) -> float:
     """Give where the register ends at the upper end of a route: with the line, or with a part of the next one."""
     return LENGTH_M + WATCHED_M if day.begin_s[ADJOINED] >= 0 and not on_branch else LENGTH_M
@@ -75,7 +75,7 @@ def at_the_beginning(day: Any) -> Any:
     )  # fmt: skip
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def noise(key: int, one: int, other: int) -> int:
     """Draw 62 bits that follow from three numbers alone."""
     mixed = np.uint64(key) ^ (np.uint64(one) * np.uint64(0x9E3779B97F4A7C15))
@@ -85,7 +85,7 @@ def noise(key: int, one: int, other: int) -> int:
     return int(np.int64((mixed ^ (mixed >> np.uint64(31))) >> np.uint64(2)))
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def switch_on(trains: Any, second: int) -> None:
     """Note whose units are on."""
     count = 0
@@ -96,7 +96,7 @@ def switch_on(trains: Any, second: int) -> None:
     trains.switched_on[TRAINS] = count
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def next_station(place_m: float, heading: int, end: float) -> float:
     """Give the next station ahead, or where the register ends."""
     if heading > 0:
@@ -110,7 +110,7 @@ def next_station(place_m: float, heading: int, end: float) -> float:
     return place_m
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def target(day: Any, trains: Any, train: int) -> float:
     """Give where a train will stop next."""
     heading = trains.heading[train]
@@ -122,7 +122,7 @@ def target(day: Any, trains: Any, train: int) -> float:
     return stop if ahead else station
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def arrive(day: Any, trains: Any, train: int, second: int) -> None:
     """A train has stopped: it stays some time, and may turn, or its journey ends."""
     place = trains.place_m[train]
@@ -144,7 +144,7 @@ def arrive(day: Any, trains: Any, train: int, second: int) -> None:
         trains.waits_until_s[train] = second + day.dwell_s[train] + drawn % 15
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def move(day: Any, trains: Any, second: int) -> None:
     """A second passes for every train."""
     for index in range(trains.switched_on[TRAINS]):
@@ -169,7 +169,7 @@ def move(day: Any, trains: Any, second: int) -> None:
             trains.speed_m_s[train] = speed
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def gap_m(day: Any, trains: Any, train: int, worker_m: float) -> float:
     """Give how far a train's nearest part is from the worker, along the track; below 0 where it stands over him."""
     from_m = trains.place_m[train] - trains.below_m[train]
@@ -180,7 +180,7 @@ def gap_m(day: Any, trains: Any, train: int, worker_m: float) -> float:
     return float(max(from_m - worker_m, worker_m - to_m))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def has_departed(day: Any, trains: Any, train: int, gap: float, worker_m: float) -> bool:
     """Tell whether a train is past the worker by 100 m, from end to end, and ran last away from him (A3).
 
@@ -195,13 +195,13 @@ STRANGE_M, STRANGE_M_S = 6_000.0, 20.0
 """A train beyond the register runs to and fro as far and as fast as that, up to where it ends and away from there."""
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def joint_m(day: Any) -> float:
     """Give where a line joins whose trains no list has; below 0 where none does."""
     return float(abs(day.size[JOINED])) if day.begin_s[JOINED] >= 0 else -1.0
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def stranger_m(day: Any, worker_m: float, second: int) -> float:
     """Give how far a train is from the worker that no list has, beyond where the register ends, if it does."""
     way = (STRANGE_M_S * second) % (2.0 * STRANGE_M)

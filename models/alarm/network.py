@@ -7,7 +7,7 @@ from typing import Any
 from models.alarm.faults import KIND
 from models.alarm.moving import noise
 from models.alarm.windows import is_on
-from models.compiled import UNCOUNTED, compiled
+from models.compiled import compiled
 
 LATEST_S = 14
 """No message arrives later."""
@@ -20,13 +20,13 @@ FIX, SHOWN, LISTED = 0, 100, 200
 """What a message is of; trains' numbers are added to the first two."""
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_late(day: Any, second: int) -> bool:
     """Tell whether messages may be late that are sent now."""
     return is_on(day, SLOW, second) or is_on(day, REPEATS, second)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def takes_s(day: Any, sent_s: int, what: int) -> int:
     """Give how many seconds a message takes until the second in which the handset sounds with it."""
     drawn = noise(day.key, sent_s, 1_000 + what + ANOTHER * day.handset)
@@ -35,7 +35,7 @@ def takes_s(day: Any, sent_s: int, what: int) -> int:
     return 1 if drawn & 15 else 3
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def send(day: Any, second: int, what: int, arrives_s: Any) -> None:
     """Send a message: write down in which seconds it arrives, first and again, in the row of this second."""
     row = second % arrives_s.shape[0]

@@ -17,7 +17,7 @@ from models.alarm.line import REGISTER, SHUNTER, TRAINS
 from models.alarm.moving import COMES_AFTER_S, NAMED_AFTER_S, noise
 from models.alarm.network import ANOTHER
 from models.alarm.windows import is_of, is_on
-from models.compiled import UNCOUNTED, compiled
+from models.compiled import compiled
 
 KERNEL = MADE.train_list
 started, older_server, enter, confirm = KERNEL.started, KERNEL.older_server, KERNEL.enter, KERNEL.confirm
@@ -54,13 +54,13 @@ def confirmed_empty() -> Any:
     return confirm(started(0), 0)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_there(trains: Any, train: int, second: int) -> bool:
     """Tell whether a train is on the line."""
     return bool(trains.came_s[train] <= second < trains.left_s[train])
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def is_pending(numbers: Numbers, train: int, number: int, second: int) -> bool:
     """Tell whether a number was entered that its train is yet to take."""
     return bool(number >= TRAINS and numbers.changes_s[train] > second)
@@ -122,7 +122,7 @@ def enter_all_and_confirm(trains: Any, numbers: Numbers, server: Any, second: in
     return confirm(server, server.life_ms)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def has_number(server: Any, number: int) -> bool:
     """Tell whether the server's list has a number."""
     for listed, _of in server.trains:  # noqa: SIM110
@@ -131,7 +131,7 @@ def has_number(server: Any, number: int) -> bool:
     return False
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def change_numbers(day: Any, trains: Any, numbers: Numbers, second: int) -> None:
     """A train takes its new number; one that nobody can enter waits before the line (A2)."""
     is_down = is_on(day, RESTARTS, second)
@@ -167,7 +167,7 @@ def serve(day: Any, trains: Any, sent: Any, numbers: Numbers, server: Any, secon
     return server
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def entries_that_come(day: Any, sent_s: int, taken: int, count: int) -> int:
     """Give how many entries of a list the handset has when it has come; one that was cut on its way has fewer (A1)."""
     if count <= taken or not is_on(day, CUT, sent_s):

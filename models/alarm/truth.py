@@ -14,7 +14,7 @@ from models.alarm.figures import falls, place_mm
 from models.alarm.line import BOUNDS, REGISTER, TRAINS
 from models.alarm.moving import gap_m, has_departed, stranger_m
 from models.alarm.routes import NOWHERE_M, is_apart, is_on_the_branch
-from models.compiled import UNCOUNTED, compiled, packed
+from models.compiled import compiled, packed
 
 KERNEL = MADE.tone
 has_fix, has_display, agree, is_matched = KERNEL.has_fix, KERNEL.has_display, KERNEL.agree, KERNEL.is_matched
@@ -52,7 +52,7 @@ CAUTIONS, ALARMS, FAULTS = (NUMBER["caution_s"], NUMBER["alarm_s"], NUMBER["faul
 WITHIN_1500, WITHIN_3000, PASSED = (NUMBER["within_1500_s"], NUMBER["within_3000_s"], NUMBER["passed"])
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def in_section(day: Any, worker_m: float) -> bool:
     """Tell whether the worker is where the handset is not to be used (A4, A5, A6)."""
     for from_mm, to_mm in SECTIONS:
@@ -61,7 +61,7 @@ def in_section(day: Any, worker_m: float) -> bool:
     return False
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def nearest(day: Any, trains: Any, worker_m: float, second: int, departed_too: bool) -> Any:
     """Give the least distance of a train on the line to the worker, and which it is; -1 where there is none."""
     least, which = NOWHERE_M, -1
@@ -75,7 +75,7 @@ def nearest(day: Any, trains: Any, worker_m: float, second: int, departed_too: b
     return least, which
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def hold_claims(heard: int, least_m: float, any_m: float, unknown: bool, no_use: bool, out: Any) -> None:
     """Hold the claims against the truth (A2 to A6, A8)."""
     mild = heard in (NORMAL, CAUTION)
@@ -91,7 +91,7 @@ def hold_claims(heard: int, least_m: float, any_m: float, unknown: bool, no_use:
         out[MILD_IN_SECTION] += 1
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def hold_train(register: Any, day: Any, trains: Any, train: int, known: Any, out: Any) -> None:
     """Hold the assumptions on what is known of a train against where it is (A2, A3)."""
     fix = known.fix
@@ -107,7 +107,7 @@ def hold_train(register: Any, day: Any, trains: Any, train: int, known: Any, out
             out[TURNING_BROKEN] += 1
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def hold_trains(register: Any, day: Any, trains: Any, now: Any, handset: Any, second: int, out: Any) -> bool:
     """Go through all trains; tell whether one on the line is unknown to the handset by its number of now (A2)."""
     unknown, named = False, 0
@@ -133,7 +133,7 @@ def hold_trains(register: Any, day: Any, trains: Any, now: Any, handset: Any, se
     return unknown or named < there
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: Any) -> bool:
     """Hold what the handset knows of itself against the truth; tell whether something is missing (A8)."""
     fix = handset.worker
@@ -152,7 +152,7 @@ def hold_handset(register: Any, day: Any, handset: Any, worker_m: float, out: An
     return not handset.battery_well or not has_worker(register, handset)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def price(heard: int, before: int, least_m: float, no_use: bool, out: Any) -> None:
     """Count what it costs to be on the safe side."""
     out[NEEDLESS_ALARM] += heard == ALARM and least_m > 1_500
@@ -169,7 +169,7 @@ def price(heard: int, before: int, least_m: float, no_use: bool, out: Any) -> No
     out[WITHIN_3000] += least_m <= 3_000
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def hold(
     register: Any, day: Any, trains: Any, now: Any, sides: Any, handset: Any, heard: int, before: int,
     worker_m: float, second: int, out: Any, seconds: Any,

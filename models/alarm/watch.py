@@ -12,7 +12,7 @@ import numpy as np
 from kernel.alarm.distance import Direction
 from kernel.alarm.tone import NO_FIGURE_MM, Tone, switched_on
 from models.alarm.columns import NUMBER
-from models.alarm.compiled import DECIDING, MADE
+from models.alarm.compiled import MADE
 from models.alarm.coupling import couple_and_part, wait_to_part
 from models.alarm.draws import SECONDS
 from models.alarm.faults import KIND
@@ -38,9 +38,9 @@ from models.alarm.routes import is_of_the_branch
 from models.alarm.serving import at_first, change_numbers, confirmed_empty, entries_that_come, serve
 from models.alarm.truth import hold
 from models.alarm.windows import is_of, is_on
-from models.compiled import UNCOUNTED, compiled, packed
+from models.compiled import compiled, packed
 
-ALARM_TONE, REGISTERED = DECIDING.tone.tone, packed(REGISTER)
+ALARM_TONE, REGISTERED = MADE.tone.tone, packed(REGISTER)
 NOTHING = packed(switched_on())
 """A handset that was just switched on."""
 DOWN, UP, UNKNOWN = (packed(direction) for direction in (Direction.DOWN, Direction.UP, Direction.UNKNOWN))
@@ -93,7 +93,7 @@ def trace(places: bool = False, first_s: int = 0, told_s: int = 0) -> Trace:
     )
 
 
-@compiled(**UNCOUNTED)
+@compiled
 def write_down(trains: Any, handset: Any, second: int, kept: Trace) -> None:
     """Write down a second, as far as it is asked for."""
     if kept.places.shape[0] > 0:
@@ -162,7 +162,7 @@ def nothing_sent() -> Sent:
     )
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def note_age(sent: Sent, train: int, second: int) -> None:
     """The unit knows how old the place is that its receiver told in this second, with its stamp (A1)."""
     now, before = second % RING, (second - 1) % RING
@@ -171,7 +171,7 @@ def note_age(sent: Sent, train: int, second: int) -> None:
     sent.age_ms[train, now] = fix_of_the_unit(held, TrainFix(sent.told_mm[train, now], 0, direction, runs)).age_ms
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def observe(day: Any, trains: Any, sent: Sent, numbers: Any, second: int) -> None:
     """Every unit takes a fix; it is sent every 2 s, the display every 3 s, the list every 2 s (A1)."""
     now = second % RING
@@ -202,7 +202,7 @@ def observe(day: Any, trains: Any, sent: Sent, numbers: Any, second: int) -> Non
         note_age(sent, train, second)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a fix as it arrives; a wrong clock makes it younger (A1)."""
     at = sent_s % RING
@@ -212,7 +212,7 @@ def fix_of(day: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     return TrainFix(sent.told_mm[train, at], age_ms, sent.direction[train, at], sent.runs[train, at])
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second: int) -> Any:
     """Give a record of the display as it arrives: it follows a train within 2 s (A1).
 
@@ -230,7 +230,7 @@ def shown_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int, second:
     return Display(min(one_mm, other_mm), max(one_mm, other_mm), age_ms, NO_FIGURE_MM, NO_FIGURE_MM)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def stretch_of(day: Any, trains: Any, sent: Sent, train: int, sent_s: int) -> Any:
     """Give the stretch in which the display has a train."""
     behind_s = noise(day.key, sent_s, 4_000 + train) % 3
@@ -283,7 +283,7 @@ def take_display(
     return note_display(handset, sent.number[train, sent_s % RING], display)
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def has(handset: Any, train: int) -> bool:
     """Tell whether the handset's list has a train."""
     for number, _known in handset.trains:  # noqa: SIM110
@@ -379,7 +379,7 @@ def own_fix(day: Any, handset: Any, worker_m: float, error_m: float, second: int
     return note_worker(handset, WorkerFix(figure_mm(day, told_at_mm, day.on_branch), 0))
 
 
-@compiled(forceinline=True, **UNCOUNTED)
+@compiled(forceinline=True)
 def walked(day: Any, second: int) -> float:
     """Give where the worker is: he walks to and fro."""
     if day.walk_m == 0.0:

@@ -17,12 +17,11 @@ A ``Map[K, V]`` is a ``numba.typed.List`` of pairs (K, V), a ``frozenset[T]`` on
 maps are never compared: their order would count.
 """
 
-from models.compiled.kept import UNCOUNTED, compiled
+from models.compiled.kept import compiled
 from models.compiled.machines import NotCompilable, compile_machines
 from models.compiled.records import compiled_type, packed, tuple_class, unpacked, unpacking
 
 __all__ = [
-    "UNCOUNTED",
     "NotCompilable",
     "compile_machines",
     "compiled",

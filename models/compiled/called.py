@@ -4,23 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.core import datamodel, registry
+from numba.core import registry
+
+from models.compiled.references import Compiler
 
 CPUDispatcher: Any = registry.CPUDispatcher
-numbas_records: Any = datamodel
-
-
-class FreedTooSoon(Exception):
-    """A function in which no references are counted gives back what has some."""
-
-
-def refuse_uncounted(function: Any, given_back: Any) -> None:
-    """Refuse one that would have what it was handed freed while others still refer to it."""
-    if (
-        not function.targetoptions.get("_nrt", True)
-        and numbas_records.default_manager.lookup(given_back).contains_nrt_meminfo()
-    ):
-        raise FreedTooSoon(f"{function.py_func.__qualname__} gives back {given_back}; its references must be counted")
 
 
 class Inner(CPUDispatcher):  # type: ignore[misc]
@@ -32,16 +20,11 @@ class Inner(CPUDispatcher):  # type: ignore[misc]
 
     def __init__(self, outer: Any) -> None:
         without = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-        super().__init__(outer.py_func, targetoptions={**outer.targetoptions, **without})
+        super().__init__(outer.py_func, targetoptions={**outer.targetoptions, **without}, pipeline_class=Compiler)
         self.outer = outer
 
     def add_overload(self, cres: Any) -> None:
-        """Keep code for compiled callers alone: there is no way into it from Python.
-
-        Raises:
-            FreedTooSoon: no references are counted in it, and it gives back what has some.
-        """
-        refuse_uncounted(self, cres.signature.return_type)
+        """Keep code for compiled callers alone: there is no way into it from Python."""
         self.overloads[tuple(cres.signature.args)] = cres
 
     def _compile_for_args(self, *given: Any, **named: Any) -> Any:

@@ -36,12 +36,6 @@ core: Any = numba_core
 DIGEST_BYTES = hashlib.sha256().digest_size
 UNUSED_S = 30 * 24 * 3_600
 """What nobody has read for so long is deleted."""
-UNCOUNTED: dict[str, bool] = {"_nrt": False}
-"""For a function that makes no map and no array anew, and gives back none: no references are counted in it.
-
-Counting takes most of the time of a function that is handed records with many of them.  One that does make any, or
-gives back what it was handed, is not compiled so (`models.compiled.called.FreedTooSoon`).
-"""
 Place = tuple[int, ...]
 """Where among arguments something is: which argument; if that is a tuple, which of its members; and so on."""
 

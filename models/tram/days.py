@@ -6,6 +6,7 @@ import numpy as np
 
 from kernel.tram.dispatching import DispatchLimits
 from kernel.tram.limits import are_lawful, are_lawful_at_stops, are_told_apart
+from models.compiled import compiled
 from models.days.system import Numbers, System
 from models.tram import tally
 from models.tram.deciding import (
@@ -33,7 +34,6 @@ from models.tram.line import (
     TRAMS,
     Whole,
 )
-from models.tram.machines import compiled
 from models.tram.moving import (
     CLEAR_MM,
     RUN_OF_TURN,

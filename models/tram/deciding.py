@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from kernel.tram import dispatching
-from models.compiled import packed
+from models.compiled import compiled, packed
 from models.tram import tally
 from models.tram.given import (
     ANY_WORD_ENDS,
@@ -24,7 +24,7 @@ from models.tram.given import (
     TAKES_THE_FUTURE,
     Given,
 )
-from models.tram.machines import MADE, compiled
+from models.tram.machines import MADE
 from models.tram.radio import CYCLE_S, SLOTS
 from models.tram.state import (
     BOX,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from models.compiled import compiled
 from models.tram import tally
 from models.tram.given import Given
 from models.tram.line import (
@@ -25,7 +26,6 @@ from models.tram.line import (
     SIGNAL_S,
     SKIPPED,
 )
-from models.tram.machines import compiled
 from models.tram.state import (
     BROKEN_S,
     COMES_AT,

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from models.compiled import packed
+from models.compiled import compiled, packed
 from models.tram import tally
 from models.tram.given import (
     GPS_BEYOND,
@@ -21,7 +21,7 @@ from models.tram.given import (
 )
 from models.tram.gps import BOUND_MM, PLAN
 from models.tram.line import AT_STOP_MM
-from models.tram.machines import MADE, compiled
+from models.tram.machines import MADE
 from models.tram.radio import REACH_MM, SLOTS
 from models.tram.state import (
     BOX,

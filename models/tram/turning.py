@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from models.compiled import compiled
 from models.tram import tally
 from models.tram.deciding import confirm, forget, hear_elsewhere, take_off_by_hand
 from models.tram.given import JOINS_UNASKED, TAKES_UP_ANEW, Given
 from models.tram.line import AT_STOP_MM, BRANCH, JOINS, STOPS, TAKEN_UP_S
-from models.tram.machines import MADE, compiled
+from models.tram.machines import MADE
 from models.tram.moving import CLEAR_MM, is_free_at, place_beyond, put_on, serve
 from models.tram.state import (
     COMES_AT,

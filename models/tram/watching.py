@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from models.compiled import compiled
 from models.tram import tally
 from models.tram.given import Given
 from models.tram.gps import BOUND_MM
 from models.tram.line import AT_STOP_MM
-from models.tram.machines import MADE, compiled
+from models.tram.machines import MADE
 from models.tram.state import (
     D_HOLDS,
     D_NOW,
