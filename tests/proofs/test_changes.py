@@ -28,7 +28,7 @@ SAMPLE = (
     "slow_is_fast",
     "silence_is_known",
     "roll_back_tenfold",
-    "jumped_place_unused",
+    "rear_forgotten",
     "age_sign",
 )
 """Quickly refuted, each of another theory; among them a constant, a latch, a sign, a number, a guard."""

@@ -78,7 +78,7 @@ def leaves(value: Any) -> list[Any]:
     return [value]
 
 
-@pytest.mark.parametrize("row", ["read_by_the_tail", "take_end", "note_place"])
+@pytest.mark.parametrize("row", [pytest.param("read_by_the_tail", marks=pytest.mark.slow), "take_end", "note_place"])
 def test_a_claim_of_a_state_is_what_it_is_when_lifted_of_that_state_alone(row: str) -> None:
     """Each of another way's state is as lifted anew, though nearly all are found by what was read."""
     bench = Workbench(THEORIES["train"], named=False)

@@ -296,7 +296,10 @@ class World:
         self.broken["told too soon"] += told > car.at or (unit.stopping.stands and told < car.at - 1)
 
     def leave(self, car: Car, turns_off: bool) -> None:
-        """Turn, or turn off: at the junction to the other line, or between two stops, to come back to the same way."""
+        """Turn, or turn off: at the junction to the other line, or between two stops, to come back to the same way.
+
+        That it was confirmed early was for the first stop of the other way.
+        """
         self.lines[car.way].remove(car)
         is_other_line = car.way == 0 and car.leaves_at == JUNCTION
         away_s = self.chance.randrange(400 if is_other_line else 200)
@@ -305,6 +308,8 @@ class World:
             car.onto, car.comes_at, away_s = car.way, 0, 30 + self.back.randrange(100)
         else:
             car.onto, car.comes_at = 1 - car.way, JOINS if is_other_line else 0
+        if turns_off or is_other_line:
+            car.confirmed_s = -(10**6)
         car.way, car.due_s = -1, self.now_s + away_s
 
     def fix_away(self, car: Car) -> None:
