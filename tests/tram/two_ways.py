@@ -287,11 +287,12 @@ class World:
         if unit.chosen != car.way:
             self.happened["fixes of another way"] += 1
             return
-        car.is_kept = car.is_kept and unit.stopping.left
+        told = mark(unit.stopping.stop, unit.stopping.left)
+        car.is_kept = car.is_kept and (unit.stopping.left or told > car.at)
         if car.is_kept:
             self.happened["fixes of who tells of the run before"] += 1
+            self.happened["of these, of who had left no stop then"] += not unit.stopping.left
             return
-        told = mark(unit.stopping.stop, unit.stopping.left)
         self.broken["place"] += unit.place_mm is not None and abs(unit.place_mm - car.place_mm) > MATCH.most_mm
         self.broken["told too soon"] += told > car.at or (unit.stopping.stands and told < car.at - 1)
 
