@@ -114,6 +114,7 @@ class Register:
     ``tolerance_mm``: GPS and display agree when the fix is no farther outside.
     ``stabled``: which train may be stabled in which section: the roster.
     ``ways``: from the figures of one line to those of another; ``openings``: where all that ends, on any of the lines.
+    ``edition``: another number whenever it was written anew; by another one the same figure may be another place.
     """
 
     bounds: AlarmBounds
@@ -124,6 +125,7 @@ class Register:
     stabled: frozenset[tuple[Train, Section]]
     ways: Map[Way, Connection]
     openings: Map[Opening, int]
+    edition: int
 
 
 NO_FIGURE_MM = GREATEST_PLACE_MM + 1
@@ -229,13 +231,15 @@ def older_known(known: Known, elapsed_ms: int) -> Known:
     )
 
 
-def note_fix(register: Register, handset: Handset, train: Train, fix: TrainFix) -> Handset:
+def note_fix(register: Register, handset: Handset, train: Train, fix: TrainFix, edition: int) -> Handset:
     """Note where GPS says that a train is; one that is not on the list stays unknown (A2).
 
+    ``edition``: in the figures of which one it is told.  In another's it says nothing here: after track was moved the
+    worker may have a register from before, or the server.
     A fix that jumps is not taken, and it is kept that it did.  What is no fix, as a unit tells after its start, changes
     nothing: the last fix grows too old by itself, and the next one is held against it.
     """
-    if train not in handset.trains or not is_fix(fix.place_mm, fix.age_ms):
+    if edition != register.edition or train not in handset.trains or not is_fix(fix.place_mm, fix.age_ms):
         return handset
     known = handset.trains[train]
     if jumps(register.bounds, register.ways, known.fix, fix):
@@ -243,9 +247,9 @@ def note_fix(register: Register, handset: Handset, train: Train, fix: TrainFix) 
     return replace(handset, trains=handset.trains | {train: replace(known, fix=fix, jumped=False, newest=fix)})
 
 
-def note_display(handset: Handset, train: Train, display: Display) -> Handset:
-    """Note where the display shows a train; one that is not on the list stays unknown (A2)."""
-    if train not in handset.trains:
+def note_display(register: Register, handset: Handset, train: Train, display: Display, edition: int) -> Handset:
+    """Note where the display shows a train, in figures of an edition; one not on the list stays unknown (A2)."""
+    if edition != register.edition or train not in handset.trains:
         return handset
     return replace(handset, trains=handset.trains | {train: replace(handset.trains[train], display=display)})
 

@@ -206,7 +206,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
 
     A fix that jumps from the one before may say anything; so may what is no report.
     """
-    handset = machine.note_fix(site.register, system.handset, train, fix)
+    handset = machine.note_fix(site.register, system.handset, train, fix, site.register.edition)
     if not is_listed(system.told, train):
         return replace(system, handset=handset)
     of = with_fix(site, system.told.trains[train], fix)
@@ -241,7 +241,7 @@ def take_fix(site: Railway, system: Worksite, train: Train, fix: TrainFix, at_um
 
 def take_display(site: Railway, system: Worksite, train: Train, display: Display, at_um: int) -> Worksite:
     """The display tells of a train; ``at_um``: where its antenna really was (A1, A2)."""
-    handset = machine.note_display(system.handset, train, display)
+    handset = machine.note_display(site.register, system.handset, train, display, site.register.edition)
     if not is_listed(system.told, train):
         return replace(system, handset=handset)
     of = replace(system.told.trains[train], display=display)
@@ -267,6 +267,25 @@ def take_display(site: Railway, system: Worksite, train: Train, display: Display
     ):
         return system
     return replace(system, told=told, handset=handset)
+
+
+def take_fix_of_another_edition(site: Railway, system: Worksite, train: Train, fix: TrainFix, edition: int) -> Worksite:
+    """GPS tells of a train in the figures of another edition of the register, which may be of any place (A1).
+
+    Track was moved: the server has the new register and the handset not yet, or the other way round.
+    """
+    if edition == site.register.edition:
+        return system
+    return replace(system, handset=machine.note_fix(site.register, system.handset, train, fix, edition))
+
+
+def take_display_of_another_edition(
+    site: Railway, system: Worksite, train: Train, display: Display, edition: int
+) -> Worksite:
+    """So does the display (A1)."""
+    if edition == site.register.edition:
+        return system
+    return replace(system, handset=machine.note_display(site.register, system.handset, train, display, edition))
 
 
 def take_worker_fix(site: Railway, system: Worksite, fix: WorkerFix, at_um: int) -> Worksite:

@@ -84,6 +84,7 @@ REGISTER = Register(
     stabled=frozenset({(name(STABLED), section(SIDING))}),
     ways={},
     openings={},
+    edition=1,
 )
 """The line with its sections; trains and sections are numbered, as compiled code needs it."""
 

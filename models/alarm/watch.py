@@ -264,12 +264,12 @@ def take_fix(
             counts_down = falls(day, before.place_mm) != falls(day, fix.place_mm)
             if both and (before.direction != fix.direction) != counts_down and apart_ms <= TURNING_MS:
                 out[TURNED] += 1
-    return note_fix(register, handset, name, fix)
+    return note_fix(register, handset, name, fix, register.edition)
 
 
 @compiled(forceinline=True)
 def take_display(
-    day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
+    register: Any, day: Any, trains: Any, handset: Any, sent: Sent, train: int, sent_s: int, second: int, out: Any
 ) -> Any:
     """A record of the display reaches the handset; trains that shunt are not on it (A1, A5)."""
     if train == SHUNTER or is_on(day, DISPLAY_OUT, sent_s) or is_on(day, SERVER_RESTARTS, sent_s):
@@ -280,7 +280,7 @@ def take_display(
     from_mm, to_mm = stretch_of(day, trains, sent, train, sent_s)
     if not from_mm - SHOWN_OFF_MM <= at_mm <= to_mm + SHOWN_OFF_MM:
         out[DISPLAY_BROKEN] += 1
-    return note_display(handset, sent.number[train, sent_s % RING], display)
+    return note_display(register, handset, sent.number[train, sent_s % RING], display, register.edition)
 
 
 @compiled(forceinline=True)
@@ -309,7 +309,7 @@ def take_entry(
     handset = note_entry(handset, entry)
     if not was_there and has(handset, entry.train) and sent.number[train, sent_s % RING] == entry.train:
         handset = take_fix(register, day, trains, handset, sent, train, sent_s, second, out)
-        handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
+        handset = take_display(register, day, trains, handset, sent, train, sent_s, second, out)
     return handset
 
 
@@ -364,7 +364,7 @@ def hear(
             if sent.fix_s[train, at, 0] == second or sent.fix_s[train, at, 1] == second:
                 handset = take_fix(register, day, trains, handset, sent, train, sent_s, second, out)
             if sent.shown_s[train, at, 0] == second or sent.shown_s[train, at, 1] == second:
-                handset = take_display(day, trains, handset, sent, train, sent_s, second, out)
+                handset = take_display(register, day, trains, handset, sent, train, sent_s, second, out)
     return handset
 
 

@@ -360,6 +360,8 @@ STEPS = (
     lists_of_trains.restart_handset,
     world.take_fix,
     world.take_display,
+    world.take_fix_of_another_edition,
+    world.take_display_of_another_edition,
     world.take_worker_fix,
     world.look_at_the_battery,
     world.listen,

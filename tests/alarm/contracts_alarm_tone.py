@@ -29,6 +29,7 @@ REGISTER = Register(
     stabled=frozenset(),
     ways={},
     openings={},
+    edition=1,
 )
 WORKER = WorkerFix(place_mm=0, age_ms=0)
 

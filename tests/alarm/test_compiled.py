@@ -236,6 +236,7 @@ def test_maps_sets_and_names_come_back_as_they_went() -> None:
         frozenset({(tone.Train(9), sections.Section(1)), (tone.Train(2), sections.Section(0))}),  # type: ignore[arg-type]
         {},
         {},
+        9,
     )
     assert list(packed(register).sections) == []
     assert list(packed(register).stabled) == [(2, 0), (9, 1)]

@@ -30,6 +30,7 @@ REGISTER = Register(
     stabled=frozenset(),
     ways={},
     openings={},
+    edition=1,
 )
 READ = Listing(life_ms=0, taken=0, count=0, is_whole=True, named={})
 """A list that is whole, and has been read."""

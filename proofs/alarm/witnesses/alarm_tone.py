@@ -196,6 +196,25 @@ def what_is_no_fix_hides_no_jump() -> None:
     assert day.tone() == NORMAL
 
 
+def figures_of_another_edition_say_nothing() -> None:
+    """Track was moved, and the server has the new register first: the fault tone, until the handset has it too (A1)."""
+    day, far = Day(), known(WORKER_MM - 9 * KM, UP)
+    day.hear()
+    day.come(FIRST, WORKER_MM - 6 * KM)
+    day.run(1_000, (FIRST, DOWN))
+    day.tell(FIRST, DOWN)
+    assert day.tone() == NORMAL
+    before = day.system
+    for edition in (REGISTER.edition - 1, REGISTER.edition, REGISTER.edition + 1):
+        assert day.step("take_fix_of_another_edition", train=FIRST, fix=far.fix, edition=edition) == before
+        shown = day.step("take_display_of_another_edition", train=FIRST, display=far.display, edition=edition)
+        assert shown == before
+    day.run(FRESH.fix_ms + 1, (FIRST, DOWN))
+    day.hear()
+    day.step("take_fix_of_another_edition", train=FIRST, fix=far.fix, edition=REGISTER.edition + 1)
+    assert day.tone() == FAULT
+
+
 def a_list_that_is_not_heard_is_the_fault_tone() -> None:
     """A train that is entered meanwhile may come when the list is too old; the next one has it (A1, A8)."""
     day = Day()
@@ -412,6 +431,7 @@ WITNESSES = (
     a_right_fix_after_a_wrong_one_still_alarms,
     a_fix_too_old_is_a_fault,
     what_is_no_fix_hides_no_jump,
+    figures_of_another_edition_say_nothing,
     a_list_that_is_not_heard_is_the_fault_tone,
     what_is_not_on_the_list_stays_unknown,
     what_is_no_report_may_say_anything,

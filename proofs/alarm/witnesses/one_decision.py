@@ -312,6 +312,7 @@ def every_number_fits_into_64_bits() -> None:
         stabled=frozenset(),
         ways={ACROSS: Connection(edge, -edge, edge)},
         openings={BRANCH: -edge},
+        edition=edge,
     )
     numbers = [Checked(number) for number in (-HUGE, -GREATEST_PLACE_MM, 0, GREATEST_AGE_MS, GREATEST_PLACE_MM, HUGE)]
     for place_mm, age_ms, shown_mm, own_mm in product(numbers, numbers, numbers, numbers):

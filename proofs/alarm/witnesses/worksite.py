@@ -53,6 +53,7 @@ REGISTER = Register(
     stabled=frozenset({(Train("9D"), SIDING)}),
     ways={},
     openings={BRANCH: 90 * KM},
+    edition=1,
 )
 SITE = Railway(REGISTER)
 WORKER_MM = 10 * KM

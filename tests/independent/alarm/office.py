@@ -167,8 +167,10 @@ def take(register: Register, handset: Handset, word: Word, age_ms: int) -> Hands
     if isinstance(word, Summary):
         return train_list.note_summary(handset, replace(word, age_ms=word.age_ms + age_ms), servers_well=True)
     if word.fix is not None:
-        handset = tone.note_fix(register, handset, word.number, distance.older_train(word.fix, age_ms))
+        handset = tone.note_fix(
+            register, handset, word.number, distance.older_train(word.fix, age_ms), register.edition
+        )
     if word.display is not None:
         display = replace(word.display, age_ms=word.display.age_ms + age_ms)
-        handset = tone.note_display(handset, word.number, display)
+        handset = tone.note_display(register, handset, word.number, display, register.edition)
     return handset

@@ -47,6 +47,7 @@ def registered(turning_ms: int, with_cutting: bool = False) -> Register:
         stabled=frozenset({(STABLED, Section("siding"))}),
         ways={},
         openings={},
+        edition=1,
     )
 
 

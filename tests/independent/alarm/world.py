@@ -35,6 +35,7 @@ REGISTER = Register(
     stabled=frozenset(),
     ways={},
     openings={},
+    edition=1,
 )
 DUTIES = (ENTERS, CONFIRMS, REPORTS, CUTS_OFF)
 
