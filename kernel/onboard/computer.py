@@ -425,14 +425,23 @@ def withhold_end(computer: Computer) -> Computer:
     return replace(computer, brake=braking.withhold_end(computer.brake))
 
 
+def is_braked_to_rest(limits: Limits, computer: Computer) -> bool:
+    """Tell whether the brake that is guaranteed has stopped the train by now, whether its speed is known or not (T12).
+
+    Until then nobody's word that it stands releases the brake: a train that has lost its position may still run fast.
+    """
+    is_slow = computer.known.watch.limit_mm_s <= limits.train.brake.standstill_mm_s
+    return is_slow and is_braked(standstill(limits, computer))
+
+
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
-    """Begin anew at rest with the front in a range; not before the brake holds the train there (P7, T8).
+    """Begin anew at rest with the front in a range; not before the brake has brought the train to rest (P7, T8).
 
     What was found of motors, brake, wholeness, antennas and length stays, and so does the ceiling.  Restrictions lay on
     the kilometrage of before: until the next tag all of them hold.  If ends were changed, either antenna may be the
     head's now: one that has failed makes both count as failed.
     """
-    if not is_braked(standstill(limits, computer)):
+    if not is_braked_to_rest(limits, computer):
         return computer
     motion, watch = odometry.located(least_mm, most_mm, computer.known.motion.way_mm), computer.known.watch
     return Computer(

@@ -53,6 +53,8 @@ class Surveyed:
     ``vehicle_mm``: the shortest vehicle; no less comes off a train, or couples to it (T3).
     ``whole_mm_s2``: so far head and tail of a whole train are measured apart in the mean of 1.5 s, at the most: by
     their sensors, couplers, the tail's lag, and the longest train over the sharpest change of gradient (P5).
+    ``pair_mm``: so far at the least a train rolls back from where its tail reads one tag of a boundary to where it
+    reads the other, less what it rolls in a cycle (T2).
     """
 
     jolt_mm_s2: int
@@ -62,6 +64,7 @@ class Surveyed:
     preset_within_mm: int
     vehicle_mm: int
     whole_mm_s2: int
+    pair_mm: int
 
 
 def are_sensors_lawful(bounds: SensorBounds, surveyed: Surveyed) -> bool:
@@ -92,6 +95,25 @@ def is_brake_lawful(bounds: BrakeBounds) -> bool:
         and 0 <= bounds.cut_cycles <= bounds.response_cycles
         and bounds.response_cycles >= 1
     )
+
+
+def is_one_train_written(sensors: SensorBounds, brake: BrakeBounds) -> bool:
+    """Tell whether odometry and brake control are told of one train and line: neither of less than the other (P1, T12).
+
+    What motors and gradients may give until the brake responds is no less than the train can do, on the steepest
+    gradient; that gradient is no steeper than the descent written; and the least that its brake slows the train is no
+    more than the most.
+    """
+    return (
+        sensors.accelerates_mm_s2 <= brake.gains_mm_s2
+        and sensors.gradient_mm_s2 <= brake.falls_mm_s2
+        and brake.slows_mm_s2 <= sensors.brakes_mm_s2
+    )
+
+
+def is_reverse_lawful(reverse: ReverseLimits, surveyed: Surveyed) -> bool:
+    """Tell whether it is noticed that a train rolls back, before its tail reads a boundary's tags in reverse (T2)."""
+    return 0 <= reverse.roll_back_mm < surveyed.pair_mm
 
 
 def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -> bool:
@@ -203,5 +225,6 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         and is_split_lawful(limits.split, surveyed)
         and is_length_lawful(limits, surveyed)
         and is_reader_lawful(limits.reader)
-        and limits.reverse.roll_back_mm >= 0
+        and is_one_train_written(limits.sensors, limits.train.brake)
+        and is_reverse_lawful(limits.reverse, surveyed)
     )

@@ -64,6 +64,7 @@ from models.onboard.train_nature import (
     way_nm,
     what_the_tail_has_read_is_taken_at_once,
     who_finds_the_train_whole_finds_its_antennas_as_preset,
+    who_locates_a_train_sees_it_stand,
     who_says_where_a_held_train_is_sees_it_stand,
 )
 from models.onboard.train_tags import come_to_listed
@@ -239,10 +240,10 @@ def withhold_end(site: Train, system: Whole) -> Whole:
 
 
 def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
-    """At rest somebody says where the front is, and the computer begins anew (P7, T8)."""
+    """Somebody says where the front of a train at rest is, or too soon, and the computer begins anew (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
+    if not who_locates_a_train_sees_it_stand(site, system, least_mm, most_mm):
         return system
     located = computer.locate(site.limits, system.computer, least_mm, most_mm)
     if located == system.computer:

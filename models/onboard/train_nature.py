@@ -441,6 +441,12 @@ def the_train_stands_where_it_is_said_to(system: Whole, least_mm: int, most_mm: 
     return odometry.the_train_stands_where_it_is_said_to(before(system), least_mm, most_mm)
 
 
+def who_locates_a_train_sees_it_stand(site: Train, system: Whole, least_mm: int, most_mm: int) -> bool:
+    """Who locates a train anew sees it stand, if it is slow or its brake weak; else he may err (P7, T8)."""
+    is_fast = system.speed_um_s > UM_A_MM * site.limits.train.brake.standstill_mm_s
+    return (is_fast and system.watched.kept) or the_train_stands_where_it_is_said_to(system, least_mm, most_mm)
+
+
 def who_says_where_a_held_train_is_sees_it_stand(site: Train, system: Whole, least_mm: int, most_mm: int) -> bool:
     """Who says where the front of a held train is sees it stand there; else he may say what was so (P7, T8)."""
     brake = site.limits.train.brake

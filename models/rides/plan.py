@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kernel.onboard.antenna_spacing import SpacingLimits
+from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.braking import BrakeBounds
 from kernel.onboard.limits import Surveyed
 from kernel.onboard.odometry import SensorBounds
@@ -14,6 +15,7 @@ from kernel.onboard.split import SplitLimits
 from kernel.onboard.tag_reader import ReaderLimits
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import LengthBounds
+from models.layouts import measures
 from models.sensors.faults import BOUNDS, SPLIT_LIMITS
 from models.sensors.tag_reader import AIR_MS, ASKS_MS, WINDOW_MM, Reader
 
@@ -27,6 +29,8 @@ LENGTH_MM = 120_000
 """The paper's train of six cars (001, 4.3.2)."""
 TAG_ERROR_MM = 300
 """How far from the plan a tag may be, and be read: half the window of 513 mm, and 43 mm of laying."""
+ROLLS_MM_S = 3_500
+"""Faster than this no train rolls back within some metres of an ascent that it can stand on."""
 SURVEYED = Surveyed(
     jolt_mm_s2=5_000,
     pace_cycles=BOUNDS.agreement_cycles - 2,
@@ -35,9 +39,11 @@ SURVEYED = Surveyed(
     preset_within_mm=80,
     vehicle_mm=20_000,
     whole_mm_s2=506,
+    pair_mm=2 * measures.TAG_MM - measures.WINDOW_MM - ROLLS_MM_S * CYCLE_MS // 1000,
 )
 """What the limits below are checked against: the least declared jolt of a slip, the two parts of a tag's error, how
-near the antennas' distance is preset, the shortest vehicle, and the sum that the split threshold has to cover."""
+near the antennas' distance is preset, the shortest vehicle, the sum that the split threshold has to cover, and a
+boundary's two tags less a window and what a train rolls back in a cycle."""
 
 READER = Reader(WINDOW_MM, AIR_MS, 2.0, ASKS_MS, 0.0)
 """A reader that receives 4 frames at the line's speed, as two of four needs; `heisoku reproduce 000` says why."""

@@ -20,7 +20,7 @@ from kernel.onboard.limits import Limits, are_lawful
 from kernel.onboard.tag_fix import TagLimits
 from kernel.onboard.tag_reader import NO_FRAME, Frame, Level
 from kernel.onboard.way import Way
-from kernel.standstill import Standstill, ThroughLine, is_braked
+from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists
 from kernel.tag_list_text import what_they_say
 from kernel.unit import Unit
@@ -180,13 +180,13 @@ class OnBoard:
 
     @property
     def takes_hold(self) -> bool:
-        """Whether the brake is on, and has yet to respond."""
-        return self.brake.applied and not is_braked(self.standstill)
+        """Whether the brake is on, and has yet to bring the train to rest."""
+        return self.brake.applied and not computing.is_braked_to_rest(self.limits, self.computer)
 
     def hold(self) -> bool:
-        """The driver puts the brake on, until an end of authority is taken; whether it holds the train yet (T8)."""
+        """The driver puts the brake on, until an end of authority is taken; whether that has stopped it (T8)."""
         self.computer = computing.withhold_end(self.computer)
-        return is_braked(self.standstill)
+        return computing.is_braked_to_rest(self.limits, self.computer)
 
     def made_up(self) -> None:
         """Staff has found the train whole (P5)."""

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kernel.onboard import computer
+from kernel.onboard import reverse_movement as reverse
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
@@ -24,7 +25,9 @@ from kernel.onboard.limits import (
     is_brake_lawful,
     is_found_at_rest,
     is_length_lawful,
+    is_one_train_written,
     is_reader_lawful,
+    is_reverse_lawful,
     is_spacing_lawful,
     is_split_lawful,
     is_window_lawful,
@@ -81,7 +84,7 @@ LIMITS = st.builds(
     length=st.builds(LengthBounds, *[SMALL] * len(fields(LengthBounds))),
     reader=st.builds(ReaderLimits, *[SMALL] * len(fields(ReaderLimits))),
 )
-SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL, SMALL, st.integers(-2, 200), SMALL)
+SURVEYS = st.builds(Surveyed, st.integers(-2, 200), SMALL, SMALL, SMALL, SMALL, st.integers(-2, 200), SMALL, SMALL)
 
 
 def leaves_whole_trains_alone(limits: SplitLimits, differs_mm_s2: int) -> bool:
@@ -115,10 +118,28 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "spacing": antenna_spacing.the_tolerance_covers_preset_and_read_window(track)
         and antenna_spacing.is_off(track, NM_A_MM * surveyed.vehicle_mm),
         "length": the_lengths_bounds_fit(site) and one_length_is_written_and_it_covers_the_antennas(site),
-        "reverse": reverse_movement.bounds_are_not_negative(wheel),
+        "reverse": reverse_movement.bounds_are_not_negative(wheel)
+        and not reverse_movement_hides(limits.reverse.roll_back_mm, surveyed.pair_mm),
+        "one train": can_be_one_train(limits.sensors, limits.train.brake),
         "reader": a_gap_between_tags_has_a_length(site),
         "rest": is_held_at_last(limits),
     }
+
+
+def reverse_movement_hides(roll_back_mm: int, pair_mm: int) -> bool:
+    """Tell whether a train whose tail has rolled from one tag of a boundary to the other may count as located still."""
+    movement = reverse.LOCATED
+    for way_mm in (0, -pair_mm):
+        readings = Readings(100, True, 0, way_mm, True, 0)
+        movement = reverse.note_cycle(reverse.ReverseLimits(roll_back_mm), movement, readings)
+    return not movement.reversed
+
+
+def can_be_one_train(sensors: SensorBounds, brake: BrakeBounds) -> bool:
+    """Tell whether there is a train at the bounds of the odometry that the brake control covers."""
+    worst_mm_s2, steepest_mm_s2 = sensors.accelerates_mm_s2, sensors.gradient_mm_s2
+    slows = range(brake.slows_mm_s2, sensors.brakes_mm_s2 + 1)
+    return worst_mm_s2 <= brake.gains_mm_s2 and steepest_mm_s2 <= brake.falls_mm_s2 and len(slows) > 0
 
 
 def is_held_at_last(limits: Limits) -> bool:
@@ -149,7 +170,8 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "split": is_split_lawful(limits.split, surveyed),
         "spacing": is_spacing_lawful(limits.spacing, surveyed),
         "length": is_length_lawful(limits, surveyed),
-        "reverse": limits.reverse.roll_back_mm >= 0,
+        "reverse": is_reverse_lawful(limits.reverse, surveyed),
+        "one train": is_one_train_written(limits.sensors, limits.train.brake),
         "reader": is_reader_lawful(limits.reader),
         "rest": is_found_at_rest(limits.sensors, limits.train.brake),
     }
@@ -200,6 +222,7 @@ def test_the_plan_is_lawful_and_just_so() -> None:
         {"preset_within_mm": 87},
         {"vehicle_mm": 19_114},
         {"whole_mm_s2": 511},
+        {"pair_mm": 2_000},
     )
     for worse in worst:
         survey = replace(SURVEYED, **worse)
@@ -211,7 +234,7 @@ def test_a_plan_by_which_no_train_is_ever_found_at_rest_is_not_lawful() -> None:
         ({"agreement_cycles": 20}, {"agreement_cycles": 21}),
         ({"locked_mm_s": 2_920}, {"locked_mm_s": 2_919}),
         ({"pace_mm_s": 3_521}, {"pace_mm_s": 3_520}),
-        ({"slip_mm_s2": 739, "brakes_mm_s2": 0}, {"slip_mm_s2": 738}),
+        ({"slip_mm_s2": 739, "brakes_mm_s2": 600}, {"slip_mm_s2": 738}),
     ):
         held, never = (replace(LAWFUL, sensors=replace(LAWFUL.sensors, **each)) for each in (just, worse))
         assert are_lawful(held, SURVEYED), just

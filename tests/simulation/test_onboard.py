@@ -8,9 +8,8 @@ from random import Random
 import pytest
 
 from kernel.onboard import computer
-from kernel.onboard.arithmetic import CYCLE_MS
 from kernel.onboard.way import Way
-from models.layouts.measures import TAG_MM, WINDOW_MM
+from kernel.standstill import is_braked
 from models.rides.plan import PLAN
 from models.simulation.cycles import Ran
 from models.simulation.onboard import OnBoard, on_board
@@ -19,9 +18,6 @@ from models.simulation.simulation import Simulation
 from models.simulation.vehicle import Line, Vehicle
 from models.simulator.play import Play
 from tests.simulation.lines import plan
-
-ROLLS_MM_S = 3_500
-"""Faster than this no train rolls back within some metres of an ascent that it can stand on."""
 
 
 def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
@@ -35,8 +31,8 @@ def test_a_tail_that_has_rolled_back_too_far_counts_no_more() -> None:
     assert not board.line(True).fits
 
 
-def test_the_tags_of_a_boundary_lie_farther_apart_than_a_train_rolls_back_unnoticed() -> None:
-    assert PLAN.reverse.roll_back_mm + ROLLS_MM_S * CYCLE_MS // 1000 < 2 * TAG_MM - WINDOW_MM
+AT_REST_CYCLES = 2 * PLAN.brake.response_cycles
+"""After so many the brake has brought a train to rest that was located when they began."""
 
 
 def standing(board: OnBoard, cycles: int) -> None:
@@ -47,22 +43,26 @@ def standing(board: OnBoard, cycles: int) -> None:
         board.computer = computer.sense(board.limits, board.computer, *sensors.read(0.0, 0.0, 0.0))
 
 
-def test_a_brake_holds_the_train_once_it_has_been_on_for_its_response() -> None:
+def test_a_brake_holds_the_train_once_it_has_stopped_what_may_have_been_gained_before_its_response() -> None:
+    """A train that has just been located may have begun to run by as much as its sensors let it, until then."""
     board = on_board(120_000, 500_000)
-    standing(board, PLAN.brake.response_cycles - 1)
+    standing(board, PLAN.brake.response_cycles)
+    assert is_braked(board.standstill)
     assert not board.hold()
-    standing(board, 1)
+    standing(board, AT_REST_CYCLES - PLAN.brake.response_cycles)
     assert board.hold()
 
 
 def test_a_train_is_located_anew_only_while_its_brake_holds_it() -> None:
-    """What was found of a faulty brake stays."""
+    """And has brought it to rest.  What was found of a faulty brake stays."""
     board = on_board(120_000, 500_000)
-    standing(board, PLAN.brake.response_cycles + 1)
+    standing(board, AT_REST_CYCLES)
     known = board.computer.known
     found = replace(board.computer, known=replace(known, watch=replace(known.watch, broken=True)))
     new = replace(found, known=replace(found.known, watch=replace(found.known.watch, cycles=0)))
     assert computer.locate(board.limits, new, 900_000, 901_000) == new
+    fast = replace(found, known=replace(found.known, watch=replace(found.known.watch, limit_mm_s=20_000)))
+    assert computer.locate(board.limits, fast, 900_000, 901_000) == fast
     anew = computer.locate(board.limits, found, 900_000, 901_000)
     assert computer.place(anew) == Way(True, 900_000, 901_000)
     assert anew.known.watch.broken
@@ -72,7 +72,7 @@ def test_a_train_is_located_anew_only_while_its_brake_holds_it() -> None:
 def test_a_false_tail_stays_one_until_staff_finds_the_train_whole() -> None:
     """A change of ends, or being located anew, does not put it right."""
     board = on_board(120_000, 500_000)
-    standing(board, PLAN.brake.response_cycles + 1)
+    standing(board, AT_REST_CYCLES)
     board.computer = replace(board.computer, spacing=replace(board.computer.spacing, checked=True, broken=True))
     board.locate(900_000, 901_000)
     assert board.computer.spacing.broken

@@ -49,6 +49,8 @@ ANTENNA_MM = 2_000
 """Both antennas are so far from the ends of the train."""
 VEHICLE_MM = 20_000
 """What comes off a train is a vehicle at the least."""
+PAIR_MM = 7_000
+"""A boundary's two tags are 8 m apart; less both windows, and what a train rolls back in a cycle."""
 SLIP_RATE_MM_S2 = 4_200.0
 """A wheel leaves its creep by this at the least: a cycle that it does so in the middle of still shows half."""
 PACE_S = 1.8
@@ -108,6 +110,7 @@ class Type:
             preset_within_mm=PRESET_MM,
             vehicle_mm=VEHICLE_MM,
             whole_mm_s2=self.whole_mm_s2,
+            pair_mm=PAIR_MM,
         )
 
     @property

@@ -11,7 +11,6 @@ from kernel.onboard.odometry import Readings, is_located
 from kernel.onboard.split import Acceleration
 from kernel.onboard.split import Readings as TailReadings
 from kernel.onboard.tag_reader import NO_FRAME, Frame, Level
-from kernel.standstill import is_braked
 from tests.independent.physics.declared import ANTENNA_MM, Type
 
 PLAIN_TRACK = 1
@@ -195,8 +194,8 @@ class Host:
         self.computer = replace(self.computer, brake=taken)
 
     def may_be_located(self) -> bool:
-        """Whether the brake holds the train."""
-        return is_braked(computer.standstill(self.limits, self.computer))
+        """Whether the brake has brought the train to rest."""
+        return computer.is_braked_to_rest(self.limits, self.computer)
 
     def withhold(self) -> None:
         """The driver gives his authority back."""
