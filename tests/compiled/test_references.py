@@ -14,6 +14,7 @@ from numba.core.runtime import nrt
 from models.compiled import compiled, kept
 
 rtsys: Any = nrt.rtsys
+type_of: Any = numba.typeof
 counted: Any = vars(nrt)["_nrt"]
 ROOT = Path(__file__).parents[2]
 
@@ -118,7 +119,7 @@ def test_what_only_looks_counts_nothing(monkeypatch: pytest.MonkeyPatch) -> None
 
     def assembly(function: Any) -> str:
         again: Any = compiled(function.py_func)
-        again.compile((numba.typeof(places),))
+        again.compile((type_of(places),))
         (found,) = again.inspect_asm().values()
         return str(found)
 
