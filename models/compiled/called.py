@@ -6,7 +6,7 @@ from typing import Any
 
 from numba.core import registry
 
-from models.compiled.references import Compiler
+from models.compiled.holding import Compiler
 
 CPUDispatcher: Any = registry.CPUDispatcher
 

@@ -49,12 +49,6 @@ def number_of(places: Any) -> int:
 
 
 @compiled
-def numbered(places: Any) -> int:
-    """Ask for a number only."""
-    return int(number_of(places))
-
-
-@compiled
 def new_or_old(places: Any, is_new: bool) -> Any:
     """Give a list back that is made here, or one that two calls handed back."""
     again = given_back(given_back(places))
@@ -114,8 +108,6 @@ def test_what_only_looks_counts_nothing(monkeypatch: pytest.MonkeyPatch) -> None
     """As it is compiled here and now, whatever was kept."""
     monkeypatch.setattr(kept, "kept_folder", lambda _name: None)
     places = numba.typed.List([(1, 2), (3, 4)])
-    assert numbered(places) == 2
-    assert chosen_often(places, 2) == 1 + 1 + 1 + 5 + 2
 
     def assembly(function: Any) -> str:
         again: Any = compiled(function.py_func)
