@@ -282,20 +282,15 @@ def take_ceiling(site: Crossing, system: Coming, ceiling_um: int) -> Coming:
 def acknowledge(site: Crossing, system: Coming, asked_um: int) -> Coming:
     """Once it has decided, it acknowledges an ask to go faster, if it is for it to be: the train may keep to that (X2).
 
-    Here for the warning alone: without a least opening of the road in mind.
+    Here for the warning alone: without a least opening of the road in mind. What was left by the decision not to
+    warn is left by this one, of the same moment.
     """
     if a_decision_begins_each_cycle(system):
         return system
     if not machine.may_go_faster(site.bounds, system.followed, asked_um, 0):
         return system
     followed = arrival.held_to(site.bounds, system.followed, asked_um)
-    return replace(
-        system,
-        ceiling_um=followed.ceiling_um,
-        followed=followed,
-        worst=followed,
-        left_cycles=site.bounds.warning_cycles + 2,
-    )
+    return replace(system, ceiling_um=followed.ceiling_um, followed=followed, worst=followed)
 
 
 def turn_back(site: Crossing, system: Coming, ranging: Ranging, start_mm: int) -> Coming:
