@@ -48,8 +48,8 @@ class Trailing:
     ``apart_nm``: how far behind the head's antenna is the one that speaks for the tail.
     The rest is history, since the distance was preset or the unit restarted.
     ``is_preset``: staff has preset it since the unit started.
-    ``whole``: it was preset, the antenna for the tail is still the same, and where it was, and the train has run
-    forward alone.
+    ``whole``: it was preset, and the antenna for the tail is still the same, and where it was.
+    ``forward``: since it was preset the train has run forward alone, and has not rolled back by anything.
     ``head_newest``: the tag that the head has read last, of any number before the first.
     ``head_has_read``: the head has read the one tag; ``since``: as many others since, not counting the same
     twice running; by the odometry it was between ``least_mm`` and ``most_mm`` then, if that was known at all.
@@ -65,6 +65,7 @@ class Trailing:
     apart_nm: int
     is_preset: bool
     whole: bool
+    forward: bool
     head_newest: int
     head_has_read: bool
     since: int
@@ -128,7 +129,7 @@ def the_antennas_lie_apart(site: Track, apart_nm: int) -> bool:
 
 def run(site: Track, system: Trailing, to_nm: int) -> Trailing:
     """The train runs on, or back (T13)."""
-    return replace(system, front_nm=to_nm, whole=system.whole and to_nm >= system.front_nm)
+    return replace(system, front_nm=to_nm, forward=system.forward and to_nm >= system.front_nm)
 
 
 def come_apart(site: Track, system: Trailing, apart_nm: int) -> Trailing:
@@ -212,7 +213,7 @@ def preset(site: Track, system: Trailing, preset_mm: int) -> Trailing:
         return system
     if not the_antennas_lie_apart(site, system.apart_nm):
         return system
-    return replace(begun(system), spacing=machine.preset(preset_mm), is_preset=True, whole=True)
+    return replace(begun(system), spacing=machine.preset(preset_mm), is_preset=True, whole=True, forward=True)
 
 
 def turn(site: Track, system: Trailing, front_nm: int) -> Trailing:

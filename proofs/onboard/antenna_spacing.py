@@ -71,7 +71,7 @@ def healthy_only_after_a_preset(site: Track, system: Trailing) -> bool:
 
 def a_whole_train_is_never_accused(site: Track, system: Trailing) -> bool:
     """While the train is as it was preset, and runs forward, every read fits, however bad the odometry (T13)."""
-    return not system.whole or not system.spacing.broken
+    return not (system.whole and system.forward) or not system.spacing.broken
 
 
 # ---- what they rest on
@@ -97,9 +97,9 @@ def a_whole_train_is_near_its_preset(site: Track, system: Trailing) -> bool:
 
 
 def a_whole_train_has_passed_what_its_tail_read(site: Track, system: Trailing) -> bool:
-    """While the train is whole, the tag that its tail has read is behind its head by the antenna distance (T13)."""
+    """The tag that the tail of a train that runs forward has read is behind its head by the antenna distance (T13)."""
     return (
-        not system.whole
+        not (system.whole and system.forward)
         or not system.spacing.tail_read
         or world.tail_nm(site, system) - NM_A_MM * system.spacing.tail_uid >= -NM_A_MM * site.read_within_mm
     )

@@ -216,7 +216,7 @@ def a_whole_train_is_near_its_preset(site: Train, system: Whole) -> bool:
 
 
 def a_whole_train_has_passed_what_its_tail_read(site: Train, system: Whole) -> bool:
-    """While the train is whole, the tag that its tail has read is behind its head by the antenna distance (T13)."""
+    """The tag that the tail of a train that runs forward has read is behind its head by the antenna distance (T13)."""
     return antenna_spacing.a_whole_train_has_passed_what_its_tail_read(track(site), system.trailing)
 
 

@@ -36,6 +36,7 @@ JUST_STARTED = Trailing(
     apart_nm=NM_A_MM * APART_MM,
     is_preset=False,
     whole=False,
+    forward=False,
     head_newest=0,
     head_has_read=False,
     since=0,
@@ -250,7 +251,7 @@ def a_train_turns() -> None:
     assert train.tail(0)
     before = train.system
     train.step("turn", front_nm=front_nm(0))
-    preset = replace(JUST_STARTED, spacing=machine.preset(APART_MM), is_preset=True, whole=True)
+    preset = replace(JUST_STARTED, spacing=machine.preset(APART_MM), is_preset=True, whole=True, forward=True)
     assert train.system == replace(preset, front_nm=front_nm(0), tail_nm=before.tail_nm)
     assert not train.tail(0), "what the head read before the change counts no more"
     train.head(30_000 + APART_MM)
@@ -280,7 +281,8 @@ def a_train_that_rolls_back_may_be_accused() -> None:
     train.head(0)
     assert not train.tail(0, at=UNKNOWN)
     train.head(0)
-    assert not train.system.whole
+    assert train.system.whole
+    assert not train.system.forward
     assert train.system.spacing.broken
 
 
@@ -307,10 +309,10 @@ def history_begins_anew_with_the_train() -> None:
     assert train.system.since == len(TAGS) - 1
     assert train.system.head_newest == TAGS[-1]
     before = train.system
-    begun = replace(JUST_STARTED, front_nm=front_nm(TAGS[-1]))
+    begun = replace(JUST_STARTED, forward=True, front_nm=front_nm(TAGS[-1]))
     assert train.step("restart") == begun
     train.system = before
-    preset = replace(begun, spacing=machine.preset(APART_MM), is_preset=True, whole=True)
+    preset = replace(begun, spacing=machine.preset(APART_MM), is_preset=True, whole=True, forward=True)
     assert train.step("preset", preset_mm=APART_MM) == preset
 
 
