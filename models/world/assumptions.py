@@ -22,6 +22,7 @@ from models.world.truth import (
     reads_both_first,
     says_it_is_held,
     says_it_is_held_between,
+    stands_as_it_says,
     stands_within,
 )
 
@@ -163,9 +164,14 @@ def a_train_within_its_destination_is_not_beyond(
 def a_located_train_stands_where_it_says(
     site: Site, system: System, train: Train, blocks: frozenset[Block], at: Standstill, line: ThroughLine
 ) -> bool:
-    """No car of an unbroken train that its brake holds is outside the blocks that the tags at both its ends say."""
+    """An unbroken train that its brake holds is at rest, with no car outside the blocks that the tags at both ends say.
+
+    Nothing is assumed of where it is if it names no block, or one that the line does not have.
+    """
     return (
-        not says_it_is_held(at) or not (line.answers and line.is_intact) or stands_within(site, system, train, blocks)
+        not says_it_is_held(at)
+        or not (line.answers and line.is_intact)
+        or stands_as_it_says(site, system, train, blocks)
     )
 
 

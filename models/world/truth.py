@@ -90,15 +90,35 @@ def is_last(site: Site, system: System, run: Run, car: Car) -> bool:
 
 def stands_within(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
     """No car of ``train`` is outside ``blocks``, and it is at rest."""
-    return (
-        all(
-            block in blocks
-            for car in system.track.at
-            if site.formation.train_of.get(car) == train
-            for block in system.track.at[car]
-        )
-        and all(run.train != train for run in system.track.rolling)
-        and all(run.train != train for run in system.track.slipping)
+    return is_within(site, system, train, blocks) and is_at_rest(system, train)
+
+
+def stands_as_it_says(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
+    """``train`` is at rest, and outside of ``blocks`` only where they are no place of this line."""
+    return is_at_rest(system, train) and (not name_a_place(site, blocks) or is_within(site, system, train, blocks))
+
+
+def name_a_place(site: Site, blocks: frozenset[Block]) -> bool:
+    """There are some, and each is a block of this line."""
+    return any(block in site.layout.blocks for block in blocks) and not any(
+        block not in site.layout.blocks for block in blocks
+    )
+
+
+def is_within(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:
+    """No car of ``train`` is outside ``blocks``."""
+    return all(
+        block in blocks
+        for car in system.track.at
+        if site.formation.train_of.get(car) == train
+        for block in system.track.at[car]
+    )
+
+
+def is_at_rest(system: System, train: Train) -> bool:
+    """``train`` neither rolls nor slips."""
+    return all(run.train != train for run in system.track.rolling) and all(
+        run.train != train for run in system.track.slipping
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from kernel.names import Stage
 from models.world.evidence import as_written
 from models.world.state import Site, System
-from models.world.truth import read_last_before, stands_within
+from models.world.truth import read_last_before, stands_as_it_says, stands_within
 from proofs.invariants.vocabulary import could_be_taken, genuine, reaches, told
 
 
@@ -312,9 +312,9 @@ def a_train_that_told_has_no_authority(site: Site, system: System) -> bool:
 
 
 def a_train_that_told_stands_there(site: Site, system: System) -> bool:
-    """While the word of a standing train is in the air, it is at rest, and nowhere else than it said (T8)."""
+    """While the word of a standing train is in the air, it is at rest, and where it said, if that is a place (T8)."""
     return all(
-        stands_within(site, system, train, blocks)
+        stands_as_it_says(site, system, train, blocks)
         for (train, life, epoch), blocks in system.radio.standings.items()
         if told(system, train, life, epoch)
     )
@@ -354,7 +354,7 @@ def a_unit_that_answered_stands_there(site: Site, system: System) -> bool:
         unit.answered != system.centre.epoch
         or (train in system.centre.accounted and unit.life <= system.centre.accounted[train])
         or (
-            stands_within(site, system, train, unit.standing_in)
+            stands_as_it_says(site, system, train, unit.standing_in)
             and all(run.train != train or run.life < unit.life for run in system.radio.offers)
         )
         for train, unit in system.units.items()

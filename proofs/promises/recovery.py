@@ -7,7 +7,7 @@ from kernel.recovery import train_missing
 from kernel.standstill import Standstill, ThroughLine
 from models.world import at_the_centre, on_board, radio
 from models.world.state import Site, System
-from models.world.truth import says_it_is_held, stands_within
+from models.world.truth import name_a_place, says_it_is_held, stands_within
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import lives
 
@@ -76,13 +76,14 @@ def its_answer_is_in_the_air(site: Site, system: System, train: Train, life: Uni
 
 
 def it_can_be_taken(site: Site, system: System, train: Train, life: UnitLife, epoch: Epoch, run: Run) -> bool:
-    """The run that will stand for it has a new number, and no route; and nothing that it names is another train's."""
+    """The run that will stand for it has a new number, and no route; what it names is a place, and no other train's."""
     return (
         run.train == train
         and run.life == life
         and run.route not in site.layout.routes
         and system.centre.newest < run.serial
         and run.serial < site.layout.last_serial
+        and name_a_place(site, system.radio.standings[train, life, epoch])
         and is_free_for(site, system, train, system.radio.standings[train, life, epoch])
     )
 

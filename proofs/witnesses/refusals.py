@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.machine.centre import NO_ROUTE
-from kernel.names import Epoch, Route, Serial, Train, UnitLife
+from kernel.names import Block, Epoch, Route, Serial, Train, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, ROLLING, WHOLE
 from proofs.witnesses.running import reported, run_through
@@ -35,7 +35,18 @@ from proofs.witnesses.stations import (
     site_of,
     standing_at,
 )
-from proofs.witnesses.telling import all_tell, answer, hear_terminals, next_run, opened, recover, recovered, tell
+from proofs.witnesses.telling import (
+    all_tell,
+    answer,
+    blocks_of,
+    hear_terminals,
+    next_run,
+    opened,
+    recover,
+    recovered,
+    take_word,
+    tell,
+)
 
 FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 
@@ -129,6 +140,18 @@ def a_word_that_cannot_be_taken_is_refused(steps: Steps) -> Scenario:
     again = next_run(scenario, T1, NO_ROUTE)
     scenario.refuses("note_standing", Refusal.WRONG_LIFE, **word, run=again)
     scenario.refuses("open_procedure", train=stranger)
+    return scenario
+
+
+def a_word_that_names_no_place_is_refused(steps: Steps) -> Scenario:
+    """A unit that goes by an older plan leaves its train where the centre has it (T8)."""
+    scenario = opened(steps, FACING_EAST)
+    true = blocks_of(scenario, T1)
+    for said in (frozenset({Block("closed line")}), true | {Block("closed line")}):
+        life = answer(scenario, T1, said)
+        word = {"train": T1, "life": life, "epoch": scenario.system.centre.epoch}
+        scenario.refuses("note_standing", Refusal.UNKNOWN_BLOCK, **word, run=next_run(scenario, T1, NO_ROUTE))
+    take_word(scenario, T1, answer(scenario, T1, true), next_run(scenario, T1, NO_ROUTE))
     return scenario
 
 

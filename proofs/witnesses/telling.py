@@ -64,9 +64,9 @@ def tell(scenario: Scenario, train: Train) -> Run:
     return run
 
 
-def answer(scenario: Scenario, train: Train) -> UnitLife:
-    """A train at rest answers this epoch's challenge in a new life; the answer is on its way."""
-    epoch, blocks = scenario.system.centre.epoch, blocks_of(scenario, train)
+def answer(scenario: Scenario, train: Train, said: frozenset[Block] | None = None) -> UnitLife:
+    """A train at rest answers this epoch's challenge in a new life, and truly if not as ``said``; it is on its way."""
+    epoch, blocks = scenario.system.centre.epoch, blocks_of(scenario, train) if said is None else said
     if epoch not in scenario.system.radio.challenges:
         scenario.does("send_challenge", {"radio": {"challenges": came(epoch)}}, epoch=epoch)
     life = UnitLife(scenario.system.units[train].life + 1)
