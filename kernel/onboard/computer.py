@@ -376,8 +376,12 @@ def is_as_long_as_written(limits: Limits, computer: Computer) -> bool:
 def made_up(limits: Limits, computer: Computer) -> Computer:
     """Take the train for whole, and its antennas for as far apart as is written: its staff has found it so (P5, T3).
 
+    Who inspects a train walks along it while its brake holds it at rest; of any other nobody's word is taken, and what
+    a split demands of its brake stays.  One that has lost its position is located first.
     An antenna that has failed is none that reads again: that is said of each by itself.
     """
+    if not is_held(standstill(limits, computer)):
+        return computer
     return replace(
         computer,
         known=replace(computer.known, wholeness=split.made_up(limits.split)),
@@ -386,13 +390,20 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
     )
 
 
-def mend_head(computer: Computer) -> Computer:
-    """Take the head's antenna for sound: staff has mended it, or tried it and found it so; supervised (T13)."""
+def mend_head(limits: Limits, computer: Computer) -> Computer:
+    """Take the head's antenna for sound: staff has mended it, or tried it and found it so; supervised (T13).
+
+    Who tries an antenna is below the train, while its brake holds it at rest; of any other nobody's word is taken.
+    """
+    if not is_held(standstill(limits, computer)):
+        return computer
     return replace(computer, head=tag_reader.mended())
 
 
-def mend_tail(computer: Computer) -> Computer:
-    """Take the tail's antenna for sound: staff has mended it, or tried it and found it so; supervised (T13)."""
+def mend_tail(limits: Limits, computer: Computer) -> Computer:
+    """Take the tail's antenna for sound, as the head's: of a train that its brake holds at rest (T13)."""
+    if not is_held(standstill(limits, computer)):
+        return computer
     return replace(computer, tail=tag_reader.mended())
 
 

@@ -13,6 +13,7 @@ from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
+from kernel.standstill import is_held
 from models.onboard import (
     antenna_above,
     antenna_spacing,
@@ -63,6 +64,7 @@ from models.onboard.train_nature import (
     watched_over,
     way_nm,
     what_the_tail_has_read_is_taken_at_once,
+    who_finds_a_held_train_whole_finds_its_antennas_as_preset,
     who_finds_the_train_whole_finds_its_antennas_as_preset,
     who_locates_a_train_sees_it_stand,
     who_says_where_a_held_train_is_sees_it_stand,
@@ -337,17 +339,15 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
 
 
 def find_whole(site: Train, system: Whole) -> Whole:
-    """The staff has found the train whole, and its antennas as far apart as is written (P5, T3)."""
+    """The staff has found the train whole, its antennas as is written; of one not held it may err (P5, T3)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
+    if not who_finds_a_held_train_whole_finds_its_antennas_as_preset(site, system):
         return system
-    return replace(
-        system,
-        trailing=_preset(site, system),
-        formation=_made_up(site, system),
-        computer=computer.made_up(site.limits, system.computer),
-    )
+    told = replace(system, computer=computer.made_up(site.limits, system.computer))
+    if not is_held(computer.standstill(site.limits, system.computer)):
+        return told
+    return replace(told, trailing=_preset(site, system), formation=_made_up(site, system))
 
 
 def _preset(site: Train, system: Whole) -> Trailing:

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from kernel.onboard import computer
 from kernel.onboard.tag_reader import Frame, Level
+from kernel.standstill import is_held
 from models.onboard import antenna_above, tag_reader
 from models.onboard.antenna_above import Above
 from models.onboard.train_nature import (
@@ -88,18 +89,19 @@ def pass_a_frame_time_at_the_tail(
 
 
 def mend_the_heads_antenna(site: Train, system: Whole) -> Whole:
-    """Staff mends the head's antenna, or finds it sound; supervised (T13)."""
-    return replace(
-        system,
-        head=antenna_above.mend(receiver(site), system.head),
-        computer=computer.mend_head(system.computer),
-    )
+    """Staff mends the head's antenna, or finds it sound; of a train that is not held it may say so of any (T13)."""
+    told = computer.mend_head(site.limits, system.computer)
+    return replace(system, head=_mended(site, system, system.head), computer=told)
 
 
 def mend_the_tails_antenna(site: Train, system: Whole) -> Whole:
-    """Staff mends the tail's antenna, or finds it sound; supervised (T13)."""
-    return replace(
-        system,
-        tail=antenna_above.mend(receiver(site), system.tail),
-        computer=computer.mend_tail(system.computer),
-    )
+    """Staff mends the tail's antenna, or finds it sound; of a train that is not held it may say so of any (T13)."""
+    told = computer.mend_tail(site.limits, system.computer)
+    return replace(system, tail=_mended(site, system, system.tail), computer=told)
+
+
+def _mended(site: Train, system: Whole, above: Above) -> Above:
+    """What staff says of an antenna is so if the train is known to be held at rest; else nobody has tried it (T13)."""
+    if not is_held(computer.standstill(site.limits, system.computer)):
+        return above
+    return antenna_above.mend(receiver(site), above)

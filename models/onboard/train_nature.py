@@ -419,8 +419,13 @@ def what_the_tail_has_read_is_taken_at_once(system: Whole) -> bool:
     return not system.tail.due
 
 
+def who_finds_a_held_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
+    """Staff looks at every car of a train that stands held, and measures from one antenna to the other (T3, P5)."""
+    return not is_held_at_rest(site, system) or who_finds_the_train_whole_finds_its_antennas_as_preset(site, system)
+
+
 def who_finds_the_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
-    """Staff looks at every car, and measures from the head's antenna to the tail's at a supervised place (T3, P5)."""
+    """Staff measures from the head's antenna to the tail's at a supervised place, before it starts the unit (T3)."""
     return antenna_spacing.the_preset_is_near(
         track(site), system.trailing, site.limits.antennas_mm
     ) and antenna_spacing.the_antennas_lie_apart(track(site), system.trailing.apart_nm)
@@ -449,11 +454,15 @@ def who_locates_a_train_sees_it_stand(site: Train, system: Whole, least_mm: int,
 
 def who_says_where_a_held_train_is_sees_it_stand(site: Train, system: Whole, least_mm: int, most_mm: int) -> bool:
     """Who says where the front of a held train is sees it stand there; else he may say what was so (P7, T8)."""
+    return not is_held_at_rest(site, system) or the_train_stands_where_it_is_said_to(system, least_mm, most_mm)
+
+
+def is_held_at_rest(site: Train, system: Whole) -> bool:
+    """It is as slow as a standstill is, and its brake has been on for as long as it takes to respond (T8, T12)."""
     brake = site.limits.train.brake
-    is_held = system.watched.cycles >= brake.response_cycles and (
+    return system.watched.cycles >= brake.response_cycles and (
         -UM_A_MM * brake.standstill_mm_s <= system.speed_um_s <= UM_A_MM * brake.standstill_mm_s
     )
-    return not is_held or the_train_stands_where_it_is_said_to(system, least_mm, most_mm)
 
 
 def a_train_whose_computer_is_off_is_held(site: Train, system: Whole) -> bool:

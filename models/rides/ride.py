@@ -55,6 +55,7 @@ way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings
 note_head_frame, note_tail_frame = MADE.computer.note_head_frame, MADE.computer.note_tail_frame
 mend_head, mend_tail, delivers = MADE.computer.mend_head, MADE.computer.mend_tail, MADE.tag_reader.delivers
+made_up, Known, BrakeWatch = MADE.computer.made_up, MADE.brake_demand.Known, MADE.brake_watch.BrakeWatch
 Frame, NO_FRAME, LEVEL = MADE.tag_reader.Frame, MADE.tag_reader.NO_FRAME, MADE.tag_reader.Level(GOOD_LEVEL_MV, True)
 is_healthy, contradicts_itself = MADE.antenna_spacing.is_healthy, MADE.train_length.contradicts_itself
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
@@ -288,11 +289,32 @@ def with_end(computer: Any, end_mm: int) -> Any:
 
 
 @compiled
+def with_watch(computer: Any, watch: Any) -> Any:
+    """The computer of a train whose brake has been on for so long (T12)."""
+    known = computer.known
+    return Computer(
+        Known(
+            known.motion, watch, known.movement, known.limit, known.wholeness, known.window, known.ahead, known.ceiling,
+        ),
+        computer.before, computer.from_mm, computer.spacing, computer.length, computer.brake,
+        computer.head, computer.tail,
+    )  # fmt: skip
+
+
+@compiled
+def inspected(computer: Any) -> Any:
+    """Staff has found train and antennas sound; its brake held it for longer than is counted yet (P5, T13)."""
+    watch = computer.known.watch
+    held = with_watch(computer, BrakeWatch(watch.limit_mm_s, BRAKE.response_cycles, watch.broken))
+    return with_watch(made_up(LIMITS, mend_tail(LIMITS, mend_head(LIMITS, held))), watch)
+
+
+@compiled
 def ride(trace: Any, out: Any) -> Any:
     """Ride one train to the end of its trace, or 10 km, or the stop after a split; give the last cycle and computer."""
     start_mm = int(trace.head_m[0] * 1000)
     computer = put_into_service(LIMITS, NO_CEILING, start_mm - STARTS_WITHIN_MM, start_mm + STARTS_WITHIN_MM)
-    computer = mend_tail(mend_head(with_end(computer, start_mm + FAR_MM)))
+    computer = with_end(inspected(computer), start_mm + FAR_MM)
     ends, apart = Ends(0, 0), Apart(False, 0, -1)
     curve, anchor_m, cycle = Curve(0, AWAITED, 0), trace.head_m[0], 0
     fronts_mm, trusted = np.empty(len(trace.head_m), np.int64), np.empty(len(trace.head_m), np.bool_)

@@ -189,7 +189,7 @@ class OnBoard:
         return computing.is_braked_to_rest(self.limits, self.computer)
 
     def made_up(self) -> None:
-        """Staff has found the train whole (P5)."""
+        """Staff has found the train whole; of one that is not held at rest nobody's word is taken (P5)."""
         self.computer = computing.made_up(self.limits, self.computer)
 
 
@@ -227,4 +227,12 @@ def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> O
     least_mm, most_mm = front_mm - LOCATED_WITHIN_MM, front_mm + LOCATED_WITHIN_MM
     assert are_lawful(limits, SURVEYED), "the plan's limits fit what it says was surveyed"
     begun = computing.put_into_service(limits, NO_CEILING, least_mm, most_mm)
-    return OnBoard(length_mm, limits, cycling(limits, computing.mend_tail(computing.mend_head(begun))))
+    return OnBoard(length_mm, limits, cycling(limits, _inspected(limits, begun)))
+
+
+def _inspected(limits: Limits, begun: Computer) -> Computer:
+    """Staff has found train and antennas sound; its brake held it for longer than is counted yet (P5, T13)."""
+    known = begun.known
+    held = replace(begun, known=replace(known, watch=replace(known.watch, cycles=limits.train.brake.response_cycles)))
+    told = computing.made_up(limits, computing.mend_tail(limits, computing.mend_head(limits, held)))
+    return replace(told, known=replace(told.known, watch=known.watch))

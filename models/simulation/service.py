@@ -14,7 +14,7 @@ from kernel.machine.messages import Cancellation, Request, Withdrawal
 from kernel.names import Block, Route, Run, Stage, Train
 from kernel.route_setting import request_refusal
 from models.simulation.ahead import ahead, follows_the_way
-from models.simulation.diary import BRAKE, STAFF, TRAIN, Diary
+from models.simulation.diary import BRAKE, TRAIN, Diary
 from models.simulation.driver import margin_mm
 from models.simulation.facing import Orders, exits, leads_back, leads_forward
 from models.simulation.foresight import Board, Foresight, Standing, far
@@ -129,13 +129,12 @@ class Service:
             self._rests()
             self.become(Phase.PARTED, self.random.randint(*STAFF_S))
             return True
+        is_unsure = not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled)
+        if is_unsure and not self.staff.locates("is located anew at a standstill"):
+            return True
         wholeness = board.computer.known.wholeness
-        if (wholeness.split or wholeness.lost) and not vehicle.on_rails.standing:
-            board.made_up()
-            self.diary.note(STAFF, self.train, "is found whole by its staff")
-        if not board.place.known or (vehicle.at_rest_cycles > SETTLES_CYCLES and not vehicle.settled):
-            return not self.staff.locates("is located anew at a standstill")
-        return False
+        is_doubted = (wholeness.split or wholeness.lost) and not vehicle.on_rails.standing
+        return is_doubted and not self.staff.finds_whole()
 
     def _rests(self) -> None:
         for run in [run for run in self.play.system.track.rolling if run.train == self.train]:

@@ -36,6 +36,16 @@ class Staff:
         self.diary.note(STAFF, vehicle.on_rails.name, told)
         return True
 
+    def finds_whole(self) -> bool:
+        """Walk along it, once it is held, and find it whole."""
+        vehicle, board = self.vehicle, self.vehicle.board
+        if not is_held(board.standstill):
+            board.hold()
+            return False
+        board.made_up()
+        self.diary.note(STAFF, vehicle.on_rails.name, "is found whole by its staff")
+        return True
+
     def names_its_block(self) -> bool:
         """Say that its front is beyond the board at which its block begins, and whether that is news.
 

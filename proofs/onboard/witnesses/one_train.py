@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard import computer, odometry
+from kernel.onboard import computer, odometry, tag_reader
 from kernel.onboard.antenna_spacing import SpacingLimits
 from kernel.onboard.brake_demand import TrainLimits
 from kernel.onboard.braking import BrakeBounds
@@ -22,6 +22,7 @@ from kernel.onboard.tag_kind import PLAIN
 from kernel.onboard.tag_reader import NO_FRAME, Frame
 from kernel.onboard.tag_window import WindowLimits
 from kernel.onboard.train_length import UNMEASURED, LengthBounds
+from kernel.standstill import is_held
 from models.onboard.antenna_above import Above
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
@@ -223,6 +224,11 @@ class Ride(Play[Train, Whole]):
         """Tell whether the tail's reads count."""
         return computer.through_line(LIMITS, self.system.computer, True).fits
 
+    def stand_until_held(self) -> None:
+        """Stand, until the computer knows that its brake holds the train at rest."""
+        while not is_held(computer.standstill(LIMITS, self.system.computer)):
+            self.cycle(0, may_proceed=False)
+
     def stop(self) -> None:
         """Let the brake stop it, as little as is guaranteed, once it has responded."""
         while self.system.speed_um_s:
@@ -262,6 +268,6 @@ def record(tag_mm: int, kind: int = PLAIN) -> Frame:
 
 def heard(told: Computer, tag: Frame) -> Computer:
     """Give a computer whose head's reader delivers this record."""
-    sound = computer.mend_head(told)
+    sound = replace(told, head=tag_reader.mended())
     once = computer.note_head_frame(LIMITS, sound, tag, SOUND)
     return computer.note_head_frame(LIMITS, once, tag, SOUND)

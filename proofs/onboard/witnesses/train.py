@@ -39,6 +39,7 @@ from proofs.onboard.witnesses.one_train import (
 from proofs.onboard.witnesses.rolling_stock import START_MM
 from proofs.onboard.witnesses.train_as_it_is_said import (
     a_feature_narrows_the_range_of_a_train_that_runs,
+    a_train_that_is_not_held_is_not_found_whole,
     a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust,
     nothing_is_said_of_a_train_that_runs,
     what_is_said_too_late_of_a_train_is_not_taken,
@@ -484,6 +485,7 @@ WITNESSES = (
     nothing_is_said_of_a_train_that_runs,
     a_feature_narrows_the_range_of_a_train_that_runs,
     what_is_said_too_late_of_a_train_is_not_taken,
+    a_train_that_is_not_held_is_not_found_whole,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
     a_brake_that_is_put_on_again_waits_for_its_response,
     a_computer_is_told_of_tags_and_of_its_train,

@@ -111,6 +111,11 @@ def an_antenna_that_failed_is_deaf_through_everything_but_mending() -> None:
     assert ride.system.computer.head == ride.system.computer.tail == tag_reader.mended()
     ride.step("put_into_service", **here)
     assert ride.system.computer.head == ride.system.computer.tail == tag_reader.restarted()
+    begun = ride.system
+    ride.step("mend_the_heads_antenna")
+    ride.step("mend_the_tails_antenna")
+    assert ride.system == begun, "its computer has yet to know that the brake holds it"
+    ride.stand_until_held()
     ride.step("mend_the_heads_antenna")
     assert ride.system.computer.head == tag_reader.mended()
     assert ride.system.computer.tail == tag_reader.restarted()

@@ -34,7 +34,7 @@ class Host:
         self.limits = kind.limits
         self.ceiling = NO_CEILING
         self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
-        self._mend_antennas()
+        self._inspect()
         self.awaited: int | None = None
 
     def keep_to(self, ceiling_mm_s: int) -> None:
@@ -181,9 +181,18 @@ class Host:
             self.computer = computer.note_tail_frame(self.limits, self.computer, frame, SOUND)
         self.computer = computer.read_by_tail(self.limits, self.computer)
 
-    def _mend_antennas(self) -> None:
-        """Staff has found both antennas sound."""
-        self.computer = computer.mend_tail(computer.mend_head(self.computer))
+    def _inspect(self) -> None:
+        """Staff finds train and antennas sound; the brake has held it for longer than the computer has counted yet."""
+        counted_cycles = self.computer.known.watch.cycles
+        self._count_brake(self.limits.train.brake.response_cycles)
+        mended = computer.mend_tail(self.limits, computer.mend_head(self.limits, self.computer))
+        self.computer = computer.made_up(self.limits, mended)
+        self._count_brake(counted_cycles)
+
+    def _count_brake(self, cycles: int) -> None:
+        """Let the brake have been on for so many cycles."""
+        known = self.computer.known
+        self.computer = replace(self.computer, known=replace(known, watch=replace(known.watch, cycles=cycles)))
 
     # ---- what is told
 
@@ -211,4 +220,4 @@ class Host:
             self.computer = computer.put_into_service(self.limits, self.ceiling, least_mm, most_mm)
             motion = replace(self.computer.known.motion, way_mm=way_mm, anchor_way_mm=way_mm)
             self.computer = replace(self.computer, known=replace(self.computer.known, motion=motion))
-            self._mend_antennas()
+            self._inspect()
