@@ -96,6 +96,26 @@ TAG_READER: Mapping[str, tuple[Memory, str]] = {
 }
 """A tag reader: its antenna counts as failed (`kernel.onboard.tag_reader.restarted`)."""
 
+SPLIT: Mapping[str, tuple[Memory, str]] = {
+    "differences_mm_s2": (Memory.LOST, "EMPTY"),
+    "in_a_row": (Memory.LOST, "0"),
+    "missed_ms": (Memory.LOST, "limits.gap_ms + 1"),
+    "doubtful": (Memory.LOST, "False"),
+    "split": (Memory.LOST, "True"),
+    "lost": (Memory.LOST, "False"),
+}
+"""Split detection: the train counts as split (`kernel.onboard.split.restarted`)."""
+
+SPACING: Mapping[str, tuple[Memory, str]] = {
+    "preset_mm": (Memory.LOST, "0"),
+    "reads": (Memory.LOST, "NOTHING_READ, eight times"),
+    "tail_read": (Memory.LOST, "False"),
+    "tail_uid": (Memory.LOST, "0"),
+    "checked": (Memory.LOST, "False"),
+    "broken": (Memory.LOST, "True"),
+}
+"""The spacing of a train's antennas: its tail counts as a false one (`kernel.onboard.antenna_spacing.restarted`)."""
+
 LINK: Mapping[str, tuple[Memory, str]] = {
     "me": (Memory.LASTING, ""),
     "peer": (Memory.LASTING, ""),

@@ -21,6 +21,8 @@ from kernel.crossing.promise import Promise
 from kernel.crossing.ranging_schedule import Schedule
 from kernel.crossing.start_point import StartPoint
 from kernel.link import Link
+from kernel.onboard.antenna_spacing import Spacing
+from kernel.onboard.split import Split
 from kernel.onboard.tag_reader import Reader
 from kernel.persistence import Memory
 from kernel.terminal import Terminal
@@ -91,6 +93,16 @@ TAG_READER = (
     " counts as failed, and delivers nothing, until staff has found it sound (`kernel.onboard.computer.mend_head`,"
     " `mend_tail`). Finding the train whole does not say so, nor does locating it anew: after that, as ends may have"
     " been changed, one antenna that has failed makes both count as failed."
+)
+SPLIT = (
+    "Nothing survives: whether the train had split is forgotten, so it counts as split and is braked, until staff has"
+    " found it whole (`kernel.onboard.computer.made_up`), which counts once the brake is known to hold the train. So it"
+    " is of a spare unit. The brake watch next to it forgets a broken bound of motors or brake: whoever starts the"
+    " computer has inspected those."
+)
+SPACING = (
+    "Nothing survives: how far the antennas are apart, and whether the tail was a false one, is forgotten, so no read"
+    " of the tail counts until staff has found the train whole, which presets the written distance."
 )
 LINK = (
     "Its names are written, and its life is counted up before the first telegram; all else is forgotten. Nothing that"
@@ -163,6 +175,8 @@ def persistence_page() -> str:
         ("What a crossing has of a train in contact", Followed, persistence.TRAIN_IN_CONTACT, TRAIN_IN_CONTACT),
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("A tag reader on board", Reader, persistence.TAG_READER, TAG_READER),
+        ("Split detection on board", Split, persistence.SPLIT, SPLIT),
+        ("The spacing of a train's antennas", Spacing, persistence.SPACING, SPACING),
         ("One end of a radio link", Link, persistence.LINK, LINK),
         ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),
         ("The terminal of a start point", StartPoint, persistence.START_POINT, START_POINT),

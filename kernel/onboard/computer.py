@@ -77,11 +77,13 @@ class Computer:
 
 
 def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: int) -> Computer:
-    """Begin with a train at rest that has been found whole, its brake on, and its front in a range (P5, P7, T8).
+    """Begin with a train at rest, its brake on and found sound, and its front in a range (P5, P7, T8).
 
     With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
     ``ceiling``: the lowest that it has promised to a crossing, in any of its lives, and was not let go from.
-    Whether an antenna has failed is forgotten: each counts as failed until staff has found it sound (T13).
+    Whether it has split, whether its tail was false and whether an antenna has failed is forgotten.  So it counts as
+    split, with a false tail and failed antennas, until staff says otherwise: :func:`made_up`, :func:`mend_head` and
+    :func:`mend_tail`, once its brake is known to hold it (T3, T13).
     """
     motion = odometry.located(least_mm, most_mm, 0)
     return Computer(
@@ -90,14 +92,14 @@ def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: i
             watch=brake_watch.watching(0),
             movement=LOCATED,
             limit=NO_TRACK_KNOWN,
-            wholeness=split.made_up(limits.split),
+            wholeness=split.restarted(limits.split),
             window=NONE_AWAITED,
             ahead=NONE_LISTED,
             ceiling=ceiling,
         ),
         before=odometry.past(motion),
         from_mm=0,
-        spacing=antenna_spacing.preset(limits.antennas_mm),
+        spacing=antenna_spacing.restarted(),
         length=UNMEASURED,
         brake=braking.stand_still(most_mm),
         head=tag_reader.restarted(),

@@ -65,7 +65,6 @@ from models.onboard.train_nature import (
     way_nm,
     what_the_tail_has_read_is_taken_at_once,
     who_finds_a_held_train_whole_finds_its_antennas_as_preset,
-    who_finds_the_train_whole_finds_its_antennas_as_preset,
     who_locates_a_train_sees_it_stand,
     who_says_where_a_held_train_is_sees_it_stand,
 )
@@ -288,26 +287,25 @@ def _fixed(site: Train, system: Whole, told: Computer, least_mm: int, most_mm: i
 
 
 def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
-    """At rest the computer begins, or begins again: the train is inspected, and somebody says where it is (P7, T8)."""
+    """At rest the computer begins, or begins again: its brake is inspected, and somebody says where it is (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     if not a_train_whose_computer_is_off_is_held(site, system):
         return system
     if not the_train_stands_where_it_is_said_to(system, least_mm, most_mm):
         return system
-    if not who_finds_the_train_whole_finds_its_antennas_as_preset(site, system):
-        return system
     begun = computer.put_into_service(site.limits, system.computer.known.ceiling, least_mm, most_mm)
-    inspected = replace(
+    there = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
+    started = replace(
         system,
         watched=replace(system.watched, kept=True, too_fast=False),
-        trailing=_preset(site, system),
-        formation=_made_up(site, system),
+        trailing=antenna_spacing.restart(track(site), there),
+        formation=train_length.restart(railway(site), formation(system)),
         head=antenna_above.restart(receiver(site), system.head),
         tail=antenna_above.restart(receiver(site), system.tail),
         computer=begun,
     )
-    return _at_rest(site, inspected, least_mm, most_mm)
+    return _at_rest(site, started, least_mm, most_mm)
 
 
 def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:

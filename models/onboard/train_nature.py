@@ -421,14 +421,10 @@ def what_the_tail_has_read_is_taken_at_once(system: Whole) -> bool:
 
 def who_finds_a_held_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
     """Staff looks at every car of a train that stands held, and measures from one antenna to the other (T3, P5)."""
-    return not is_held_at_rest(site, system) or who_finds_the_train_whole_finds_its_antennas_as_preset(site, system)
-
-
-def who_finds_the_train_whole_finds_its_antennas_as_preset(site: Train, system: Whole) -> bool:
-    """Staff measures from the head's antenna to the tail's at a supervised place, before it starts the unit (T3)."""
-    return antenna_spacing.the_preset_is_near(
-        track(site), system.trailing, site.limits.antennas_mm
-    ) and antenna_spacing.the_antennas_lie_apart(track(site), system.trailing.apart_nm)
+    return not is_held_at_rest(site, system) or (
+        antenna_spacing.the_preset_is_near(track(site), system.trailing, site.limits.antennas_mm)
+        and antenna_spacing.the_antennas_lie_apart(track(site), system.trailing.apart_nm)
+    )
 
 
 def the_rest_of_the_cycle_follows_the_speed(system: Whole, read_at_nm: int) -> bool:

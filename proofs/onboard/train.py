@@ -141,9 +141,10 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
 
 
 def the_antennas_are_not_preset_yet(site: Train, system: Whole) -> bool:
-    """Nor is it known what is the train's tail (T3, T8)."""
+    """Nor is it known what is the train's tail, nor that it is whole (T3, P5, T8)."""
     return (
-        antenna_spacing.the_unit_has_just_started(track(site), system.trailing)
+        system.computer.known.wholeness.split
+        and antenna_spacing.the_unit_has_just_started(track(site), system.trailing)
         and system.computer.spacing == system.trailing.spacing
     )
 
@@ -367,6 +368,7 @@ SAFETY = (
     train_parts.unhealthy_is_latched,
     healthy_only_after_a_check,
     healthy_only_after_a_preset,
+    train_parts.no_train_is_whole_before_it_was_found_so,
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,

@@ -337,6 +337,14 @@ def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
     return system.computer.known.limit == system.passing.limit
 
 
+# ---- whether the train is whole
+
+
+def no_train_is_whole_before_it_was_found_so(site: Train, system: Whole) -> bool:
+    """Since its computer was started staff has found it whole, or it counts as split: it may have been (P5, T8)."""
+    return system.trailing.is_preset or system.computer.known.wholeness.split
+
+
 # ---- the train's length
 
 

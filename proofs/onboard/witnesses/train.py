@@ -21,7 +21,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
-from proofs.onboard.witnesses import train_promising, train_reading
+from proofs.onboard.witnesses import found_sound, train_promising, train_reading
 from proofs.onboard.witnesses.one_train import (
     BRAKE,
     END_MM,
@@ -39,7 +39,6 @@ from proofs.onboard.witnesses.one_train import (
 from proofs.onboard.witnesses.rolling_stock import START_MM
 from proofs.onboard.witnesses.train_as_it_is_said import (
     a_feature_narrows_the_range_of_a_train_that_runs,
-    a_train_that_is_not_held_is_not_found_whole,
     a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust,
     nothing_is_said_of_a_train_that_runs,
     what_is_said_too_late_of_a_train_is_not_taken,
@@ -368,7 +367,7 @@ def a_train_whose_brake_has_yet_to_hold_it_is_not_located() -> None:
 
 
 def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
-    """At rest, found whole, its brake on, no tag awaited; whatever was known before its restart (P5, P7, T8)."""
+    """At rest, its brake on, no tag awaited, and not that it is whole; whatever was known before (P5, P7, T8)."""
     ride = Ride()
     ride.start()
     front_mm = ride.system.front_nm // NM_A_MM
@@ -391,7 +390,7 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     assert begun.before == odometry.past(begun.known.motion)
     assert (begun.known.watch.limit_mm_s, begun.known.watch.cycles, begun.known.watch.broken) == (0, 0, False)
     assert begun.known.movement == LOCATED
-    assert begun.known.wholeness == split.made_up(LIMITS.split)
+    assert begun.known.wholeness == split.restarted(LIMITS.split)
     assert begun.known.window == NONE_AWAITED
     assert begun.brake == braking.stand_still(most_mm)
     assert begun.from_mm == 0
@@ -485,7 +484,7 @@ WITNESSES = (
     nothing_is_said_of_a_train_that_runs,
     a_feature_narrows_the_range_of_a_train_that_runs,
     what_is_said_too_late_of_a_train_is_not_taken,
-    a_train_that_is_not_held_is_not_found_whole,
+    *found_sound.WITNESSES,
     a_computer_put_into_service_knows_where_it_stands_and_no_more,
     a_brake_that_is_put_on_again_waits_for_its_response,
     a_computer_is_told_of_tags_and_of_its_train,

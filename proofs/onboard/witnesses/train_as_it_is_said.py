@@ -4,21 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard import computer, tag_reader
-from kernel.onboard.split import Acceleration
-from kernel.onboard.tag_reader import NO_FRAME, Level
-from kernel.standstill import is_held
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import (
-    AT_THE_HEAD,
-    AT_THE_TAIL,
-    BRAKE,
-    END_MM,
-    LIMITS,
-    SITE,
-    TAIL,
-    Ride,
-)
+from proofs.onboard.witnesses.one_train import BRAKE, END_MM, SITE, Ride
 
 
 def a_train_that_is_said_to_be_beyond_a_board_keeps_its_trust() -> None:
@@ -72,43 +59,6 @@ def what_is_said_too_late_of_a_train_is_not_taken() -> None:
     before = ride.system
     ride.step("note_place", least_mm=least_mm, most_mm=seen_mm + 1)
     assert ride.system == before, "a brake that has responded does not hold it at rest yet"
-
-
-def a_train_that_is_not_held_is_not_found_whole() -> None:
-    """A split that was seen brakes it until it stands, whatever is said; so does an antenna that failed stay deaf."""
-    ride = Ride()
-    ride.start()
-    ride.gather(5_000)
-    ride.run(5_000)
-    ride.sense(tail=replace(TAIL, left=Acceleration(-20_000, True), right=Acceleration(-20_000, True)))
-    at = {"frame": NO_FRAME, "level": Level(0, True), "below": NO_FRAME, "sick": True, "at_nm": ride.system.front_nm}
-    ride.step(AT_THE_HEAD, **at)
-    ride.step(AT_THE_TAIL, **at)
-    said(ride, is_taken=False)
-    while ride.system.speed_um_s:
-        responded = ride.system.watched.cycles >= BRAKE.response_cycles
-        ride.cycle(max(0, ride.system.speed_um_s // 1_000 - 70) if responded else 5_000)
-        assert ride.system.computer.brake.applied
-        if not is_held(computer.standstill(LIMITS, ride.system.computer)):
-            said(ride, is_taken=False)
-    ride.stand_until_held()
-    assert has_split(ride)
-    said(ride, is_taken=True)
-    assert not has_split(ride)
-    assert ride.system.computer.head == ride.system.computer.tail == tag_reader.mended()
-
-
-def has_split(ride: Ride) -> bool:
-    """Tell whether its computer takes it for split."""
-    return ride.system.computer.known.wholeness.split
-
-
-def said(ride: Ride, *, is_taken: bool) -> None:
-    """Somebody says that the train is whole, and that both antennas are sound."""
-    for word in ("find_whole", "mend_the_heads_antenna", "mend_the_tails_antenna"):
-        before = ride.system
-        ride.step(word)
-        assert (ride.system != before) is is_taken
 
 
 def a_feature_narrows_the_range_of_a_train_that_runs() -> None:

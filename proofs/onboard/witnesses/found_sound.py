@@ -1,0 +1,92 @@
+"""One train and what staff finds of it at rest: that it is whole, and its antennas sound (P5, T13)."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from kernel.onboard import antenna_spacing, computer, split, tag_reader
+from kernel.onboard.split import Acceleration
+from kernel.onboard.tag_reader import NO_FRAME, Level
+from kernel.standstill import is_held
+from models.onboard.units import NM_A_MM
+from proofs.onboard.witnesses.one_train import AT_THE_HEAD, AT_THE_TAIL, BRAKE, END_MM, LIMITS, TAIL, Ride
+
+SHAKEN = replace(TAIL, left=Acceleration(-20_000, True), right=Acceleration(-20_000, True))
+"""What the tail shows where a train comes apart."""
+
+
+def a_train_that_is_not_held_is_not_found_whole() -> None:
+    """A split that was seen brakes it until it stands, whatever is said; so does an antenna that failed stay deaf."""
+    ride = Ride()
+    ride.start()
+    ride.gather(5_000)
+    ride.run(5_000)
+    ride.sense(tail=SHAKEN)
+    at = {"frame": NO_FRAME, "level": Level(0, True), "below": NO_FRAME, "sick": True, "at_nm": ride.system.front_nm}
+    ride.step(AT_THE_HEAD, **at)
+    ride.step(AT_THE_TAIL, **at)
+    said(ride, is_taken=False)
+    while ride.system.speed_um_s:
+        responded = ride.system.watched.cycles >= BRAKE.response_cycles
+        ride.cycle(max(0, ride.system.speed_um_s // 1_000 - 70) if responded else 5_000)
+        assert ride.system.computer.brake.applied
+        if not is_held(computer.standstill(LIMITS, ride.system.computer)):
+            said(ride, is_taken=False)
+    ride.stand_until_held()
+    assert has_split(ride)
+    said(ride, is_taken=True)
+    assert not has_split(ride)
+    assert ride.system.computer.head == ride.system.computer.tail == tag_reader.mended()
+
+
+def has_split(ride: Ride) -> bool:
+    """Tell whether its computer takes it for split."""
+    return ride.system.computer.known.wholeness.split
+
+
+def is_braked(ride: Ride) -> bool:
+    """Tell whether its brake is on."""
+    return ride.system.computer.brake.applied
+
+
+def said(ride: Ride, *, is_taken: bool) -> None:
+    """Somebody says that the train is whole, and that both antennas are sound."""
+    for word in ("find_whole", "mend_the_heads_antenna", "mend_the_tails_antenna"):
+        before = ride.system
+        ride.step(word)
+        assert (ride.system != before) is is_taken
+
+
+def a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on() -> None:
+    """It counts as split, and its brake stays on, however long its tail is heard, until staff has found it whole."""
+    ride = Ride()
+    ride.start()
+    ride.run(100)
+    ride.sense(tail=SHAKEN)
+    ride.step("withhold_end")
+    ride.stop()
+    ride.stand_until_held()
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.step("put_into_service", least_mm=front_mm - 1_000, most_mm=front_mm + 1_000)
+    assert ride.system.computer.spacing == antenna_spacing.restarted()
+    ride.stand_until_held()
+    ride.step("take_end", end_mm=END_MM)
+    for _ in range(2 * split.SAMPLES):
+        ride.cycle(0, acknowledged=True)
+    assert has_split(ride)
+    assert is_braked(ride)
+    ride.step("find_whole")
+    assert not has_split(ride)
+    assert ride.system.computer.spacing == antenna_spacing.preset(LIMITS.antennas_mm)
+    ride.cycle(0, acknowledged=True)
+    assert not is_braked(ride)
+    assert not computer.through_line(LIMITS, ride.system.computer, True).is_intact
+    for _ in range(split.SAMPLES):
+        ride.cycle(0)
+    assert computer.through_line(LIMITS, ride.system.computer, True).is_intact
+
+
+WITNESSES = (
+    a_train_that_is_not_held_is_not_found_whole,
+    a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on,
+)
