@@ -1,7 +1,8 @@
-"""What staff says of a train whose front stands just within its block: it gets its end of authority, and no other."""
+"""What staff says of a train at rest: that its front is just within its block, and that the train is whole."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
 
 import pytest
@@ -105,3 +106,20 @@ def test_staff_does_not_say_what_it_cannot_see() -> None:
     assert not stand.staff.names_its_block()
     assert stand.vehicle.board.computer == known
     assert stand.is_withheld()
+
+
+def test_a_train_is_braked_before_staff_finds_it_whole() -> None:
+    """Nobody walks along a train that may start; once it is held the split that was latched is over."""
+    stand = Stand(BEYOND_BOARD_MM)
+    board = stand.vehicle.board
+    known = board.computer.known
+    doubted = replace(known, wholeness=replace(known.wholeness, lost=True), watch=replace(known.watch, cycles=0))
+    board.computer = replace(board.computer, known=doubted)
+    board.made_up()
+    assert board.computer.known.wholeness.lost
+    assert not stand.staff.finds_whole()
+    assert board.computer.known.wholeness.lost
+    assert stand.is_withheld()
+    stand.rest()
+    assert stand.staff.finds_whole()
+    assert not board.computer.known.wholeness.lost
