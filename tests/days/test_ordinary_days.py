@@ -54,7 +54,7 @@ def test_a_day_is_simulated_tried_and_guarded(system: str, cells: list[str]) -> 
     tree = ast.parse((ROOT / path).read_text("utf-8"))
     assert not others
     assert function in {each.name for each in tree.body if isinstance(each, ast.FunctionDef)}
-    assert names(guards)
+    assert names(guards) or guards.startswith("none: ")
 
 
 @pytest.mark.parametrize("name", [name for _, cells in ROWS for name in names(cells[-1])])
