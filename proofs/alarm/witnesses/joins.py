@@ -348,6 +348,10 @@ def no_train_passes_but_where_lines_join() -> None:
     kept = day.system
     shown = Display(THERE_MM + 11_001, THERE_MM + KM, 0)
     assert day.step("take_display", train=FIRST, display=shown, at_um=0) == kept
+    garbage = replace(shown, age_ms=-1)
+    day.step("take_display", train=FIRST, display=garbage, at_um=0)
+    assert day.system.told.trains[FIRST].display == garbage, "what is no report of a stretch may show any"
+    day.system = kept
     for place_mm in (THERE_MM + 21_001, JOIN_MM + 21_001):
         fix = TrainFix(place_mm, 0, UNKNOWN, is_running=False)
         assert day.step("take_fix", train=FIRST, fix=fix, at_um=0, is_right=True) == kept

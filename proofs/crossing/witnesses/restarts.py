@@ -16,6 +16,8 @@ def a_start_keeps_the_road_closed() -> None:
     """Terminals are heard, and nobody comes; a person must have seen each track (X3)."""
     day = Day(opened=False)
     assert (day.warns(), day.system.restarted, day.system.warned_cycles) == (True, True, 0)
+    longest = SITE.settings.silence_cycles
+    assert dict(day.system.crossing.silent_cycles.items()) == {UP: longest + 1, DOWN: longest + 1}, "silent, just so"
     for _ in range(100):
         day.cycle()
     assert (day.warns(), day.system.down_cycles, day.system.warned_cycles) == (True, 90, 100)
