@@ -356,6 +356,7 @@ def no_train_passes_but_where_lines_join() -> None:
         fix = TrainFix(place_mm, 0, UNKNOWN, is_running=False)
         assert day.step("take_fix", train=FIRST, fix=fix, at_um=0, is_right=True) == kept
     day.step("take_display", train=FIRST, display=replace(shown, from_mm=THERE_MM + 11_000), at_um=0)
+    assert day.system.told.trains[FIRST].display.from_mm == THERE_MM + 11_000
     tell(day, THERE_MM + 21_000)
     tell(day, THERE_MM + 19_000)
     near = TrainFix(JOIN_MM - 20_000, 0, UNKNOWN, is_running=False)
