@@ -19,20 +19,7 @@ def challenges(centre: Centre, epoch: Epoch) -> bool:
 def standing_refusal(
     layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
 ) -> Refusal | None:
-    """Say why a unit's word that its train stands still is not taken; ``run`` will stand for it (T8).
-
-    A unit that has read no tag since its start knows of no block.  That its train is in none is not for it to say.
-    """
-    refusal = account_refusal(layout, centre, train, life, epoch, blocks, run)
-    if refusal is None and not any(True for _ in blocks):
-        return Refusal.NAMES_NO_BLOCK
-    return refusal
-
-
-def account_refusal(
-    layout: Layout, centre: Centre, train: Train, life: UnitLife, epoch: Epoch, blocks: frozenset[Block], run: Run
-) -> Refusal | None:
-    """Say why ``train`` is not accounted for in these blocks, on whoever's word; ``run`` will stand for it (T8)."""
+    """Say why the word of ``train`` that it stands still is not taken; ``run`` will stand for it (T8)."""
     if train not in layout.fleet:
         return Refusal.UNKNOWN_TRAIN
     if epoch != centre.epoch:

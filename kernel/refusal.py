@@ -15,7 +15,6 @@ class Refusal(Enum):
     START_NOT_SECURED = "the run that the train stands under is not set"
     START_NOT_HELD = "the start block is not held for this train"
     START_IS_RUN_THROUGH = "an earlier run of the train leads out of the start block the same way, and still holds it"
-    NAMES_NO_BLOCK = "the unit names no block; that its train is off the line is for two persons to state"
     UNKNOWN_BLOCK = "there is no such block"
     BLOCK_HELD_FOR_ANOTHER = "a block is held for another train"
     BLOCK_LOST = "a block of the route has not been recovered since the restart"

@@ -15,7 +15,7 @@ from dataclasses import replace
 from kernel.centre import Centre, Statement
 from kernel.layout import Layout
 from kernel.names import Block, Cause, Epoch, Run, Train, UnitLife
-from kernel.recovery import account_for, account_refusal
+from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 
 
@@ -57,7 +57,7 @@ def supervised_refusal(
         return Refusal.NO_STATEMENT
     if said.blocks != blocks:
         return Refusal.STATEMENTS_DIFFER
-    return account_refusal(layout, centre, train, life, epoch, blocks, run)
+    return standing_refusal(layout, centre, train, life, epoch, blocks, run)
 
 
 def note_statement_confirmed(

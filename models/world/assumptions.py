@@ -166,7 +166,7 @@ def a_located_train_stands_where_it_says(
 ) -> bool:
     """An unbroken train that its brake holds is at rest, with no car outside the blocks that the tags at both ends say.
 
-    Nothing is assumed of where it is if it names no block, or one that the line does not have.
+    Nothing is assumed of where it is if it names a block that the line does not have.
     """
     return (
         not says_it_is_held(at)

@@ -99,10 +99,8 @@ def stands_as_it_says(site: Site, system: System, train: Train, blocks: frozense
 
 
 def name_a_place(site: Site, blocks: frozenset[Block]) -> bool:
-    """There are some, and each is a block of this line."""
-    return any(block in site.layout.blocks for block in blocks) and not any(
-        block not in site.layout.blocks for block in blocks
-    )
+    """Each is a block of this line; none at all is a place off it."""
+    return all(block in site.layout.blocks for block in blocks)
 
 
 def is_within(site: Site, system: System, train: Train, blocks: frozenset[Block]) -> bool:

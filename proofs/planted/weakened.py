@@ -8,7 +8,7 @@ from kernel.centre import NO_LOCKS, NO_RUNS, Centre
 from kernel.claims import end_claims
 from kernel.layout import Layout, TagRecords
 from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, TagList, TerminalLife, Train, UnitLife
-from kernel.recovery import account_for, account_refusal
+from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
 from kernel.route_setting import conflict, is_run_through
@@ -214,7 +214,7 @@ def confirms_a_life(
     said = centre.statements.get(train)
     if train not in centre.supervised or said is None or said.life != life:
         return centre
-    if account_refusal(layout, centre, train, life, epoch, blocks, run) is not None:
+    if standing_refusal(layout, centre, train, life, epoch, blocks, run) is not None:
         return centre
     return replace(
         account_for(layout, centre, said.blocks, run, Cause.SUPERVISED),

@@ -17,8 +17,8 @@ from models.simulator.play import WORLD, site_of, two_cars_each
 from models.world.start import start
 
 ROOT = Path(__file__).resolve().parents[3]
-UNREACHABLE = {Refusal.UNKNOWN_TRAIN}
-"""Every train that has a number is in the register."""
+UNREACHABLE = {Refusal.UNKNOWN_TRAIN, Refusal.UNKNOWN_BLOCK}
+"""Every train that has a number is in the register, and every block that has one is of the line."""
 WITHOUT_FOULING = {Refusal.FOULING_BLOCK_HELD, Refusal.FOULING_BLOCK_LOST}
 """No two blocks of the passing station foul each other."""
 
