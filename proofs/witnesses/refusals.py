@@ -12,10 +12,9 @@ from proofs.witnesses.running import reported, run_through
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.setting import prove_all, reserve, set_route
 from proofs.witnesses.stations import (
-    A1,
-    A2,
     B1,
     EAST,
+    FACING_EAST,
     NORMAL,
     ONE,
     ONE_TO_EAST,
@@ -47,8 +46,6 @@ from proofs.witnesses.telling import (
     take_word,
     tell,
 )
-
-FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 
 
 def a_request_is_refused_with_its_reason(steps: Steps) -> Scenario:
@@ -143,7 +140,7 @@ def a_word_that_cannot_be_taken_is_refused(steps: Steps) -> Scenario:
     return scenario
 
 
-def a_word_that_names_no_place_is_refused(steps: Steps) -> Scenario:
+def a_word_that_names_an_unknown_block_is_refused(steps: Steps) -> Scenario:
     """A unit that goes by an older plan leaves its train where the centre has it (T8)."""
     scenario = opened(steps, FACING_EAST)
     true = blocks_of(scenario, T1)

@@ -43,6 +43,7 @@ from proofs.witnesses.setting import (
 from proofs.witnesses.stations import (
     A1,
     A2,
+    FACING_EAST,
     NORMAL,
     ONE,
     OUTLET,
@@ -72,8 +73,6 @@ from proofs.witnesses.telling import (
     tell,
     tell_back,
 )
-
-FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 
 
 def after_a_start_everything_is_lost(steps: Steps) -> Scenario:

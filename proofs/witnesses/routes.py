@@ -54,6 +54,7 @@ from proofs.witnesses.stations import (
     EAST,
     EAST_TO_ONE,
     EAST_TO_TWO,
+    FACING_EAST,
     NORMAL,
     ONE,
     ONE_TO_EAST,
@@ -74,7 +75,6 @@ from proofs.witnesses.stations import (
 )
 from proofs.witnesses.telling import confirm, next_run, recovered
 
-FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 OPPOSITE = {**FACING_EAST, B1: frozenset({EAST})}
 AWRY = {P1: REVERSE, P2: NORMAL}
 

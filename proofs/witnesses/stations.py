@@ -392,6 +392,8 @@ T1, T2 = Train("T1"), Train("T2")
 A1, A2, B1 = Car("a1"), Car("a2"), Car("b1")
 CARS: Mapping[Train, Sequence[Car]] = {T1: (A1, A2), T2: (B1,)}
 """Eastwards, and arriving, a1 leads a2."""
+FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
+"""The first train in the block in the west; where the second is is said besides."""
 
 WEST_TO_ONE, WEST_TO_TWO = Route("west to one"), Route("west to two")
 WEST_TO_TWO_SHIELDED = Route("west to two, shielded")

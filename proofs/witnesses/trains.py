@@ -39,6 +39,7 @@ from proofs.witnesses.stations import (
     DEPART_1,
     EAST,
     EAST_TO_TWO,
+    FACING_EAST,
     LINE,
     ONE,
     ONE_TO_EAST,
@@ -58,7 +59,6 @@ from proofs.witnesses.stations import (
 )
 from proofs.witnesses.telling import recovered
 
-FACING_EAST = {A1: frozenset({WEST}), A2: frozenset({WEST})}
 ON_THE_LINE = {A1: frozenset({LINE}), A2: frozenset({LINE})}
 
 
