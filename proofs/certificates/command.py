@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import random
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -16,12 +15,11 @@ import typer
 from models.commands import EVERY_CORE, Jobs, Json, console, keep_apart, pattern, print_line, progress, refuse, writable
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from proofs.records import about, write_json
+from proofs.sampling import sampled
 
 if TYPE_CHECKING:
     from proofs.certificates.checking import Certified
     from proofs.certificates.outside import Checker
-
-DRAWN_FROM = 1
 
 Proofs = Annotated[
     Path | None,
@@ -73,9 +71,7 @@ def certify(
     if not asked:
         refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
     there_are = sum(len(columns(row)) for row in ROWS)
-    if sample is not None:
-        chosen = set(random.Random(DRAWN_FROM).sample(asked, min(sample, len(asked))))
-        asked = [each for each in asked if each in chosen]
+    asked = sampled(asked, sample, " ".join)
     began, refused, found = time.perf_counter(), controls(outside), list["Certified"]()
     with progress("certified") as step:
         for one in spread(partial(certified, outside=outside, keep=keep), asked, jobs):

@@ -7,7 +7,6 @@ what can be tried of it is that its assumption is needed, and it is told as what
 
 from __future__ import annotations
 
-import random
 import re
 import time
 from collections import Counter
@@ -23,6 +22,7 @@ from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.processes import Workers, as_they_end
 from proofs.joints import BY_NAME
 from proofs.mutants import assumed, guarantees
+from proofs.sampling import sampled
 
 NEEDED, UNNEEDED, OPEN, BESIDE = "needed", "unneeded", "open", "beside"
 """What a guarantee or an assumption may be.  ``open``: neither a counterexample nor a proof was found; ``beside``: an
@@ -45,10 +45,7 @@ def names() -> list[str]:
 
 def chosen(only: str, sample: int | None) -> list[str]:
     """What to try."""
-    found = [name for name in names() if re.search(only, name)]
-    if sample is not None and sample < len(found):
-        found = sorted(random.Random(sample).sample(found, sample), key=found.index)
-    return found
+    return sampled([name for name in names() if re.search(only, name)], sample)
 
 
 def trial(name: str) -> tuple[str, dict[str, Any]]:

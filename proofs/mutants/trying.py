@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import re
 from collections.abc import Callable
 from typing import Any
@@ -12,6 +11,7 @@ from proofs.mutants.classes import SERVICE, objection, table
 from proofs.mutants.record import Trials
 from proofs.mutants.targets import mutants, of_interlocking, rows_of, theories_with
 from proofs.mutants.trial import tried
+from proofs.sampling import sampled
 
 Verdicts = dict[str, dict[str, Any]]
 Progress = Callable[[int, int, str, dict[str, Any]], object]
@@ -67,7 +67,4 @@ def by_the_table(name: str, is_killed: bool) -> str:
 
 def chosen(only: str, sample: int | None) -> list[str]:
     """The mutants to try."""
-    names = [name for name in mutants() if re.search(only, name)]
-    if sample is not None and sample < len(names):
-        names = sorted(random.Random(sample).sample(names, sample), key=names.index)
-    return names
+    return sampled([name for name in mutants() if re.search(only, name)], sample)
