@@ -15,6 +15,7 @@ import z3
 
 from proofs import smtlib
 from proofs.products import weaker
+from proofs.shorter import shorter
 from proofs.workbench import Part
 
 Answer = Literal["unsat", "sat", "unknown"]
@@ -73,7 +74,7 @@ def if_proved(answer: Answer, spent: int) -> tuple[Answer, int]:
 
 
 def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
-    """Ask Z3 with a fresh solver; at a loss the weaker one, so and by text; then again in a new context, and by text.
+    """Ask Z3 with a fresh solver; at a loss the shorter question; the weaker, so and by text; a new context; its text.
 
     In the context that all questions share, what terms are numbered by depends on what was made before, and so,
     now and then, does whether an answer is found; the order of terms goes with them into another context.  By its text
@@ -82,6 +83,8 @@ def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
     """
     solver = _told(part)
     yield _ask_z3_once(solver, seed)
+    if (less := shorter(part)) is not None:
+        yield if_proved(*_ask_z3_once(_told(less), seed))
     if (less := weaker(part)) is not None:
         yield if_proved(*_ask_z3_once(_told(less), seed))
         yield if_proved(*_ask_z3_once(_by_text(less), seed))
@@ -121,12 +124,14 @@ def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
 
 
 def cvc5_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
-    """Ask cvc5, by the text; at a loss the weaker question, and once more with other options; each has half the budget.
+    """Ask cvc5, by the text; at a loss the shorter question, the weaker, other options; each has half the budget.
 
     The weaker question has simpler terms, by which cvc5 begins with fewer cases, and instances enumerated.
     """
     text = smtlib.script(part)
     yield ask_cvc5(text, seed)
+    if (less := shorter(part)) is not None:
+        yield if_proved(*ask_cvc5(smtlib.script(less), seed))
     if (less := weaker(part)) is not None:
         yield if_proved(*ask_cvc5(smtlib.script(less), seed, SIMPLER))
     yield ask_cvc5(text, seed, at_a_loss(text))

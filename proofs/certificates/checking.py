@@ -15,6 +15,7 @@ from proofs.certificates.outside import Checker
 from proofs.certificates.outside import checked as checked_outside
 from proofs.certificates.outside import controls as controls_outside
 from proofs.products import weaker
+from proofs.shorter import shorter
 from proofs.solvers import BUDGET, SIMPLER, at_a_loss, commanded
 from proofs.workbench import Part
 
@@ -77,10 +78,13 @@ def certified(obligation: tuple[str, str], outside: Checker | None = None, keep:
 def proved(part: Part) -> tuple[str, str, str]:
     """Give cvc5's answer to one part, its proof, and the text that it proves; ``checked`` if its checker went through.
 
-    At a loss that text is the weaker question's (`proofs.products`).
+    At a loss that text is the weaker question's (`proofs.products`), or the shorter one's (`proofs.shorter`).
     """
     text = smtlib.script(part)
-    tries = [(text, {}), (text, at_a_loss(text))]
+    tries = [(text, {})]
+    if (less := shorter(part)) is not None:
+        tries.append((smtlib.script(less), {}))
+    tries.append((text, at_a_loss(text)))
     if (less := weaker(part)) is not None:
         tries.append((smtlib.script(less), SIMPLER))
     said = "", ""
