@@ -10,7 +10,7 @@ from the script.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -92,12 +92,14 @@ def tried(use: Use) -> Outcome:
     began = time.perf_counter()
     found, left = Outcome(asked=len(use.others)), set(use.others)
     for place in places(use):
-        _refute(use, place, found, left, defined=True)
+        _refute(use, place, found, left, _together(left), defined=True)
     if found.without == "open" and proved(use, use.base):
         found.without, found.as_well, left = "proved", sorted(left), set()
+    for place in places(use):
+        _refute(use, place, found, left, _alone(left), defined=True)
     found.as_well += [name for name in sorted(left) if proved(use, [*use.base, name])]
     left -= {*found.as_well}
-    _refute(use, None, found, left, defined=False)
+    _refute(use, None, found, left, [*_together(left), *_alone(left)], defined=False)
     found.open_with = sorted(left)
     found.seconds = round(time.perf_counter() - began, 2)
     return found
@@ -115,12 +117,15 @@ def proved(use: Use, names: Sequence[str]) -> bool:
     return all(solvers.ask(solver, part, 0).answer == "unsat" for solver in ("z3", "cvc5") for part in parts)
 
 
-def _refute(use: Use, place: int | None, found: Outcome, left: set[str], *, defined: bool) -> None:
+def _refute(
+    use: Use, place: int | None, found: Outcome, left: set[str], in_turn: Sequence[Sequence[str]], *, defined: bool
+) -> None:
     """Look for states in which the claim breaks; strike off ``left`` every invariant that holds in one of them.
 
-    ``defined``: in which the step looks up nothing that is not there; else those in which it does.
+    ``in_turn``: what is to hold there beside the rest.  ``defined``: in which the step looks up nothing that is not
+    there; else those in which it does.
     """
-    for names in _in_turn(left):
+    for names in in_turn:
         if found.without != "open" and not set(names) & left:
             continue
         state = questions(use.row, place).broken(use, [*use.base, *names], defined)
@@ -129,12 +134,13 @@ def _refute(use: Use, place: int | None, found: Outcome, left: set[str], *, defi
             left -= {name for name in left if state.holds(name)}
 
 
-def _in_turn(left: set[str]) -> Iterator[list[str]]:
-    """All of them together, since what breaks the claim then needs no other question; none; each alone."""
-    yield sorted(left)
-    yield []
-    for name in sorted(left):
-        yield [name]
+def _together(left: set[str]) -> list[list[str]]:
+    """All of them, since what breaks the claim then needs no other question; none."""
+    return [sorted(left), []]
+
+
+def _alone(left: set[str]) -> list[list[str]]:
+    return [[name] for name in sorted(left)]
 
 
 @dataclass(frozen=True)
@@ -161,14 +167,11 @@ class Questions:
         self.ways = self.on.ways(lifter, self.step, self.event)
         self.defined = z3.And(*(each.claim for each in lifter.obligations))
         self.before = said(self.theory.name, place)
+        self._wrong: dict[str, list[Any]] = {}
 
     def broken(self, use: Use, names: Sequence[str], defined: bool) -> Broken | None:
         """Look for a step that breaks the claim, or is not defined, though all of these hold before it."""
-        wrong = [z3.Not(self.defined)]
-        if defined:
-            denied = self.on.denied(self.ways, self.theory.invariants[use.column])
-            wrong = [z3.And(self.defined, condition, denial) for condition, denial in denied]
-        for formula in wrong:
+        for formula in self.wrong(use.column) if defined else [z3.Not(self.defined)]:
             solver = z3.Solver()
             solver.set("rlimit", SPENDING)
             solver.add(*(self.before[name] for name in names), formula)
@@ -176,6 +179,13 @@ class Questions:
             if solver.check() == z3.sat and (state := self.replayed(use, names, solver.model())) is not None:
                 return state
         return None
+
+    def wrong(self, column: str) -> list[Any]:
+        """Say of each way that the step goes it and breaks the claim; lifted once."""
+        if column not in self._wrong:
+            denied = self.on.denied(self.ways, self.theory.invariants[column])
+            self._wrong[column] = [z3.And(self.defined, condition, denial) for condition, denial in denied]
+        return self._wrong[column]
 
     def replayed(self, use: Use, names: Sequence[str], model: Any) -> Broken | None:
         """Take the step in CPython: give it if the hypotheses hold before it, and the claim does not after."""
