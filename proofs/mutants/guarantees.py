@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
@@ -19,8 +19,9 @@ import z3
 
 from proofs import scripts, solvers
 from proofs.lift import Lifter
+from proofs.lookups import lookups
 from proofs.mutants.steps import ERRORS, Lifted, identifiers, lifted, sites
-from proofs.run import laid_out
+from proofs.run import bench, laid_out
 from proofs.theories import THEORIES, row_of, theory_of
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.transitions import event_types
@@ -97,7 +98,7 @@ def tried(use: Use) -> Outcome:
         found.without, found.as_well, left = "proved", sorted(left), set()
     for place in places(use):
         _refute(use, place, found, left, _alone(left), defined=True)
-    found.as_well += [name for name in sorted(left) if proved(use, [*use.base, name])]
+    found.as_well += [name for name in sorted(left) if proved(use, [*use.base, name], name)]
     left -= {*found.as_well}
     _refute(use, None, found, left, [*_together(left), *_alone(left)], defined=False)
     found.open_with = sorted(left)
@@ -111,9 +112,17 @@ def places(use: Use) -> list[int | None]:
     return [None] if identifiers(theory.site) else [*range(min(ON_SITES, len(sites(theory.name)))), None]
 
 
-def proved(use: Use, names: Sequence[str]) -> bool:
-    """Tell whether the cell is proved by these hypotheses, by each solver."""
-    parts = laid_out(use.row, use.column, list(names))
+def proved(use: Use, names: Sequence[str], instead: str = "") -> bool:
+    """Tell whether the cell is proved by these hypotheses, by each solver.
+
+    ``instead``: the one that stands in the guarantee's place.  It looks up nothing that is not there, which the row
+    `reading` proves of it: else a state of which it only seems to be true would be neither refuted nor proved.
+    """
+    there = lookups(bench(theory_of(use.row)[0].name), instead) if instead else []
+    parts = [
+        replace(part, hypotheses={**part.hypotheses, EVERY_LOOKUP_IS_DEFINED: there})
+        for part in laid_out(use.row, use.column, list(names))
+    ]
     return all(solvers.ask(solver, part, 0).answer == "unsat" for solver in ("z3", "cvc5") for part in parts)
 
 
