@@ -75,6 +75,15 @@ def test_another_invariant_that_does_as_well_is_proved_to() -> None:
     assert not guarantees.proved(HEADS_BLOCK, HEADS_BLOCK.base)
 
 
+def test_what_stands_in_a_guarantees_place_looks_up_nothing_that_is_not_there() -> None:
+    """The row `reading` proves so; without that a state in which it only seems to hold would stand against it."""
+    use = Use("joint.cars_move", "a_train_keeps_out_of_what_its_brake_holds_it_from", "no_car_came_under_a_run_ahead")
+    instead = "every_list_tells_the_track"
+    assert instead in guarantees.tried(use).as_well
+    assert guarantees.proved(use, [*use.base, instead], instead)
+    assert not guarantees.proved(use, [*use.base, instead])
+
+
 def test_what_is_unknown_refutes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guarantees, "SPENDING", 1)
     monkeypatch.setattr(guarantees, "proved", lambda *_: False)
