@@ -96,6 +96,15 @@ def the_limits_are_included() -> None:
     assert tone(known(WORKER_MM + KM, DOWN), known(WORKER_MM - 2 * KM, DOWN)) == CAUTION
 
 
+def a_direction_counts_until_a_train_may_have_turned() -> None:
+    """A fix may be fresh for longer than a train takes to turn; then it tells a place, and no direction (A3)."""
+    register = replace(REGISTER, bounds=replace(REGISTER.bounds, turning_ms=5_000))
+    for age_ms, expected in ((5_000, NORMAL), (5_001, ALARM)):
+        past = known(WORKER_MM + KM, DOWN, age_ms=age_ms)
+        assert machine.has_fix(register, past)
+        assert machine.tone(register, handset(past)) == expected
+
+
 def the_order_is_alarm_fault_caution_normal() -> None:
     """An alarm through any fault, a fault through caution (A3, A8)."""
     for lost in ({"battery_well": False}, {"servers_well": False}, {"worker": WorkerFix(WORKER_MM, 60_000)}):
@@ -332,6 +341,7 @@ def every_number_fits_into_64_bits() -> None:
 WITNESSES = (
     limits_and_links_to_the_millisecond,
     the_limits_are_included,
+    a_direction_counts_until_a_train_may_have_turned,
     the_order_is_alarm_fault_caution_normal,
     sources_must_agree,
     a_shunting_train_counts_both_ways,

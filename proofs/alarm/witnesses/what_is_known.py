@@ -22,6 +22,7 @@ from models.alarm.worksite import (
     is_known,
     is_known_by_one,
     is_list_fresh,
+    is_where_shown,
     shunts,
 )
 from proofs.alarm.witnesses.worksite import (
@@ -85,6 +86,18 @@ def a_stabled_train_is_known_by_the_display() -> None:
     assert not is_known_by_one(SITE, STABLED, of(display=replace(there, age_ms=FRESH.display_ms + 1)))
     sections = {SIDING: replace(REGISTER.sections[SIDING], reason=Reason.SHUNTING)}
     assert not is_known_by_one(Railway(replace(REGISTER, sections=sections)), STABLED, of(display=there))
+
+
+def a_fix_is_where_it_is_shown_in_either_part_of_a_stretch() -> None:
+    """To the tolerance, at both ends of each; between them it is nowhere that is shown (A1, A2)."""
+    shown = Display(19 * KM, 20 * KM, 0, 40 * KM, 41 * KM)
+    off_mm = REGISTER.tolerance_mm
+    for least_mm, most_mm in ((19 * KM, 20 * KM), (40 * KM, 41 * KM)):
+        for place_mm in (least_mm - off_mm, least_mm, most_mm, most_mm + off_mm):
+            assert is_where_shown(SITE, of(replace(IN_THE_TUNNEL, place_mm=place_mm), shown))
+        for place_mm in (least_mm - off_mm - 1, most_mm + off_mm + 1):
+            assert not is_where_shown(SITE, of(replace(IN_THE_TUNNEL, place_mm=place_mm), shown))
+    assert not is_where_shown(SITE, of(replace(IN_THE_TUNNEL, place_mm=40 * KM), SHOWN))
 
 
 def what_the_list_does_not_name_is_not_known() -> None:
@@ -216,6 +229,7 @@ WITNESSES = (
     a_train_shunts_where_it_is_written_and_not_shown,
     a_train_in_a_tunnel_is_known_by_the_display,
     a_stabled_train_is_known_by_the_display,
+    a_fix_is_where_it_is_shown_in_either_part_of_a_stretch,
     what_the_list_does_not_name_is_not_known,
     a_worker_without_a_fresh_fix_has_no_place,
     a_list_is_fresh_if_the_servers_are_well_and_it_is_not_old,

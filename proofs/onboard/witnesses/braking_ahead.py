@@ -155,8 +155,9 @@ def the_nearest_of_each_kind_counts() -> None:
     assert restriction_ahead.note_listed(ahead, UNTOLD, 6) == Ahead(curve_mm=6, turnout_mm=6)
     assert restriction_ahead.note_listed(ahead, UNTOLD, 10) == Ahead(curve_mm=7, turnout_mm=10)
     train = Train()
-    train.lists(CURVE, CURVE_MM, curve=True)
-    train.lists(TURNOUT, TURNOUT_MM, turnout=True)
+    for beyond_mm in (200_000, 0, 500_000):
+        train.lists(CURVE, CURVE_MM + beyond_mm, curve=True)
+        train.lists(TURNOUT, TURNOUT_MM + beyond_mm, turnout=True)
     assert train.system.slowing.ahead == Ahead(CURVE_MM, TURNOUT_MM)
     listed = (train.system.slowing.curve_nm, train.system.slowing.turnout_nm)
     assert listed == (NM_A_MM * CURVE_MM, NM_A_MM * TURNOUT_MM)
