@@ -141,10 +141,9 @@ mutants: setup
 	@mkdir -p out
 	$(BIN)/heisoku mutate --json out/mutate.json
 
-# What is open there is told in the report and ends nothing here.
 joints: setup
 	@mkdir -p out
-	$(BIN)/heisoku mutate --joints --json out/joints.json || test $$? -eq 3
+	$(BIN)/heisoku mutate --joints --json out/joints.json
 
 # Which hypotheses, guards and updates each proof uses; the report tells it both ways.
 cores: setup
