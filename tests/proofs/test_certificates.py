@@ -6,20 +6,23 @@ import gzip
 import hashlib
 import json
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import z3
 
 from heisoku import run
-from proofs import canaries
-from proofs.certificates import outside
+from proofs import canaries, products
+from proofs.certificates import checking, outside
 from proofs.certificates.checking import Certified, certified, controls, proved
 from proofs.certificates.command import exit_code, lines, record
 from proofs.run import parts
 from proofs.theories import THEORIES, columns, row_of
+from proofs.workbench import Part
 
 DRAWN = random.Random(7)
+X, Y, Z = z3.Ints("x y z")
 
 
 @pytest.mark.sampled(4)
@@ -39,6 +42,25 @@ def test_what_is_no_theorem_gets_none() -> None:
     canary, part = canaries.laid_out()[0]
     answer, proof, _text = proved(part)
     assert (answer != "checked", proof) == (True, ""), canary.name
+
+
+@pytest.mark.parametrize(
+    ("part", "is_left"),
+    [
+        (Part({"grows": [X >= 0, Y <= Z]}, [], X * Y <= X * Z), lambda text: products.PRODUCT in text),
+        (Part({"x_is_positive": [X > 0, Z > X]}, [Z > 3], X > -1), lambda text: "declare-fun z" not in text),
+    ],
+    ids=["weaker", "shorter"],
+)
+def test_at_a_loss_a_weaker_question_is_gone_through(
+    part: Part, is_left: Callable[[str], bool], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    once = checking._once
+    monkeypatch.setattr(checking, "_once", lambda text, *more: once(text, *more) if is_left(text) else ("unknown", ""))
+    answer, proof, text = proved(part)
+    assert answer == "checked"
+    assert proof
+    assert is_left(text)
 
 
 def one(**fields: object) -> Certified:
