@@ -83,7 +83,7 @@ def proved(part: Part) -> tuple[str, str, str]:
     At a loss that text is the weaker question's (`proofs.products`), or the shorter one's (`proofs.shorter`).
     """
     text = smtlib.script(part)
-    tries = [(text, {})]
+    tries: list[tuple[str, Mapping[str, str]]] = [(text, {})]
     if (less := shorter(part)) is not None:
         tries.append((smtlib.script(less), {}))
     if (less := weaker(part)) is not None:
