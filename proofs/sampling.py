@@ -1,7 +1,7 @@
 """What `--sample N` tries: always the same, and still nearly the same when a few names come or go.
 
 Each name has a place in the draw of its own, by its digest.  So a change of the kernel that adds a mutant puts at most
-that one into the sample, and what was tried before the change is tried after it.
+that one into the sample, and drives out one at the most of those that were tried before.
 """
 
 from __future__ import annotations

@@ -38,6 +38,15 @@ class Reply:
     seconds: float
 
 
+@dataclass(frozen=True)
+class Question:
+    """What cvc5 is asked of a part, and by which options; ``is_whole``: all of it, so that *sat* is an answer too."""
+
+    text: str
+    options: Mapping[str, str]
+    is_whole: bool
+
+
 @cache
 def version(solver: str) -> str:
     """Give the version of a solver."""
@@ -124,17 +133,24 @@ def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
 
 
 def cvc5_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
-    """Ask cvc5, by the text; at a loss the shorter question, the weaker, other options; each has half the budget.
+    """Ask cvc5, by one question of a part after another; each has half the budget."""
+    for question in cvc5_questions(part):
+        told = ask_cvc5(question.text, seed, question.options)
+        yield told if question.is_whole else if_proved(*told)
+
+
+def cvc5_questions(part: Part) -> Iterator[Question]:
+    """Give the text; for a solver at a loss the shorter question, the weaker, and the text with other options.
 
     The weaker question has simpler terms, by which cvc5 begins with fewer cases, and instances enumerated.
     """
     text = smtlib.script(part)
-    yield ask_cvc5(text, seed)
+    yield Question(text, {}, is_whole=True)
     if (less := shorter(part)) is not None:
-        yield if_proved(*ask_cvc5(smtlib.script(less), seed))
+        yield Question(smtlib.script(less), {}, is_whole=False)
     if (less := weaker(part)) is not None:
-        yield if_proved(*ask_cvc5(smtlib.script(less), seed, SIMPLER))
-    yield ask_cvc5(text, seed, at_a_loss(text))
+        yield Question(smtlib.script(less), SIMPLER, is_whole=False)
+    yield Question(text, at_a_loss(text), is_whole=True)
 
 
 def at_a_loss(text: str) -> Mapping[str, str]:

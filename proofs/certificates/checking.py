@@ -10,18 +10,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from models.streams import write_whole
-from proofs import canaries, run, smtlib
+from proofs import canaries, run
 from proofs.certificates.outside import Checker
 from proofs.certificates.outside import checked as checked_outside
 from proofs.certificates.outside import controls as controls_outside
-from proofs.products import weaker
-from proofs.shorter import shorter
-from proofs.solvers import BUDGET, SIMPLER, at_a_loss, commanded
+from proofs.solvers import BUDGET, commanded, cvc5_questions
 from proofs.workbench import Part
 
 RULE = re.compile(rb":rule (\S+)")
-SIMPLER_WITH_REASONS = {name: value for name, value in SIMPLER.items() if name != "ite-simp"}
-"""The options by which cvc5 is asked a weaker question: it gives no reasons for conditions that it makes simpler."""
+SWITCHED_OFF = {"ite-simp": "false"}
+"""What no proof is written with: cvc5 gives no reasons for conditions that it makes simpler."""
 
 
 @dataclass(frozen=True)
@@ -82,24 +80,18 @@ def proved(part: Part) -> tuple[str, str, str]:
 
     At a loss that text is the weaker question's (`proofs.products`), or the shorter one's (`proofs.shorter`).
     """
-    text = smtlib.script(part)
-    tries: list[tuple[str, Mapping[str, str]]] = [(text, {})]
-    if (less := shorter(part)) is not None:
-        tries.append((smtlib.script(less), {}))
-    if (less := weaker(part)) is not None:
-        tries.append((smtlib.script(less), SIMPLER_WITH_REASONS))
-    tries.append((text, at_a_loss(text)))
-    said = "", ""
-    for asked, options in tries:
-        answer, proof = _once(asked, options)
-        if answer == "checked" or (answer == "sat" and asked == text):
-            return answer, proof, asked
-        said = said if said[0] else (answer, proof)
-    return *said, text
+    said: tuple[str, str, str] | None = None
+    for question in cvc5_questions(part):
+        answer, proof = _once(question.text, question.options)
+        if answer == "checked" or (answer == "sat" and question.is_whole):
+            return answer, proof, question.text
+        said = said or (answer, proof, question.text)
+    assert said is not None, "the whole text is always asked"
+    return said
 
 
-def _once(text: str, more: Mapping[str, str] | None = None) -> tuple[str, str]:
-    options = {"produce-proofs": "true", "check-proofs": "true", "proof-format-mode": "cpc", **(more or {})}
+def _once(text: str, more: Mapping[str, str]) -> tuple[str, str]:
+    options = {"produce-proofs": "true", "check-proofs": "true", "proof-format-mode": "cpc", **more, **SWITCHED_OFF}
     _, says = commanded(text + "(get-proof)\n", BUDGET["cvc5"], 0, options)
     said: list[str] = []
     try:
