@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Any
 
@@ -12,6 +11,7 @@ from evidence.manifest.finding import Finding, differences
 from evidence.manifest.laying_out import Cell, LaidOut
 from models.exit_codes import WORDS
 from proofs import canaries, lints_apart
+from proofs.certificates.command import chosen
 from proofs.certificates.command import exit_code as certified_code
 from proofs.certificates.outside import WRONG
 from proofs.mutants import assumed, trying
@@ -22,7 +22,6 @@ from proofs.mutants.guarantees import Use
 from proofs.mutants.targets import mutants, theories_with
 from proofs.records import Report
 from proofs.run import NOTHING_TO_ASK
-from proofs.sampling import sampled
 from proofs.solvers import BUDGET
 from proofs.theories import is_transition, theory_of
 
@@ -133,8 +132,7 @@ def _canaries(seen: Sequence[Told], solvers: Sequence[str], versions: Told) -> I
 
 def certified(told: Told, laid_out: Mapping[Cell, LaidOut]) -> Iterator[Finding]:
     """Each obligation asked for has its entry, of the text that the sources give; each control stands there."""
-    name, matches = "certificates.json", re.compile(told["only"] or "")
-    asked = sampled([cell for cell in laid_out if matches.search(" ".join(cell))], told["sample"], " ".join)
+    name, asked = "certificates.json", chosen(laid_out, told["only"], told["sample"])
     there = [f"{each['row']} × {each['column']}" for each in told["obligations"]]
     yield from differences("obligation", name, there, [" × ".join(cell) for cell in asked])
     yield from _of(name, told["of"], len(laid_out))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -61,23 +62,22 @@ def certify(
     from proofs.certificates.checking import certified, controls
     from proofs.theories import ROWS, columns
 
-    matches = pattern(only)
+    pattern(only)
     writable(json)
     keep_apart(json, keep)
     if keep is not None and keep.exists() and not keep.is_dir():
         refuse(f"--keep {keep}: is not a folder; name another")
     outside = checker(ethos, rules)
-    asked = [(row, column) for row in ROWS for column in columns(row) if matches.search(f"{row} {column}")]
+    every = [(row, column) for row in ROWS for column in columns(row)]
+    asked = chosen(every, only, sample)
     if not asked:
         refuse(f"--only {only}: no transition and no invariant is named so; heisoku prove lists them all")
-    there_are = sum(len(columns(row)) for row in ROWS)
-    asked = sampled(asked, sample, " ".join)
     began, refused, found = time.perf_counter(), controls(outside), list["Certified"]()
     with progress("certified") as step:
         for one in spread(partial(certified, outside=outside, keep=keep), asked, jobs):
             found.append(one)
             step(len(found), len(asked), f"{one.answer}: {one.row} × {one.column}"[:100])
-    told = record(found, there_are, refused, outside.program if outside else None, time.perf_counter() - began)
+    told = record(found, len(every), refused, outside.program if outside else None, time.perf_counter() - began)
     if json:
         hashed = outside.hashes() if outside else None
         write_json(json, {**told, "external_hashes": hashed, "only": only, "sample": sample, **about()})
@@ -85,6 +85,11 @@ def certify(
     for line in lines(told):
         print_line(out, line)
     raise typer.Exit(exit_code(told))
+
+
+def chosen(every: Iterable[tuple[str, str]], only: str | None, sample: int | None) -> list[tuple[str, str]]:
+    """The obligations to certify, of all that there are by row and column."""
+    return sampled([cell for cell in every if re.search(only or "", " ".join(cell))], sample, " ".join)
 
 
 def checker(ethos: Path | None, rules: Path | None) -> Checker | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ import typer
 
 import heisoku
 from evidence.catalogue import catalogue
-from evidence.manifest import command, expected_commands
+from evidence.manifest import command, expected_commands, expected_proofs, laying_out
 from evidence.manifest.again import Figure, drawn, figures, made_again
 from evidence.manifest.hashes import made
 from evidence.manifest.making import Result
@@ -31,6 +32,8 @@ from models.rides.tally import outcome
 from proofs.certificates.checking import certified
 from proofs.records import write_json
 from proofs.run import prove_all
+from proofs.theories import columns
+from tests.evidence import genuine
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 KINDS = ("obligation", "certificate", "witness", "layout", "ride", "day", "days", "paper", "mutant")
@@ -217,3 +220,12 @@ def test_a_folder_of_no_use_is_one_line_and_code_2(
     assert run(*given) == 2
     error = capsys.readouterr().err
     assert len(error.splitlines()) == 1
+
+
+def test_a_sample_of_certificates_is_the_one_that_its_names_draw() -> None:
+    """Those whose names have the least digests; a record of as many others is told as another one."""
+    some = laying_out.laid_out([("brake_watch.run_a_cycle", column) for column in columns("brake_watch.run_a_cycle")])
+    inside = sorted(some, key=lambda cell: sha256(" ".join(cell).encode()).digest())
+    for cells, kinds in ((inside[:3], set()), (inside[-3:], {"missing obligation", "foreign obligation"})):
+        told = genuine.certified({cell: some[cell] for cell in cells}) | {"sample": 3, "of": len(some)}
+        assert {found.kind for found in expected_proofs.certified(told, some) if "obligation" in found.kind} == kinds

@@ -63,6 +63,14 @@ def test_at_a_loss_a_weaker_question_is_gone_through(
     assert is_left(text)
 
 
+def test_a_question_with_a_model_that_is_not_the_whole_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    part = Part({"z_lies_between": [X < Z, Z < Y]}, [], X < Y)
+    once = checking._once
+    monkeypatch.setattr(checking, "_once", lambda text, *more: ("unknown", "") if "z_l" in text else once(text, *more))
+    assert proved(part)[:2] == ("unknown", "")
+    assert proved(Part({}, [], X < Y))[0] == "sat"
+
+
 def one(**fields: object) -> Certified:
     return Certified(**{  # type: ignore[arg-type]
         "row": "split.run_a_cycle", "column": "split_is_latched", "parts": 1, "answer": "checked",

@@ -107,6 +107,13 @@ def test_a_weaker_question_that_has_a_model_says_nothing() -> None:
     assert solvers.if_proved("unsat", 5) == ("unsat", 5)
 
 
+def test_only_of_the_whole_question_is_a_model_an_answer() -> None:
+    part = Part({"z_is_positive": [Z > 0]}, [], X * Y <= Y * X)
+    questions = list(solvers.cvc5_questions(part))
+    assert [each.is_whole for each in questions] == [each.text == smtlib.script(part) for each in questions]
+    assert [each.is_whole for each in questions] == [True, False, False, True]
+
+
 def test_a_solver_at_a_loss_proves_by_the_weaker_question(monkeypatch: pytest.MonkeyPatch) -> None:
     """Asked for nothing else it would not: the whole question is answered by neither there."""
     part = Part({"grows": [X >= 0, Y <= Z]}, [], X * Y <= X * Z)
