@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from models.compiled import compiled
 from models.sensors.draws import Singles
 from models.sensors.faults import CYCLE_S, GRAVITY_M_S2, Floats
 from models.sensors.track import GRID_M, Track
@@ -60,48 +61,45 @@ def run(track: Track, values: Mapping[str, Floats], cycles: int, length_m: float
     share, dwell_cycles = values["driver_share"], values["dwell_s"] / CYCLE_S
     traction = np.minimum(values["traction_m_s2"], ADHESION * GRAVITY_M_S2)
     braking = -np.minimum(values["braking_m_s2"], ADHESION * GRAVITY_M_S2)
-    runs, last, jerk = len(share), len(track.allowed_m_s) - 1, JERK_M_S3 * CYCLE_S
-    speeds, limits = np.empty((cycles, runs), np.float32), track.allowed_m_s.astype(np.float64)
-    head = np.full(runs, length_m + START_M)
-    speed, gain, stays, regarded_m = np.zeros(runs), np.zeros(runs), np.zeros(runs), head.copy()
-    for cycle in range(cycles):
-        ahead = speed * LOOK_S
-        ahead += head
-        np.maximum(ahead, regarded_m, out=ahead)
-        ahead *= 1 / GRID_M
-        np.minimum(ahead, last, out=ahead)
-        allowed = limits.take(ahead.astype(np.intp))
-        allowed *= share
-        waits = speed < STANDS_M_S
-        waits &= allowed < STANDS_M_S
-        waits |= (speed == 0) & (allowed < COAST_M_S)
-        waits |= stays > 0
-        stays += waits
-        over = np.subtract(speed, allowed, out=allowed)
-        wanted = traction * (over <= -COAST_M_S)
-        np.copyto(wanted, braking, where=waits | (over > 0))
-        wanted -= gain
-        np.maximum(wanted, -jerk, out=wanted)
-        np.minimum(wanted, jerk, out=wanted)
-        gain += wanted
-        after = gain * CYCLE_S
-        after += speed
-        np.maximum(after, 0.0, out=after)
-        np.subtract(after, speed, out=gain)
-        gain /= CYCLE_S
-        speed += after
-        speed *= 0.5 * CYCLE_S
-        head += speed
-        speed = after
-        leaves = stays > dwell_cycles
-        if leaves.any():
-            stays[leaves] = 0
-            regarded_m[leaves] = head[leaves] + AWAY_M
-        speeds[cycle] = speed
-    speed_m_s = np.ascontiguousarray(speeds.T)
+    speed_m_s = np.empty((len(share), cycles), np.float32)
+    drive(track.allowed_m_s.astype(np.float64), share, traction, braking, dwell_cycles, length_m + START_M, speed_m_s)
     for row in np.flatnonzero(values["rolls_back_at_s"] < cycles * CYCLE_S):
         roll_back(speed_m_s[row], int(values["rolls_back_at_s"][row] / CYCLE_S), values["rolls_back_m"][row])
     return moved(speed_m_s, values, length_m + START_M)
+
+
+@compiled
+def drive(
+    limits_m_s: Floats,
+    shares: Floats,
+    tractions_m_s2: Floats,
+    brakings_m_s2: Floats,
+    dwells_cycles: Floats,
+    start_m: float,
+    speeds_m_s: Singles,
+) -> None:
+    """Write each run's speed at the end of each cycle: one train after the other, each by its driver (P1)."""
+    last, most_change = len(limits_m_s) - 1, JERK_M_S3 * CYCLE_S
+    for row in range(len(shares)):
+        head_m, regarded_m, speed, gain, stays = start_m, start_m, 0.0, 0.0, 0
+        for cycle in range(speeds_m_s.shape[1]):
+            looks_m = max(head_m + speed * LOOK_S, regarded_m)
+            allowed = limits_m_s[int(min(looks_m * (1 / GRID_M), last))] * shares[row]
+            held = (speed < STANDS_M_S and allowed < STANDS_M_S) or (speed == 0.0 and allowed < COAST_M_S)
+            waits = held or stays > 0
+            stays += waits
+            if waits or speed > allowed:
+                wanted = brakings_m_s2[row]
+            else:
+                wanted = tractions_m_s2[row] if speed - allowed <= -COAST_M_S else 0.0
+            gain += min(max(wanted - gain, -most_change), most_change)
+            after = max(gain * CYCLE_S + speed, 0.0)
+            gain = (after - speed) / CYCLE_S
+            head_m += (speed + after) * (0.5 * CYCLE_S)
+            speed = after
+            if stays > dwells_cycles[row]:
+                stays, regarded_m = 0, head_m + AWAY_M
+            speeds_m_s[row, cycle] = speed
 
 
 def back_m_s(way_m: float) -> Floats:
