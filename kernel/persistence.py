@@ -106,6 +106,13 @@ SPLIT: Mapping[str, tuple[Memory, str]] = {
 }
 """Split detection: the train counts as split (`kernel.onboard.split.restarted`)."""
 
+BRAKE_WATCH: Mapping[str, tuple[Memory, str]] = {
+    "limit_mm_s": (Memory.LOST, "0"),
+    "cycles": (Memory.LOST, "0"),
+    "broken": (Memory.LOST, "True"),
+}
+"""The brake watch: motors or brake count as having broken a bound (`kernel.onboard.brake_watch.restarted`)."""
+
 SPACING: Mapping[str, tuple[Memory, str]] = {
     "preset_mm": (Memory.LOST, "0"),
     "reads": (Memory.LOST, "NOTHING_READ, eight times"),

@@ -111,15 +111,20 @@ def spread(do: Callable[[Work], Found], todo: Sequence[Work], jobs: Workers) -> 
         yield from pool.map(do, todo)
 
 
-def as_they_end(do: Callable[[Work], Found], todo: Sequence[Work], jobs: Workers) -> Iterator[Found]:
-    """Do each piece of work in one of so many processes; what comes of them, whichever ends first."""
+def as_they_end(
+    do: Callable[[Work], Found], todo: Sequence[Work], jobs: Workers, *, one_each: bool = False
+) -> Iterator[Found]:
+    """Do each piece of work in one of so many processes; what comes of them, whichever ends first.
+
+    ``one_each``: each has a process of its own, where there are several of this machine.
+    """
     if not isinstance(jobs, int):
         yield from jobs.as_they_end(do, todo)
         return
     if jobs <= 1 or len(todo) <= 1:
         yield from map(do, todo)
         return
-    with processes(jobs) as pool:
+    with processes(jobs, one_each=one_each) as pool:
         for future in as_completed([pool.submit(do, each) for each in todo]):
             yield future.result()
 

@@ -22,6 +22,7 @@ from kernel.crossing.ranging_schedule import Schedule
 from kernel.crossing.start_point import StartPoint
 from kernel.link import Link
 from kernel.onboard.antenna_spacing import Spacing
+from kernel.onboard.brake_watch import BrakeWatch
 from kernel.onboard.split import Split
 from kernel.onboard.tag_reader import Reader
 from kernel.persistence import Memory
@@ -97,8 +98,12 @@ TAG_READER = (
 SPLIT = (
     "Nothing survives: whether the train had split is forgotten, so it counts as split and is braked, until staff has"
     " found it whole (`kernel.onboard.computer.made_up`), which counts once the brake is known to hold the train. So it"
-    " is of a spare unit. The brake watch next to it forgets a broken bound of motors or brake: whoever starts the"
-    " computer has inspected those."
+    " is of a spare unit."
+)
+BRAKE_WATCH = (
+    "Nothing survives: whether motors or brake had broken a bound is forgotten, so they count as if they had, and the"
+    " train is braked, until staff has inspected them and tried the brake (`kernel.onboard.computer.inspect_brake`),"
+    " which counts once the brake is known to hold the train."
 )
 SPACING = (
     "Nothing survives: how far the antennas are apart, and whether the tail was a false one, is forgotten, so no read"
@@ -176,6 +181,7 @@ def persistence_page() -> str:
         ("A train's promise to a crossing", Promise, persistence.PROMISE, PROMISE),
         ("A tag reader on board", Reader, persistence.TAG_READER, TAG_READER),
         ("Split detection on board", Split, persistence.SPLIT, SPLIT),
+        ("The brake watch on board", BrakeWatch, persistence.BRAKE_WATCH, BRAKE_WATCH),
         ("The spacing of a train's antennas", Spacing, persistence.SPACING, SPACING),
         ("One end of a radio link", Link, persistence.LINK, LINK),
         ("The slots of a radio channel", Schedule, persistence.RANGING_SCHEDULE, RANGING_SCHEDULE),

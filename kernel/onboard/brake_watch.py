@@ -19,7 +19,7 @@ class BrakeWatch:
 
     ``limit_mm_s``: the train is no faster than this while the bounds hold.
     ``cycles``: for how many cycles the brake has been commanded, at most its response.
-    ``broken``: a bound was found broken; it stays so until the vehicle is inspected.
+    ``broken``: a bound was found broken, or may have been before a start; it stays so until the vehicle is inspected.
     """
 
     limit_mm_s: int
@@ -30,6 +30,16 @@ class BrakeWatch:
 def watching(speed_most_mm_s: int) -> BrakeWatch:
     """Begin to watch a train that is no faster than this (T12)."""
     return BrakeWatch(limit_mm_s=speed_most_mm_s, cycles=0, broken=False)
+
+
+def restarted() -> BrakeWatch:
+    """Begin with a train at rest: whether a bound was found broken is forgotten, so one counts as broken (T8, T12)."""
+    return replace(watching(0), broken=True)
+
+
+def inspected(watch: BrakeWatch, speed_most_mm_s: int) -> BrakeWatch:
+    """Take motors and brake for sound: they were inspected, with the brake on, and are watched from here on (T12)."""
+    return replace(watching(larger(0, speed_most_mm_s)), cycles=watch.cycles)
 
 
 def released(watch: BrakeWatch) -> BrakeWatch:

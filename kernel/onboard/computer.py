@@ -77,19 +77,19 @@ class Computer:
 
 
 def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: int) -> Computer:
-    """Begin with a train at rest, its brake on and found sound, and its front in a range (P5, P7, T8).
+    """Begin with a train at rest, its brake on, and its front in a range (P5, P7, T8).
 
     With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
     ``ceiling``: the lowest that it has promised to a crossing, in any of its lives, and was not let go from.
-    Whether it has split, whether its tail was false and whether an antenna has failed is forgotten.  So it counts as
-    split, with a false tail and failed antennas, until staff says otherwise: :func:`made_up`, :func:`mend_head` and
-    :func:`mend_tail`, once its brake is known to hold it (T3, T13).
+    Whether motors or brake broke a bound, whether it has split, whether its tail was false and whether an antenna has
+    failed is forgotten.  So all of that counts as found, until staff says otherwise: :func:`inspect_brake`,
+    :func:`made_up`, :func:`mend_head` and :func:`mend_tail`, once its brake is known to hold it (T3, T12, T13).
     """
     motion = odometry.located(least_mm, most_mm, 0)
     return Computer(
         known=Known(
             motion=motion,
-            watch=brake_watch.watching(0),
+            watch=brake_watch.restarted(),
             movement=LOCATED,
             limit=NO_TRACK_KNOWN,
             wholeness=split.restarted(limits.split),
@@ -390,6 +390,19 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
         spacing=antenna_spacing.preset(limits.antennas_mm),
         length=train_length.note_formation_changed(computer.length),
     )
+
+
+def inspect_brake(limits: Limits, computer: Computer) -> Computer:
+    """Take motors and brake for sound: staff has inspected them, and tried the brake (T12).
+
+    Who inspects them does so while the brake holds the train at rest; of any other nobody's word is taken, and what a
+    broken bound demands of the brake stays.  From here on they are watched anew.
+    """
+    if not is_held(standstill(limits, computer)):
+        return computer
+    known = computer.known
+    watch = brake_watch.inspected(known.watch, known.motion.speed_most_mm_s)
+    return replace(computer, known=replace(known, watch=watch))
 
 
 def mend_head(limits: Limits, computer: Computer) -> Computer:

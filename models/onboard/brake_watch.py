@@ -26,14 +26,16 @@ class Watched:
 
     ``speed_um_s``: how fast it is, below 0 backward.
     ``cycles``: how long its brake has been commanded, at most its response.
-    ``kept``: history: the train has kept to the bounds so far.
+    ``inspected``: history: staff has inspected motors and brake since the unit began.
+    ``kept``: history: the train has kept to the bounds since then, or since the unit began.
     ``allowed_mm_s``: history: from speeds that were measured the bounds allow no more than this, rounded up.
-    ``too_fast``: history: it was once certainly faster than the bounds allow.
+    ``too_fast``: history: since it was inspected it was once certainly faster than the bounds allow.
     ``watch``: what the watching machine knows.
     """
 
     speed_um_s: int
     cycles: int
+    inspected: bool
     kept: bool
     allowed_mm_s: int
     too_fast: bool
@@ -91,6 +93,7 @@ def run_a_cycle(
     return Watched(
         speed_um_s=speed_um_s,
         cycles=smaller(system.cycles + 1, site.bounds.response_cycles) if applied else 0,
+        inspected=system.inspected,
         kept=system.kept and keeps(site, system, applied, speed_um_s),
         allowed_mm_s=larger(0, smaller(allowed_mm_s, speed_most_mm_s)) if known else allowed_mm_s,
         too_fast=system.too_fast or (known and speed_least_mm_s > allowed_mm_s),
@@ -101,3 +104,29 @@ def run_a_cycle(
 def release(site: Vehicle, system: Watched) -> Watched:
     """The brake is released when a cycle begins, even if it is put on again before that ends (T12)."""
     return replace(system, cycles=0, watch=brake_watch.released(system.watch))
+
+
+def restart(site: Vehicle, system: Watched) -> Watched:
+    """The unit begins, or begins again, with a train at rest; nobody has inspected motors and brake since (T8, T12)."""
+    return replace(
+        system,
+        cycles=0,
+        inspected=False,
+        kept=system.speed_um_s <= 0,
+        allowed_mm_s=0,
+        watch=brake_watch.restarted(),
+    )
+
+
+def inspect(site: Vehicle, system: Watched, speed_least_mm_s: int, speed_most_mm_s: int) -> Watched:
+    """Staff inspects motors and brake of a train whose speed is known, and says that they are sound (T12)."""
+    if not the_range_contains_the_speed(site, system, True, speed_least_mm_s, speed_most_mm_s, system.speed_um_s):
+        return system
+    return replace(
+        system,
+        inspected=True,
+        kept=True,
+        allowed_mm_s=larger(0, speed_most_mm_s),
+        too_fast=False,
+        watch=brake_watch.inspected(system.watch, speed_most_mm_s),
+    )

@@ -287,7 +287,7 @@ def _fixed(site: Train, system: Whole, told: Computer, least_mm: int, most_mm: i
 
 
 def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
-    """At rest the computer begins, or begins again: its brake is inspected, and somebody says where it is (P7, T8)."""
+    """At rest the computer begins, or begins again, and somebody says where it is; nothing is inspected (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     if not a_train_whose_computer_is_off_is_held(site, system):
@@ -298,7 +298,7 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
     there = antenna_spacing.turn(track(site), system.trailing, system.front_nm)
     started = replace(
         system,
-        watched=replace(system.watched, kept=True, too_fast=False),
+        watched=replace(brake_watch.restart(watched_over(site), watched(system)), cycles=system.watched.cycles),
         trailing=antenna_spacing.restart(track(site), there),
         formation=train_length.restart(railway(site), formation(system)),
         head=antenna_above.restart(receiver(site), system.head),
@@ -334,6 +334,18 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
             site, speed_limit.locate_anew(profile(site), passage(system, system.front_nm)), system.computer
         ),
     )
+
+
+def inspect_the_brake(site: Train, system: Whole) -> Whole:
+    """The staff finds motors and brake sound; of a train that is not held its word is not taken (T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    told = replace(system, computer=computer.inspect_brake(site.limits, system.computer))
+    at = computer.standstill(site.limits, system.computer)
+    if not is_held(at):
+        return told
+    sound = brake_watch.inspect(watched_over(site), watched(system), at.speed_least_mm_s, at.speed_most_mm_s)
+    return replace(told, watched=sound)
 
 
 def find_whole(site: Train, system: Whole) -> Whole:

@@ -55,7 +55,8 @@ way_error_mm, Readings = MADE.odometry.way_error_mm, MADE.odometry.Readings
 is_intact, Acceleration, Telegram = MADE.split.is_intact, MADE.split.Acceleration, MADE.split.Readings
 note_head_frame, note_tail_frame = MADE.computer.note_head_frame, MADE.computer.note_tail_frame
 mend_head, mend_tail, delivers = MADE.computer.mend_head, MADE.computer.mend_tail, MADE.tag_reader.delivers
-made_up, Known, BrakeWatch = MADE.computer.made_up, MADE.brake_demand.Known, MADE.brake_watch.BrakeWatch
+made_up, inspect_brake = MADE.computer.made_up, MADE.computer.inspect_brake
+Known, BrakeWatch = MADE.brake_demand.Known, MADE.brake_watch.BrakeWatch
 Frame, NO_FRAME, LEVEL = MADE.tag_reader.Frame, MADE.tag_reader.NO_FRAME, MADE.tag_reader.Level(GOOD_LEVEL_MV, True)
 is_healthy, contradicts_itself = MADE.antenna_spacing.is_healthy, MADE.train_length.contradicts_itself
 length_mm, contradicts_the_line = MADE.train_length.length_mm, MADE.train_length.contradicts_the_line
@@ -303,10 +304,12 @@ def with_watch(computer: Any, watch: Any) -> Any:
 
 @compiled
 def inspected(computer: Any) -> Any:
-    """Staff has found train and antennas sound; its brake held it for longer than is counted yet (P5, T13)."""
+    """Staff has found train, brake and antennas sound; it was held for longer than is counted yet (P5, T12, T13)."""
     watch = computer.known.watch
     held = with_watch(computer, BrakeWatch(watch.limit_mm_s, BRAKE.response_cycles, watch.broken))
-    return with_watch(made_up(LIMITS, mend_tail(LIMITS, mend_head(LIMITS, held))), watch)
+    told = inspect_brake(LIMITS, made_up(LIMITS, mend_tail(LIMITS, mend_head(LIMITS, held))))
+    sound = told.known.watch
+    return with_watch(told, BrakeWatch(sound.limit_mm_s, watch.cycles, sound.broken))
 
 
 @compiled

@@ -231,8 +231,9 @@ def on_board(length_mm: int, front_mm: int, cycling: Cycling = Interpreted) -> O
 
 
 def _inspected(limits: Limits, begun: Computer) -> Computer:
-    """Staff has found train and antennas sound; its brake held it for longer than is counted yet (P5, T13)."""
-    known = begun.known
-    held = replace(begun, known=replace(known, watch=replace(known.watch, cycles=limits.train.brake.response_cycles)))
+    """Staff has found train, brake and antennas sound; it was held for longer than is counted yet (P5, T12, T13)."""
+    watch = begun.known.watch
+    held = replace(begun, known=replace(begun.known, watch=replace(watch, cycles=limits.train.brake.response_cycles)))
     told = computing.made_up(limits, computing.mend_tail(limits, computing.mend_head(limits, held)))
-    return replace(told, known=replace(told.known, watch=known.watch))
+    sound = computing.inspect_brake(limits, told).known
+    return replace(told, known=replace(sound, watch=replace(sound.watch, cycles=watch.cycles)))

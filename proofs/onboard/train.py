@@ -21,6 +21,7 @@ from models.onboard.joint import (
 from models.onboard.train import (
     come_apart,
     find_whole,
+    inspect_the_brake,
     keep_to,
     locate_anew,
     note_place,
@@ -120,9 +121,10 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.watched.allowed_mm_s == 0
         and system.watched.watch.limit_mm_s == 0
         and 0 <= system.watched.watch.cycles <= system.watched.cycles
-        and not system.watched.watch.broken
+        and system.watched.watch.broken
         and not system.watched.too_fast
         and system.watched.kept
+        and not system.watched.inspected
         and tag_window.no_tag_is_awaited(stretch(site), system.expecting)
         and system.computer.known.window == system.expecting.window
         and system.computer.known.motion == system.running.motion
@@ -216,8 +218,8 @@ def no_fix_contradicts(site: Train, system: Whole) -> bool:
 
 
 def a_sound_brake_is_not_accused(site: Train, system: Whole) -> bool:
-    """What the computer calls a broken bound of motors or brake was one (T12)."""
-    return not system.computer.known.watch.broken or not system.watched.kept
+    """What the computer calls a broken bound of motors or brake was one, once they were inspected (T12)."""
+    return not system.computer.known.watch.broken or not system.watched.kept or not system.watched.inspected
 
 
 def a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused(site: Train, system: Whole) -> bool:
@@ -359,6 +361,7 @@ SAFETY = (
     the_head_runs_no_farther_than_its_brake_lets_it,
     no_fix_contradicts,
     a_sound_brake_is_not_accused,
+    train_parts.no_brake_counts_as_sound_before_it_was_inspected,
     a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused,
     a_missing_tag_is_noticed_within_a_bounded_way,
     a_tag_in_its_place_is_never_refused,
@@ -467,6 +470,7 @@ STEPS = (
     train_tags.await_none,
     train_tags.note_listed,
     find_whole,
+    inspect_the_brake,
 )
 
 THEORY = Theory(

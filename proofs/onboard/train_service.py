@@ -35,8 +35,9 @@ def a_train_that_may_run_comes_to_its_end(site: Train, system: Whole, end_mm: in
     """A train that was given an end runs on until its brake stops it for that, and for nothing without a name (T12).
 
     It may be on before since the orders do not let it proceed, since it has split, rolled back too far, lost its
-    position or passed a tag unread, since motors or brake have broken a bound, or since it may be too fast for the
-    track that it is on, for what is listed ahead, or for what it has promised.
+    position or passed a tag unread, since motors or brake have broken a bound, or nobody has inspected them since its
+    computer began, or since it may be too fast for the track that it is on, for what is listed ahead, or for what it
+    has promised.
     """
     return system.computer.brake.applied and (is_near(site, system, end_mm) or has_a_cause(site, system))
 
@@ -52,6 +53,7 @@ def has_a_cause(site: Train, system: Whole) -> bool:
     known = system.computer.known
     return (
         known.motion.loss != Loss.NONE
+        or not system.watched.inspected
         or not system.watched.kept
         or known.movement.reversed
         or known.wholeness.split

@@ -18,7 +18,7 @@ is assumed of them:
 
 - a lost position: none, while each cycle is as long as it may be, and each fix has a place in common with the range
   (`train.no_fix_contradicts`)
-- a broken bound of motors or brake: none, while both keep what is written of them
+- a broken bound of motors or brake: none, once they were inspected, while both keep what is written of them
   (`train.a_sound_brake_is_not_accused`)
 - an overdue tag: none, while the head reads each tag where it is listed, and the range is no wider than is written
   (`train.no_tag_still_ahead_is_called_missing`)

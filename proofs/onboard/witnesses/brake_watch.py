@@ -19,8 +19,10 @@ class Train(Play[Vehicle, Watched]):
     """A train at 20 m/s, and how its watch sees it."""
 
     def __init__(self, mm_s: int = 20_000) -> None:
-        """Begin, the speed known to a millimetre per second."""
-        super().__init__(THEORY, SITE, Watched(1_000 * mm_s, 0, True, mm_s, False, machine.watching(mm_s)))
+        """Begin at rest, and be inspected at a speed that is known to a millimetre per second."""
+        super().__init__(THEORY, SITE, Watched(0, 0, False, True, 0, False, machine.restarted()))
+        self.cycle(1_000 * mm_s, applied=False)
+        self.inspect(mm_s)
 
     def cycle(self, um_s: int, *, applied: bool, off_mm_s: int = 0, known: bool = True) -> None:
         """A cycle, and the speed after it; what odometry gives is rounded and ``off_mm_s`` wide on both sides."""
@@ -38,6 +40,22 @@ class Train(Play[Vehicle, Watched]):
         """The brake is commanded, and has responded after this."""
         for _ in range(3):
             self.cycle(self.system.speed_um_s, applied=True)
+
+    def inspect(self, mm_s: int) -> None:
+        """Staff inspects it at this speed."""
+        self.step("inspect", speed_least_mm_s=mm_s, speed_most_mm_s=mm_s)
+
+    def was_inspected(self) -> bool:
+        """Whether it was since its unit began."""
+        return self.system.inspected
+
+    def has_kept(self) -> bool:
+        """Whether it has kept to its bounds."""
+        return self.system.kept
+
+    def was_too_fast(self) -> bool:
+        """Whether it was certainly too fast once."""
+        return self.system.too_fast
 
     def is_accused(self) -> bool:
         """Whether the watch has found a bound broken."""
@@ -166,7 +184,7 @@ def a_train_that_rolls_back_is_not_accused_of_its_brakes() -> None:
 
 
 def an_accusation_stays() -> None:
-    """However well it brakes then: until the vehicle is inspected (T12)."""
+    """However well it brakes then, and though the unit is switched off and on: until it is inspected (T8, T12)."""
     train = Train()
     train.cycle(20_200_000, applied=False)
     assert train.is_accused()
@@ -174,7 +192,43 @@ def an_accusation_stays() -> None:
     train.respond()
     train.cycle(18_000_000, applied=True)
     assert train.is_accused()
-    assert not train.system.kept
+    assert not train.has_kept()
+    train.step("restart")
+    assert train.is_accused()
+    assert train.was_too_fast()
+    train.inspect(18_000)
+    assert not train.is_accused()
+    assert train.has_kept()
+    assert not train.was_too_fast()
+
+
+def a_unit_that_begins_waits_for_an_inspection() -> None:
+    """At rest; whoever begins to watch a train that runs says nothing of it (T8, T12)."""
+    train = Train(0)
+    train.respond()
+    train.step("restart")
+    assert train.is_accused()
+    assert train.has_kept()
+    assert not train.was_inspected()
+    assert train.system.watch.cycles == train.system.cycles == 0
+    train.respond()
+    train.step("inspect", speed_least_mm_s=0, speed_most_mm_s=10)
+    assert train.was_inspected()
+    assert train.limit_mm_s() == 10
+    assert train.system.watch.cycles == train.system.cycles == 3
+    train = Train(100)
+    train.step("restart")
+    assert not train.has_kept()
+
+
+def whoever_is_inspected_is_watched_from_there() -> None:
+    """By the speed that is known then, and by none below 0 (T12)."""
+    train = Train(0)
+    train.cycle(-500_000, applied=True)
+    before = train.system
+    assert train.step("inspect", speed_least_mm_s=-600, speed_most_mm_s=-501) == before
+    train.inspect(-500)
+    assert train.limit_mm_s() == train.system.allowed_mm_s == 0
 
 
 def a_train_certainly_too_fast_is_noted() -> None:
@@ -236,6 +290,8 @@ WITNESSES = (
     a_train_that_rolls_back_is_not_accused_of_its_brakes,
     a_brake_that_was_released_is_waited_for_anew,
     an_accusation_stays,
+    a_unit_that_begins_waits_for_an_inspection,
+    whoever_is_inspected_is_watched_from_there,
     a_train_certainly_too_fast_is_noted,
     the_limit_is_never_above_what_is_measured,
     a_train_outside_its_range_is_not_looked_at,

@@ -44,14 +44,19 @@ def has_split(ride: Ride) -> bool:
     return ride.system.computer.known.wholeness.split
 
 
+def counts_as_broken(ride: Ride) -> bool:
+    """Tell whether its computer takes a bound of motors or brake for broken."""
+    return ride.system.computer.known.watch.broken
+
+
 def is_braked(ride: Ride) -> bool:
     """Tell whether its brake is on."""
     return ride.system.computer.brake.applied
 
 
 def said(ride: Ride, *, is_taken: bool) -> None:
-    """Somebody says that the train is whole, and that both antennas are sound."""
-    for word in ("find_whole", "mend_the_heads_antenna", "mend_the_tails_antenna"):
+    """Somebody says that the train is whole, and that motors and brake and both antennas are sound."""
+    for word in ("find_whole", "inspect_the_brake", "mend_the_heads_antenna", "mend_the_tails_antenna"):
         before = ride.system
         ride.step(word)
         assert (ride.system != before) is is_taken
@@ -75,6 +80,7 @@ def a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on() -> None:
         ride.cycle(0, acknowledged=True)
     assert has_split(ride)
     assert is_braked(ride)
+    ride.step("inspect_the_brake")
     ride.step("find_whole")
     assert not has_split(ride)
     assert ride.system.computer.spacing == antenna_spacing.preset(LIMITS.antennas_mm)
@@ -86,7 +92,32 @@ def a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on() -> None:
     assert computer.through_line(LIMITS, ride.system.computer, True).is_intact
 
 
+def a_broken_bound_is_not_forgotten_when_the_computer_is_switched_off_and_on() -> None:
+    """Its brake stays on, whatever the orders let it do, until staff has inspected motors and brake (T8, T12)."""
+    ride = Ride()
+    ride.start()
+    ride.gather(2_000)
+    ride.step("withhold_end")
+    ride.stop()
+    ride.stand_until_held()
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.step("put_into_service", least_mm=front_mm - 1_000, most_mm=front_mm + 1_000)
+    ride.stand_until_held()
+    for word in ("find_whole", "mend_the_heads_antenna", "mend_the_tails_antenna"):
+        ride.step(word)
+    ride.step("take_end", end_mm=END_MM)
+    for _ in range(2 * split.SAMPLES):
+        ride.cycle(0, acknowledged=True)
+    assert counts_as_broken(ride)
+    assert is_braked(ride)
+    ride.step("inspect_the_brake")
+    assert not counts_as_broken(ride)
+    ride.cycle(0, acknowledged=True)
+    assert not is_braked(ride)
+
+
 WITNESSES = (
     a_train_that_is_not_held_is_not_found_whole,
     a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on,
+    a_broken_bound_is_not_forgotten_when_the_computer_is_switched_off_and_on,
 )

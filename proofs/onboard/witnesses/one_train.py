@@ -116,7 +116,7 @@ def at_rest() -> Whole:
             NO_CEILING,
             KEEPING_AT_REST,
         ),
-        watched=Watched(0, BRAKE.response_cycles, True, 0, False, watch),
+        watched=Watched(0, BRAKE.response_cycles, False, True, 0, False, watch),
         expecting=NOTHING_AWAITED,
         trailing=replace(JUST_STARTED, front_nm=front_nm, apart_nm=LIMITS.antennas_mm * NM_A_MM),
         passing=Passage(
@@ -140,6 +140,7 @@ class Ride(Play[Train, Whole]):
     def __init__(self) -> None:
         """Begin at rest."""
         super().__init__(THEORY, SITE, at_rest())
+        self.step("inspect_the_brake")
         self.step("find_whole")
         self.step("mend_the_heads_antenna")
         self.step("mend_the_tails_antenna")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard import braking, computer, odometry, split, tag_reader
+from kernel.onboard import brake_watch, braking, computer, odometry, split, tag_reader
 from kernel.onboard.odometry import Loss, Readings
 from kernel.onboard.reverse_movement import LOCATED, Movement
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
@@ -380,7 +380,7 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     ride.stop()
     front_mm = ride.system.front_nm // NM_A_MM
     least_mm, most_mm = front_mm - 2_000, front_mm + 2_000
-    ride.system = replace(ride.system, watched=replace(ride.system.watched, kept=False, too_fast=True))
+    ride.system = replace(ride.system, watched=replace(ride.system.watched, kept=False))
     ride.step("put_into_service", least_mm=front_mm + 1, most_mm=most_mm)
     assert not ride.system.watched.kept
     ride.step("put_into_service", least_mm=least_mm, most_mm=most_mm)
@@ -388,7 +388,7 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     begun = ride.system.computer
     assert begun.known.motion == odometry.located(least_mm, most_mm, 0)
     assert begun.before == odometry.past(begun.known.motion)
-    assert (begun.known.watch.limit_mm_s, begun.known.watch.cycles, begun.known.watch.broken) == (0, 0, False)
+    assert begun.known.watch == brake_watch.restarted()
     assert begun.known.movement == LOCATED
     assert begun.known.wholeness == split.restarted(LIMITS.split)
     assert begun.known.window == NONE_AWAITED

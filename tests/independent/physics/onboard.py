@@ -186,7 +186,7 @@ class Host:
         counted_cycles = self.computer.known.watch.cycles
         self._count_brake(self.limits.train.brake.response_cycles)
         mended = computer.mend_tail(self.limits, computer.mend_head(self.limits, self.computer))
-        self.computer = computer.made_up(self.limits, mended)
+        self.computer = computer.inspect_brake(self.limits, computer.made_up(self.limits, mended))
         self._count_brake(counted_cycles)
 
     def _count_brake(self, cycles: int) -> None:
