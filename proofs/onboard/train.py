@@ -121,10 +121,8 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.watched.allowed_mm_s == 0
         and system.watched.watch.limit_mm_s == 0
         and 0 <= system.watched.watch.cycles <= system.watched.cycles
-        and system.watched.watch.broken
         and not system.watched.too_fast
         and system.watched.kept
-        and not system.watched.inspected
         and tag_window.no_tag_is_awaited(stretch(site), system.expecting)
         and system.computer.known.window == system.expecting.window
         and system.computer.known.motion == system.running.motion
@@ -140,6 +138,11 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.computer.known.ceiling == system.approach.ceiling
         and train_parts.no_list_has_more_where_the_front_may_be(site, system)
     )
+
+
+def nobody_has_inspected_its_brake(site: Train, system: Whole) -> bool:
+    """Nor its motors: whether they had broken a bound is not known (T8, T12)."""
+    return system.watched.watch.broken and not system.watched.inspected
 
 
 def the_antennas_are_not_preset_yet(site: Train, system: Whole) -> bool:
@@ -347,6 +350,7 @@ def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
 
 INITIAL = (
     the_train_stands_held_by_its_brake,
+    nobody_has_inspected_its_brake,
     the_antennas_are_not_preset_yet,
     train_parts.nothing_is_measured,
     *train_antennas.INITIAL,
