@@ -32,7 +32,8 @@ class ThroughLine:
     """What the unit knows of the way to its tail, from the machines that watch it (引通し線; T3, T13, P5).
 
     ``answers``: the tail's signal comes back over the line.
-    ``is_intact``: split detection has seen no part of the train move unlike the other (`kernel.onboard.split`).
+    ``is_intact``: split detection has seen no part of the train move unlike the other (`kernel.onboard.split`), its
+    tail was not found a false one, and it was not measured as another than is written.
     ``fits``: head and tail antenna read the same tags as far apart as the train is long
     (`kernel.onboard.antenna_spacing`).
     """
@@ -45,6 +46,11 @@ class ThroughLine:
 def stands(at: Standstill) -> bool:
     """Tell whether the train certainly stands (P7)."""
     return at.known and -at.standstill_mm_s <= at.speed_least_mm_s and at.speed_most_mm_s <= at.standstill_mm_s
+
+
+def moves(at: Standstill) -> bool:
+    """Tell whether the train certainly moves, forward or back (P7)."""
+    return at.known and (at.speed_least_mm_s > at.standstill_mm_s or at.speed_most_mm_s < -at.standstill_mm_s)
 
 
 def is_braked(at: Standstill) -> bool:

@@ -31,7 +31,7 @@ from kernel.onboard import (
 )
 from kernel.onboard import ceiling as ceilings
 from kernel.onboard.antenna_spacing import Spacing
-from kernel.onboard.arithmetic import larger
+from kernel.onboard.arithmetic import larger, smaller
 from kernel.onboard.brake_demand import Known
 from kernel.onboard.braking import Brake
 from kernel.onboard.ceiling import Ceiling
@@ -46,7 +46,7 @@ from kernel.onboard.tag_reader import Frame, Level, Reader
 from kernel.onboard.tag_window import NONE_AWAITED
 from kernel.onboard.train_length import UNMEASURED, Length, Passing, PointKind
 from kernel.onboard.way import Way
-from kernel.standstill import Standstill, ThroughLine, is_braked, is_held
+from kernel.standstill import Standstill, ThroughLine, is_braked, is_held, moves
 
 BY_HEAD_MS, BY_TAIL_MS = 0, 1
 """One unit takes the reads of both antennas, each as it comes: the tail's of a tag is later than any that the head had
@@ -77,7 +77,7 @@ class Computer:
 
 
 def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: int) -> Computer:
-    """Begin with a train at rest, its brake on, and its front in a range (P5, P7, T8).
+    """Begin with a train at rest, its brake on, and its front between two places, in any order (P5, P7, T8).
 
     With lawful limits alone (:func:`kernel.onboard.limits.are_lawful`).
     ``ceiling``: the lowest that it has promised to a crossing, in any of its lives, and was not let go from.
@@ -85,7 +85,7 @@ def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: i
     failed is forgotten.  So all of that counts as found, until staff says otherwise: :func:`inspect_brake`,
     :func:`made_up`, :func:`mend_head` and :func:`mend_tail`, once its brake is known to hold it (T3, T12, T13).
     """
-    motion = odometry.located(least_mm, most_mm, 0)
+    motion = odometry.located(smaller(least_mm, most_mm), larger(least_mm, most_mm), 0)
     return Computer(
         known=Known(
             motion=motion,
@@ -101,7 +101,7 @@ def put_into_service(limits: Limits, ceiling: Ceiling, least_mm: int, most_mm: i
         from_mm=0,
         spacing=antenna_spacing.restarted(),
         length=UNMEASURED,
-        brake=braking.stand_still(most_mm),
+        brake=braking.stand_still(motion.front_most_mm),
         head=tag_reader.restarted(),
         tail=tag_reader.restarted(),
     )
@@ -114,7 +114,13 @@ def place(computer: Computer) -> Way:
 
 
 def standstill(limits: Limits, computer: Computer) -> Standstill:
-    """Give what is known of front, speed and brake (P7, T12)."""
+    """Give what is told of front, speed and brake; one found weak, or that let it roll back, holds nobody (T8, T12)."""
+    at, known = at_rest(limits, computer), computer.known
+    return replace(at, braked_cycles=0) if known.watch.broken or known.movement.reversed else at
+
+
+def at_rest(limits: Limits, computer: Computer) -> Standstill:
+    """Give what is known of front, speed and brake to whoever says something of the train at rest (P7, T8, T12)."""
     motion, bounds = computer.known.motion, limits.train.brake
     return Standstill(
         known=odometry.is_located(motion),
@@ -217,8 +223,10 @@ def await_tag(limits: Limits, computer: Computer, place_mm: int, kind: int) -> C
     """Await the tag that is listed at this place as the next; the way to it is counted from behind the train (T5).
 
     ``kind``: as listed; where the list does not say it, the worst (``tag_kind.UNKNOWN``).  What is listed beyond it
-    is told anew (:func:`note_listed`).
+    is told anew (:func:`note_listed`).  While one is overdue nobody knows the track, and the train is located first.
     """
+    if computer.known.window.passed:
+        return computer
     begun = replace(computer, from_mm=computer.known.motion.front_least_mm - limits.window.tolerance_mm)
     away_mm = way_to_tag_mm(limits, begun, place_mm)
     window = tag_window.await_tag(away_mm, away_mm)
@@ -242,7 +250,9 @@ def read_from_mm(limits: Limits, place_mm: int) -> int:
 
 
 def await_none(computer: Computer) -> Computer:
-    """Await no tag: no order says which comes next, and no list what lies ahead (T5, T12)."""
+    """Await no tag, unless one is overdue: no order says which is next, and no list what lies ahead (T5, T12)."""
+    if computer.known.window.passed:
+        return computer
     return note_entered(replace(computer, known=replace(computer.known, window=NONE_AWAITED, ahead=NONE_LISTED)))
 
 
@@ -348,10 +358,13 @@ def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLi
     The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).  Nor
     does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.  Nor
     that of a train which was measured as another than is written: it is not the train that was found whole (P4).
+    Nor is a train whole of which that was found, or a false tail: a part of it may stand elsewhere (P5).
     """
     return ThroughLine(
         answers=answers,
-        is_intact=split.is_intact(limits.split, computer.known.wholeness),
+        is_intact=split.is_intact(limits.split, computer.known.wholeness)
+        and not computer.spacing.broken
+        and is_as_long_as_written(limits, computer),
         fits=antenna_spacing.is_healthy(computer.spacing)
         and not computer.known.movement.reversed
         and finds_a_missed_tag(limits, computer)
@@ -378,11 +391,10 @@ def is_as_long_as_written(limits: Limits, computer: Computer) -> bool:
 def made_up(limits: Limits, computer: Computer) -> Computer:
     """Take the train for whole, and its antennas for as far apart as is written: its staff has found it so (P5, T3).
 
-    Who inspects a train walks along it while its brake holds it at rest; of any other nobody's word is taken, and what
-    a split demands of its brake stays.  One that has lost its position is located first.
-    An antenna that has failed is none that reads again: that is said of each by itself.
+    Who inspects a train walks along it while its brake holds it; of any other nobody's word is taken.  One that has
+    lost its position is located first.  Of each antenna it is said by itself that it reads.
     """
-    if not is_held(standstill(limits, computer)):
+    if not is_held(at_rest(limits, computer)):
         return computer
     return replace(
         computer,
@@ -393,16 +405,11 @@ def made_up(limits: Limits, computer: Computer) -> Computer:
 
 
 def inspect_brake(limits: Limits, computer: Computer) -> Computer:
-    """Take motors and brake for sound: staff has inspected them, and tried the brake (T12).
-
-    Who inspects them does so while the brake holds the train at rest; of any other nobody's word is taken, and what a
-    broken bound demands of the brake stays.  From here on they are watched anew.
-    """
-    if not is_held(standstill(limits, computer)):
+    """Take motors and brake of a held train for sound, and watch them anew: staff has tried them (T12)."""
+    if not is_held(at_rest(limits, computer)):
         return computer
-    known = computer.known
-    watch = brake_watch.inspected(known.watch, known.motion.speed_most_mm_s)
-    return replace(computer, known=replace(known, watch=watch))
+    watch = brake_watch.inspected(computer.known.watch, computer.known.motion.speed_most_mm_s)
+    return replace(computer, known=replace(computer.known, watch=watch))
 
 
 def mend_head(limits: Limits, computer: Computer) -> Computer:
@@ -410,14 +417,14 @@ def mend_head(limits: Limits, computer: Computer) -> Computer:
 
     Who tries an antenna is below the train, while its brake holds it at rest; of any other nobody's word is taken.
     """
-    if not is_held(standstill(limits, computer)):
+    if not is_held(at_rest(limits, computer)):
         return computer
     return replace(computer, head=tag_reader.mended())
 
 
 def mend_tail(limits: Limits, computer: Computer) -> Computer:
     """Take the tail's antenna for sound, as the head's: of a train that its brake holds at rest (T13)."""
-    if not is_held(standstill(limits, computer)):
+    if not is_held(at_rest(limits, computer)):
         return computer
     return replace(computer, tail=tag_reader.mended())
 
@@ -425,19 +432,18 @@ def mend_tail(limits: Limits, computer: Computer) -> Computer:
 def note_place(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
     """Narrow the range by what a person says who sees the train stand: from where to where its front may be (P7, T8).
 
-    He may say no more than on which side of a boundary it is.  The wheel stays trusted, as it would not if the train
-    were located anew.  One that is not held at rest may be elsewhere by the time he has said it.
+    He may say on which side of a boundary it is, and name either place first.  The wheel stays trusted, as it would not
+    if it were located anew.  One that is not held may be elsewhere by the time he has said it.
     """
-    if not is_held(standstill(limits, computer)):
+    if not is_held(at_rest(limits, computer)):
         return computer
-    return note_fix(computer, least_mm, most_mm)
+    return note_fix(computer, smaller(least_mm, most_mm), larger(least_mm, most_mm))
 
 
 def keep_to(limits: Limits, computer: Computer, ceiling: Ceiling) -> Computer:
     """Keep to a ceiling of speed, if that can still be done; then, and no sooner, may it be promised (X2, T12, ours).
 
-    A higher one may always be taken, once the crossing has let the train go faster.  One that has lost its position
-    does not know its speed, and takes no lower one.
+    A higher one may always be taken, once the crossing has let it.  Who has lost its position takes no lower one.
     """
     known = computer.known
     if ceiling.most_mm_s < known.ceiling.most_mm_s and not odometry.is_located(known.motion):
@@ -457,19 +463,21 @@ def is_braked_to_rest(limits: Limits, computer: Computer) -> bool:
     Until then nobody's word that it stands releases the brake: a train that has lost its position may still run fast.
     """
     is_slow = computer.known.watch.limit_mm_s <= limits.train.brake.standstill_mm_s
-    return is_slow and is_braked(standstill(limits, computer))
+    return is_slow and is_braked(at_rest(limits, computer))
 
 
 def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> Computer:
-    """Begin anew at rest with the front in a range; not before the brake has brought the train to rest (P7, T8).
+    """Begin anew at rest with the front between two places; not before the brake has brought it to rest (P7, T8).
 
+    Nor while it is known to move: a weak brake does not stop it in the time that is reckoned with.
     What was found of motors, brake, wholeness, antennas and length stays, and so does the ceiling.  Restrictions lay on
     the kilometrage of before: until the next tag all of them hold.  If ends were changed, either antenna may be the
     head's now: one that has failed makes both count as failed.
     """
-    if not is_braked_to_rest(limits, computer):
+    if not is_braked_to_rest(limits, computer) or moves(at_rest(limits, computer)):
         return computer
-    motion, watch = odometry.located(least_mm, most_mm, computer.known.motion.way_mm), computer.known.watch
+    way_mm, watch = computer.known.motion.way_mm, computer.known.watch
+    motion = odometry.located(smaller(least_mm, most_mm), larger(least_mm, most_mm), way_mm)
     return Computer(
         known=replace(
             computer.known,
@@ -484,7 +492,7 @@ def locate(limits: Limits, computer: Computer, least_mm: int, most_mm: int) -> C
         from_mm=0,
         spacing=antenna_spacing.turned(computer.spacing),
         length=train_length.note_kilometrage_changed(computer.length),
-        brake=braking.stand_still(most_mm),
+        brake=braking.stand_still(motion.front_most_mm),
         head=tag_reader.turned(computer.head, computer.tail),
         tail=tag_reader.turned(computer.tail, computer.head),
     )

@@ -13,7 +13,7 @@ from kernel.onboard.ceiling import Ceiling
 from kernel.onboard.computer import Computer
 from kernel.onboard.odometry import Readings, is_located, rear_least_mm
 from kernel.onboard.split import Readings as TailReadings
-from kernel.standstill import is_held
+from kernel.standstill import is_held, moves
 from models.onboard import (
     antenna_above,
     antenna_spacing,
@@ -69,6 +69,7 @@ from models.onboard.train_nature import (
     who_says_where_a_held_train_is_sees_it_stand,
 )
 from models.onboard.train_tags import come_to_listed
+from models.onboard.units import larger, smaller
 
 
 def run_a_cycle(
@@ -241,10 +242,14 @@ def withhold_end(site: Train, system: Whole) -> Whole:
 
 
 def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
-    """Somebody says where the front of a train at rest is, or too soon, and the computer begins anew (P7, T8)."""
+    """Somebody says where the front of a train at rest is, or too soon, and the computer begins anew (P7, T8).
+
+    Of a train whose computer knows that it moves anything may be said.
+    """
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
-    if not who_locates_a_train_sees_it_stand(site, system, least_mm, most_mm):
+    is_known_to_move = moves(computer.at_rest(site.limits, system.computer))
+    if not is_known_to_move and not who_locates_a_train_sees_it_stand(site, system, least_mm, most_mm):
         return system
     located = computer.locate(site.limits, system.computer, least_mm, most_mm)
     if located == system.computer:
@@ -258,7 +263,7 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
         tail=antenna_above.turn(receiver(site), system.tail, system.head),
         computer=located,
     )
-    return _at_rest(site, anew, least_mm, most_mm)
+    return _at_rest(site, anew, smaller(least_mm, most_mm), larger(least_mm, most_mm))
 
 
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -268,7 +273,9 @@ def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole
     if not who_says_where_a_held_train_is_sees_it_stand(site, system, least_mm, most_mm):
         return system
     said = computer.note_place(site.limits, system.computer, least_mm, most_mm)
-    return system if said == system.computer else _fixed(site, system, said, least_mm, most_mm)
+    if said == system.computer:
+        return system
+    return _fixed(site, system, said, smaller(least_mm, most_mm), larger(least_mm, most_mm))
 
 
 def recognise_a_feature(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -305,7 +312,7 @@ def put_into_service(site: Train, system: Whole, least_mm: int, most_mm: int) ->
         tail=antenna_above.restart(receiver(site), system.tail),
         computer=begun,
     )
-    return _at_rest(site, started, least_mm, most_mm)
+    return _at_rest(site, started, smaller(least_mm, most_mm), larger(least_mm, most_mm))
 
 
 def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
@@ -341,7 +348,7 @@ def inspect_the_brake(site: Train, system: Whole) -> Whole:
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     told = replace(system, computer=computer.inspect_brake(site.limits, system.computer))
-    at = computer.standstill(site.limits, system.computer)
+    at = computer.at_rest(site.limits, system.computer)
     if not is_held(at):
         return told
     sound = brake_watch.inspect(watched_over(site), watched(system), at.speed_least_mm_s, at.speed_most_mm_s)
@@ -355,7 +362,7 @@ def find_whole(site: Train, system: Whole) -> Whole:
     if not who_finds_a_held_train_whole_finds_its_antennas_as_preset(site, system):
         return system
     told = replace(system, computer=computer.made_up(site.limits, system.computer))
-    if not is_held(computer.standstill(site.limits, system.computer)):
+    if not is_held(computer.at_rest(site.limits, system.computer)):
         return told
     return replace(told, trailing=_preset(site, system), formation=_made_up(site, system))
 

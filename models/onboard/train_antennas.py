@@ -102,6 +102,6 @@ def mend_the_tails_antenna(site: Train, system: Whole) -> Whole:
 
 def _mended(site: Train, system: Whole, above: Above) -> Above:
     """What staff says of an antenna is so if the train is known to be held at rest; else nobody has tried it (T13)."""
-    if not is_held(computer.standstill(site.limits, system.computer)):
+    if not is_held(computer.at_rest(site.limits, system.computer)):
         return above
     return antenna_above.mend(receiver(site), above)

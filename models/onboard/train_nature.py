@@ -33,7 +33,7 @@ from models.onboard.speed_limit import Passage, Profile
 from models.onboard.tag_fix import Antenna
 from models.onboard.tag_window import Expecting, Stretch
 from models.onboard.train_length import Formation, Railway
-from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM
+from models.onboard.units import LONGEST_MS, NM_A_MM, UM_A_MM, larger, smaller
 
 
 @dataclass(frozen=True)
@@ -438,8 +438,9 @@ def a_recognised_feature_is_where_it_is_registered(system: Whole, least_mm: int,
 
 
 def the_train_stands_where_it_is_said_to(system: Whole, least_mm: int, most_mm: int) -> bool:
-    """Who locates a train anew sees it stand, and its front within what he says (P7, T8)."""
-    return odometry.the_train_stands_where_it_is_said_to(before(system), least_mm, most_mm)
+    """Who locates a train anew sees it stand, and its front between the places that he names, in any order (P7, T8)."""
+    from_mm, to_mm = smaller(least_mm, most_mm), larger(least_mm, most_mm)
+    return odometry.the_train_stands_where_it_is_said_to(before(system), from_mm, to_mm)
 
 
 def who_locates_a_train_sees_it_stand(site: Train, system: Whole, least_mm: int, most_mm: int) -> bool:

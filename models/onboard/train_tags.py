@@ -201,6 +201,8 @@ def await_tag(
     if not a_kind_hides_no_restriction(in_curve, at_turnout, kind):
         return system
     told = computer.await_tag(site.limits, system.computer, place_mm, kind)
+    if system.computer.known.window.passed:
+        return replace(system, computer=told)
     window = told.known.window
     awaiting = replace(system, awaited_mm=place_mm, computer=told)
     return replace(
@@ -248,6 +250,8 @@ def await_none(site: Train, system: Whole) -> Whole:
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     told = computer.await_none(system.computer)
+    if system.computer.known.window.passed:
+        return replace(system, computer=told)
     return replace(
         system,
         expecting=tag_window.expect_none(stretch(site), system.expecting),

@@ -121,8 +121,13 @@ class OnBoard:
 
     @property
     def standstill(self) -> Standstill:
-        """What the odometry says of front and speed (P7)."""
+        """What is told of front, speed and brake (P7)."""
         return computing.standstill(self.limits, self.computer)
+
+    @property
+    def at_rest(self) -> Standstill:
+        """What is known of them to its staff (P7)."""
+        return computing.at_rest(self.limits, self.computer)
 
     # ---- what the unit was told
 

@@ -39,7 +39,7 @@ class Staff:
     def finds_whole(self) -> bool:
         """Walk along it, once it is held, and find it whole."""
         vehicle, board = self.vehicle, self.vehicle.board
-        if not is_held(board.standstill):
+        if not is_held(board.at_rest):
             board.hold()
             return False
         board.made_up()
@@ -54,7 +54,7 @@ class Staff:
         """
         board, train = self.vehicle.board, self.vehicle.on_rails
         beyond_mm = block_begins_mm(self.rails, train) + BEYOND_BOARD_MM
-        if train.front_mm < beyond_mm or board.motion.front_least_mm >= beyond_mm or not is_held(board.standstill):
+        if train.front_mm < beyond_mm or board.motion.front_least_mm >= beyond_mm or not is_held(board.at_rest):
             return False
         board.note_place(beyond_mm, board.motion.front_most_mm)
         self.vehicle.look_again()

@@ -60,6 +60,7 @@ from proofs.onboard import (
     speed_limit,
     tag_window,
     train_antennas,
+    train_found_sound,
     train_parts,
     train_service,
 )
@@ -138,11 +139,6 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.computer.known.ceiling == system.approach.ceiling
         and train_parts.no_list_has_more_where_the_front_may_be(site, system)
     )
-
-
-def nobody_has_inspected_its_brake(site: Train, system: Whole) -> bool:
-    """Nor its motors: whether they had broken a bound is not known (T8, T12)."""
-    return system.watched.watch.broken and not system.watched.inspected
 
 
 def the_antennas_are_not_preset_yet(site: Train, system: Whole) -> bool:
@@ -289,8 +285,8 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> 
 
 
 def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
-    """What is told of a train at rest is so, and if it is told to be held its brake holds it (P7, T9, T12)."""
-    at, slow_um_s = computer.standstill(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
+    """What is told of a train at rest, and by its staff, is so; if it is told to be held its brake is (P7, T9, T12)."""
+    at, slow_um_s = computer.at_rest(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
     return (
         not is_braked(at)
         or (system.computer.brake.applied and system.watched.cycles >= site.limits.train.brake.response_cycles)
@@ -350,7 +346,7 @@ def the_computer_has_the_proved_brake(site: Train, system: Whole) -> bool:
 
 INITIAL = (
     the_train_stands_held_by_its_brake,
-    nobody_has_inspected_its_brake,
+    train_found_sound.nobody_has_inspected_its_brake,
     the_antennas_are_not_preset_yet,
     train_parts.nothing_is_measured,
     *train_antennas.INITIAL,
@@ -365,7 +361,6 @@ SAFETY = (
     the_head_runs_no_farther_than_its_brake_lets_it,
     no_fix_contradicts,
     a_sound_brake_is_not_accused,
-    train_parts.no_brake_counts_as_sound_before_it_was_inspected,
     a_tag_out_of_place_by_more_than_tolerance_and_error_is_refused,
     a_missing_tag_is_noticed_within_a_bounded_way,
     a_tag_in_its_place_is_never_refused,
@@ -375,7 +370,6 @@ SAFETY = (
     train_parts.unhealthy_is_latched,
     healthy_only_after_a_check,
     healthy_only_after_a_preset,
-    train_parts.no_train_is_whole_before_it_was_found_so,
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,
@@ -392,6 +386,7 @@ SAFETY = (
     train_parts.the_computer_has_the_proved_spacing,
     train_parts.the_computer_has_the_proved_limit,
     *train_parts.OF_THE_LENGTH,
+    *train_found_sound.SAFETY,
     *train_antennas.SAFETY,
 )
 INVARIANTS = (

@@ -190,11 +190,6 @@ def a_train_that_keeps_is_no_faster_than_the_limit(site: Train, system: Whole) -
     return brake_watch.a_train_that_keeps_is_no_faster_than_the_limit(watched_over(site), watched(system))
 
 
-def no_brake_counts_as_sound_before_it_was_inspected(site: Train, system: Whole) -> bool:
-    """Since the computer began: that a bound was broken is not forgotten by switching it off and on (T8, T12)."""
-    return brake_watch.no_brake_counts_as_sound_before_it_was_inspected(watched_over(site), watched(system))
-
-
 def the_watch_counts_no_more_than_the_brake(site: Train, system: Whole) -> bool:
     """The watch counts the brake's response as it is; since a restart it may have counted less (T8, T12)."""
     return 0 <= system.computer.known.watch.cycles <= system.watched.cycles
@@ -343,11 +338,6 @@ def the_computer_has_the_proved_limit(site: Train, system: Whole) -> bool:
 
 
 # ---- whether the train is whole
-
-
-def no_train_is_whole_before_it_was_found_so(site: Train, system: Whole) -> bool:
-    """Since its computer was started staff has found it whole, or it counts as split: it may have been (P5, T8)."""
-    return system.trailing.is_preset or system.computer.known.wholeness.split
 
 
 # ---- the train's length

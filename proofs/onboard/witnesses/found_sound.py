@@ -30,7 +30,7 @@ def a_train_that_is_not_held_is_not_found_whole() -> None:
         responded = ride.system.watched.cycles >= BRAKE.response_cycles
         ride.cycle(max(0, ride.system.speed_um_s // 1_000 - 70) if responded else 5_000)
         assert ride.system.computer.brake.applied
-        if not is_held(computer.standstill(LIMITS, ride.system.computer)):
+        if not is_held(computer.at_rest(LIMITS, ride.system.computer)):
             said(ride, is_taken=False)
     ride.stand_until_held()
     assert has_split(ride)

@@ -227,7 +227,7 @@ class Ride(Play[Train, Whole]):
 
     def stand_until_held(self) -> None:
         """Stand, until the computer knows that its brake holds the train at rest."""
-        while not is_held(computer.standstill(LIMITS, self.system.computer)):
+        while not is_held(computer.at_rest(LIMITS, self.system.computer)):
             self.cycle(0, may_proceed=False)
 
     def stop(self) -> None:

@@ -20,7 +20,8 @@ from models.onboard.train_nature import (
     tail_comes_over,
 )
 from models.onboard.units import NM_A_MM
-from proofs.onboard.train import nobody_has_inspected_its_brake, the_train_stands_held_by_its_brake
+from proofs.onboard.train import the_train_stands_held_by_its_brake
+from proofs.onboard.train_found_sound import nobody_has_inspected_its_brake
 from proofs.onboard.witnesses import found_sound, train_promising, train_reading
 from proofs.onboard.witnesses.one_train import (
     BRAKE,

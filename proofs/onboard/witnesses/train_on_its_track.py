@@ -92,8 +92,13 @@ def run_until_it_brakes(ride: Ride, gains_mm_s: int) -> None:
         ride.cycle(ride.system.speed_um_s // 1_000 + gains_mm_s)
 
 
+def is_overdue(ride: Ride) -> bool:
+    """Tell whether a tag is overdue."""
+    return ride.system.computer.known.window.passed
+
+
 def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
-    """Awaiting the next tag its train keeps to it until that is read, and its rear has passed (T5, T12)."""
+    """Nor is it overdue no more once another is listed: the train is located anew, and keeps to any track (T5, T12)."""
     first_mm = START_MM + 100_000
     ride = approaching(first_mm)
     ride.reads(first_mm)
@@ -108,15 +113,24 @@ def a_curve_whose_tag_was_missed_is_not_forgotten() -> None:
     ride.step("miss_a_tag", **curve)
     assert ride.system.passing.in_curve
     run_until_it_brakes(ride, 0)
-    assert ride.system.computer.known.window.passed
+    assert is_overdue(ride)
     ride.stop()
+    ride.stand_until_held()
+    overdue = ride.system.computer
+    assert ride.step("await_tag", place_mm=next_mm, uid=next_mm, **PLAIN_TRACK).computer == overdue
+    assert ride.step("await_none").computer == overdue
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.step("locate_anew", least_mm=front_mm - 1_000, most_mm=front_mm + 1_000)
     ride.step("await_tag", place_mm=next_mm, uid=next_mm, **PLAIN_TRACK)
+    assert not is_overdue(ride)
     assert ride.system.computer.known.ahead == NONE_LISTED
     ride.step("take_end", end_mm=next_mm)
-    ride.cycle(0, acknowledged=True)
+    for _ in range(30):
+        ride.cycle(0, acknowledged=True)
     run_until_it_brakes(ride, 100)
-    curve_mm_s = LIMITS.train.speeds.curve_mm_s
-    assert curve_mm_s - 1_000 < ride.system.from_um_s // 1_000 <= curve_mm_s
+    speeds = LIMITS.train.speeds
+    slowest_mm_s = min(speeds.curve_mm_s, speeds.turnout_mm_s)
+    assert slowest_mm_s - 1_000 < ride.system.from_um_s // 1_000 <= slowest_mm_s
     assert ride.system.front_nm < next_mm * NM_A_MM
 
 
