@@ -157,7 +157,7 @@ def is_held_by(limits: Limits, inertial_mm_s2: int) -> bool:
     for _ in range(min(limits.sensors.agreement_cycles, 1_000) + 2):
         state = computer.decide(limits, state, may_proceed=False, acknowledged=False)
         state = computer.sense(limits, state, Readings(100, True, 0, 0, True, inertial_mm_s2), tail)
-    return is_held(computer.standstill(limits, state))
+    return is_held(computer.at_rest(limits, state))
 
 
 def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:

@@ -21,7 +21,6 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
-from proofs.onboard.train_found_sound import nobody_has_inspected_its_brake
 from proofs.onboard.witnesses import found_sound, train_promising, train_reading
 from proofs.onboard.witnesses.one_train import (
     BRAKE,
@@ -391,7 +390,6 @@ def a_computer_put_into_service_knows_where_it_stands_and_no_more() -> None:
     assert begun.before == odometry.past(begun.known.motion)
     assert begun.known.watch == brake_watch.restarted()
     assert begun.known.movement == LOCATED
-    assert nobody_has_inspected_its_brake(SITE, ride.system)
     assert begun.known.wholeness == split.restarted(LIMITS.split)
     assert begun.known.window == NONE_AWAITED
     assert begun.brake == braking.stand_still(most_mm)
