@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kernel.onboard import antenna_spacing, computer, split, tag_reader
+from kernel.onboard.odometry import Loss
 from kernel.onboard.split import Acceleration
 from kernel.onboard.tag_reader import NO_FRAME, Level
 from kernel.standstill import is_held
@@ -110,14 +111,49 @@ def a_broken_bound_is_not_forgotten_when_the_computer_is_switched_off_and_on() -
         ride.cycle(0, acknowledged=True)
     assert counts_as_broken(ride)
     assert is_braked(ride)
+    assert computer.standstill(LIMITS, ride.system.computer).braked_cycles == 0, "a weak brake holds nobody"
+    ride.run(0, may_proceed=False)
+    running = ride.system
+    assert ride.step("inspect_the_brake") == running, "nobody inspects a train within a cycle"
+    ride.sense()
     ride.step("inspect_the_brake")
     assert not counts_as_broken(ride)
     ride.cycle(0, acknowledged=True)
     assert not is_braked(ride)
 
 
+def nobody_locates_a_train_that_is_known_to_move() -> None:
+    """Forward or back, and whatever its brake is reckoned to have done; one whose speed is not known may stand (T8)."""
+    ride = Ride()
+    ride.stand_until_held()
+    here, slow_mm_s = ride.system.computer, BRAKE.standstill_mm_s
+    for least_mm_s, most_mm_s, loss, is_located in (
+        (slow_mm_s + 1, 9_000, Loss.NONE, False),
+        (-9_000, -slow_mm_s - 1, Loss.NONE, False),
+        (slow_mm_s, 9_000, Loss.NONE, True),
+        (-9_000, -slow_mm_s, Loss.NONE, True),
+        (slow_mm_s + 1, 9_000, Loss.CONTRADICTED, True),
+    ):
+        motion = replace(here.known.motion, speed_least_mm_s=least_mm_s, speed_most_mm_s=most_mm_s, loss=loss)
+        told = replace(here, known=replace(here.known, motion=motion))
+        assert (computer.locate(LIMITS, told, 0, 1_000) != told) is is_located
+
+
+def the_order_in_which_two_places_are_named_says_nothing() -> None:
+    """Where kilometrage falls the farther one is named first (P7, T8)."""
+    ride = Ride()
+    ride.stand_until_held()
+    front_mm = ride.system.front_nm // NM_A_MM
+    for word, within_mm in (("note_place", 500), ("locate_anew", 700), ("put_into_service", 900)):
+        ride.step(word, least_mm=front_mm + within_mm, most_mm=front_mm - within_mm)
+        motion = ride.system.computer.known.motion
+        assert (motion.front_least_mm, motion.front_most_mm) == (front_mm - within_mm, front_mm + within_mm)
+
+
 WITNESSES = (
     a_train_that_is_not_held_is_not_found_whole,
     a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on,
     a_broken_bound_is_not_forgotten_when_the_computer_is_switched_off_and_on,
+    nobody_locates_a_train_that_is_known_to_move,
+    the_order_in_which_two_places_are_named_says_nothing,
 )
