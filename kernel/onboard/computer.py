@@ -356,9 +356,9 @@ def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLi
     """Give what is known of the way to the tail; ``answers``: its signal comes over the line (T3, T13, P5).
 
     The tail of a train that has rolled back too far may read a pair of tags in reverse: it counts no more (T2).  Nor
-    does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.  Nor
-    that of a train which was measured as another than is written: it is not the train that was found whole (P4).
-    Nor is a train whole of which that was found, or a false tail: a part of it may stand elsewhere (P5).
+    does one that may be over a tag which the head has missed, since a wide range has not called that overdue yet.
+    A train that was measured as another than is written, or had a false tail, is not the one that was found whole: a
+    part of it may stand elsewhere (P4, P5).
     """
     return ThroughLine(
         answers=answers,
@@ -367,8 +367,7 @@ def through_line(limits: Limits, computer: Computer, answers: bool) -> ThroughLi
         and is_as_long_as_written(limits, computer),
         fits=antenna_spacing.is_healthy(computer.spacing)
         and not computer.known.movement.reversed
-        and finds_a_missed_tag(limits, computer)
-        and is_as_long_as_written(limits, computer),
+        and finds_a_missed_tag(limits, computer),
     )
 
 

@@ -5,8 +5,8 @@ A start forgets; what it forgets counts as found.
 
 from __future__ import annotations
 
-from kernel.onboard import computer, train_length
-from kernel.standstill import is_braked
+from kernel.onboard import computer
+from kernel.standstill import is_braked, is_whole
 from models.onboard.train_nature import Train, Whole, watched, watched_over
 from proofs.onboard import brake_watch
 
@@ -39,18 +39,21 @@ def no_train_is_whole_before_it_was_found_so(site: Train, system: Whole) -> bool
     return system.trailing.is_preset or system.computer.known.wholeness.split
 
 
+def a_train_that_was_found_split_is_not_whole(site: Train, system: Whole) -> bool:
+    """Until staff has found it whole (P5)."""
+    line = computer.through_line(site.limits, system.computer, True)
+    return not system.computer.known.wholeness.split or not is_whole(line)
+
+
 def a_train_whose_tail_was_a_false_one_is_not_whole(site: Train, system: Whole) -> bool:
-    """Nor is one that was measured longer or shorter than is written, until staff has found it whole (T3, T13, P4)."""
-    return not computer.through_line(site.limits, system.computer, True).is_intact or (
-        not system.trailing.caught
-        and not train_length.contradicts_the_line(site.limits.length, system.computer.length)
-        and not train_length.contradicts_itself(system.computer.length)
-    )
+    """Once another antenna was caught speaking for its tail, until staff has found the train whole (T3, T13)."""
+    return not system.trailing.caught or not is_whole(computer.through_line(site.limits, system.computer, True))
 
 
 SAFETY = (
     no_brake_counts_as_sound_before_it_was_inspected,
     a_brake_found_wanting_holds_nobody,
     no_train_is_whole_before_it_was_found_so,
+    a_train_that_was_found_split_is_not_whole,
     a_train_whose_tail_was_a_false_one_is_not_whole,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
 from kernel.onboard.train_length import PointKind
+from kernel.standstill import is_whole
 from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard import ceiling
 from models.onboard.train_nature import (
@@ -371,17 +372,17 @@ def what_was_measured_was_as_far_apart_as_preset(site: Train, system: Whole) -> 
 
 
 def a_train_longer_than_is_written_does_not_count(site: Train, system: Whole) -> bool:
-    """Of a train measured longer than written, by more than that leaves open, no read of the tail counts (P4, T3)."""
+    """A train measured longer than written, by more than that leaves open, is not whole: no tail counts (P4, T3)."""
     return (
         not system.computer.length.measured
         or system.formation.measured_nm <= NM_A_MM * site.limits.train.length_mm + system.formation.open_nm
-        or not computer.through_line(site.limits, system.computer, True).fits
+        or not is_whole(computer.through_line(site.limits, system.computer, True))
     )
 
 
 def a_train_of_another_length_does_not_count(site: Train, system: Whole) -> bool:
     """Nor of one that was another when measured again, by more than both leave open, until staff has seen it (P4)."""
-    return not system.formation.differed or not computer.through_line(site.limits, system.computer, True).fits
+    return not system.formation.differed or not is_whole(computer.through_line(site.limits, system.computer, True))
 
 
 def a_train_as_it_is_written_is_not_accused_of_its_length(site: Train, system: Whole) -> bool:

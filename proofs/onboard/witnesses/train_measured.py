@@ -58,13 +58,13 @@ def no_length_is_measured_by_anothers_antenna() -> None:
 
 
 def a_tail_does_not_count_once_its_train_is_another_than_written() -> None:
-    """Longer than is written with all errors taken off, or measured as another than before (P4)."""
+    """Longer than is written with all errors taken off, or measured as another than before: it is not whole (P4)."""
     here = _measured()
-    for least_mm, fits in ((LIMITS.train.length_mm, True), (LIMITS.train.length_mm + 1, False)):
+    for least_mm, is_intact in ((LIMITS.train.length_mm, True), (LIMITS.train.length_mm + 1, False)):
         measured = replace(here.length, least_mm=least_mm)
-        assert computer.through_line(LIMITS, replace(here, length=measured), True).fits == fits
+        assert computer.through_line(LIMITS, replace(here, length=measured), True).is_intact == is_intact
     contradicted = replace(here, length=replace(here.length, contradicted=True))
-    assert not computer.through_line(LIMITS, contradicted, True).fits
+    assert not computer.through_line(LIMITS, contradicted, True).is_intact
 
 
 def the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards() -> None:
