@@ -115,7 +115,7 @@ BRAKE_WATCH: Mapping[str, tuple[Memory, str]] = {
 
 SPACING: Mapping[str, tuple[Memory, str]] = {
     "preset_mm": (Memory.LOST, "0"),
-    "reads": (Memory.LOST, "NOTHING_READ, eight times"),
+    "reads": (Memory.LOST, "HeadReads(*8 * [NOTHING_READ])"),
     "tail_read": (Memory.LOST, "False"),
     "tail_uid": (Memory.LOST, "0"),
     "checked": (Memory.LOST, "False"),

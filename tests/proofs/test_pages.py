@@ -7,6 +7,7 @@ import inspect
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -15,6 +16,8 @@ from kernel import link, persistence
 from kernel.alarm import tone, train_list
 from kernel.centre import Centre
 from kernel.crossing import arrival
+from kernel.onboard import antenna_spacing, brake_watch, split, tag_reader
+from kernel.onboard.split import SplitLimits
 from kernel.terminal import Terminal
 from kernel.tram import centre as tram_centre
 from kernel.tram import cycle, stopping
@@ -122,6 +125,25 @@ def test_what_a_start_leaves_is_what_its_table_says(name: str) -> None:
     assert f"`{STARTS[name].__module__}.{STARTS[name].__name__}`" in (ROOT / "kernel" / "persistence.py").read_text(
         "utf-8"
     )
+
+
+SPLIT_LIMITS = SplitLimits(500, 3_000, 500, 600, 1_000, 10_000)
+ON_BOARD: dict[str, tuple[ModuleType, object]] = {
+    "TAG_READER": (tag_reader, tag_reader.restarted()),
+    "SPLIT": (split, split.restarted(SPLIT_LIMITS)),
+    "BRAKE_WATCH": (brake_watch, brake_watch.restarted()),
+    "SPACING": (antenna_spacing, antenna_spacing.restarted()),
+}
+"""Machines on board that begin as another state with something found: what they begin with."""
+
+
+@pytest.mark.parametrize("name", ON_BOARD)
+def test_what_a_start_on_board_leaves_is_what_its_table_says(name: str) -> None:
+    """Field by field, by value (T8)."""
+    module, begun = ON_BOARD[name]
+    names = {**vars(module), "limits": SPLIT_LIMITS}
+    table = getattr(persistence, name)
+    assert vars(begun) == {field: eval(value, names) for field, (_memory, value) in table.items()}
 
 
 # ---- the world
