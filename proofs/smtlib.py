@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -33,25 +34,13 @@ class Text:
             seen.add(term.get_id())
             if z3.is_quantifier(term):
                 for index in range(term.num_vars()):
-                    self._sort(term.var_sort(index))
+                    self.sorts |= _declared(term.var_sort(index))
                 todo.append(term.body())
             elif z3.is_app(term):
-                self._declare(term.decl())
+                needed = _needed(term.decl())
+                self.functions |= needed.functions
+                self.sorts |= needed.sorts
                 todo.extend(term.children())
-
-    def _declare(self, function: Any) -> None:
-        for sort in [*(function.domain(i) for i in range(function.arity())), function.range()]:
-            self._sort(sort)
-        if function.kind() == z3.Z3_OP_UNINTERPRETED:
-            domain = " ".join(function.domain(i).sexpr() for i in range(function.arity()))
-            self.functions[function.name()] = f"(declare-fun {symbol(function.name())} ({domain}) {function.range()})"
-
-    def _sort(self, sort: Any) -> None:
-        if sort.kind() == z3.Z3_UNINTERPRETED_SORT:
-            self.sorts[sort.name()] = f"(declare-sort {sort.sexpr()} 0)"
-        elif sort.kind() == z3.Z3_DATATYPE_SORT:
-            members = " ".join(f"({sort.constructor(i).name()})" for i in range(sort.num_constructors()))
-            self.sorts[sort.name()] = f"(declare-datatypes (({sort.sexpr()} 0)) (({members})))"
 
     @cached_property
     def body(self) -> str:
@@ -65,6 +54,44 @@ class Text:
 
 
 _TEXTS: dict[int, Text] = {}
+
+
+@dataclass(frozen=True)
+class Needed:
+    """What a function needs declared; the function is kept, so that its number stays its own."""
+
+    function: Any
+    functions: Mapping[str, str]
+    sorts: Mapping[str, str]
+
+
+_NEEDED: dict[int, Needed] = {}
+
+
+def _needed(function: Any) -> Needed:
+    """Give what a function needs declared, read once: the same few stand in every formula."""
+    key = function.get_id()
+    if key not in _NEEDED:
+        domain = [function.domain(i) for i in range(function.arity())]
+        sorts: dict[str, str] = {}
+        for sort in [*domain, function.range()]:
+            sorts |= _declared(sort)
+        functions = {}
+        if function.kind() == z3.Z3_OP_UNINTERPRETED:
+            takes = " ".join(sort.sexpr() for sort in domain)
+            functions[function.name()] = f"(declare-fun {symbol(function.name())} ({takes}) {function.range()})"
+        _NEEDED[key] = Needed(function, functions, sorts)
+    return _NEEDED[key]
+
+
+def _declared(sort: Any) -> dict[str, str]:
+    """Give the declaration of a sort, if it needs one."""
+    if sort.kind() == z3.Z3_UNINTERPRETED_SORT:
+        return {sort.name(): f"(declare-sort {sort.sexpr()} 0)"}
+    if sort.kind() == z3.Z3_DATATYPE_SORT:
+        members = " ".join(f"({sort.constructor(i).name()})" for i in range(sort.num_constructors()))
+        return {sort.name(): f"(declare-datatypes (({sort.sexpr()} 0)) (({members})))"}
+    return {}
 
 
 def text_of(formula: Any) -> Text:
