@@ -7,6 +7,9 @@ knows its life.
 
 from __future__ import annotations
 
+import hashlib
+import hmac
+import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -64,6 +67,8 @@ class Addresses:
         self.road: Mapping[str, Party] = {
             road: Party(f"crossing-{number:02}") for number, road in enumerate(sorted(roads), start=1)
         }
+        self.numbered = tuple(self.unit), tuple(self.terminal), tuple(self.road)
+        """What its numbers stand for, in their order: trains, points and roads."""
         self.train = {party: train for train, party in self.unit.items()}
         self.point = {party: point for point, party in self.terminal.items()}
         self._name_of_road = {party: road for road, party in self.road.items()}
@@ -79,6 +84,20 @@ class Addresses:
         if step == "restart_terminal":
             return self.terminal[event["point"]]
         return CENTRE if step == "restart_centre" else None
+
+
+def edition_of(addresses: Addresses, wording: Wording) -> bytes:
+    """Tell one set of names from every other: what each number stands for that is an address or is said (T11)."""
+    return hashlib.sha256(json.dumps([addresses.numbered, wording.numbered]).encode()).digest()
+
+
+def key_by(edition: bytes, key: bytes) -> bytes:
+    """The key of a pair of machines for an edition of names: with another one nothing is authentic (T11).
+
+    Works change names, and with them numbers, while some machine still has the plan of before: a block, a point or a
+    position that it tells would be taken for another.
+    """
+    return hmac.digest(key, edition, "sha256")
 
 
 @dataclass
@@ -111,6 +130,7 @@ class Links:
         self.post = post
         self.diary = diary
         self.seed = seed
+        self.edition = edition_of(addresses, wording)
         self.stranger = Stranger(air, Random(f"{seed} stranger"))
         self.acts: Acts = lambda me, peer, kind, fields: None
         self.outcomes: Counter[str] = Counter()
@@ -155,10 +175,10 @@ class Links:
         return self._ends[me, peer]
 
     def _key(self, me: Party, peer: Party) -> bytes:
-        """The key of a pair of machines, the same at both ends."""
+        """The key of a pair of machines, the same at both ends if both have the same names."""
         if (me, peer) not in self._keys:
             drawn = Random(f"{self.seed} key of {sorted((me, peer))}").randbytes(KEY_BYTES)
-            self._keys[me, peer] = self._keys[peer, me] = drawn
+            self._keys[me, peer] = self._keys[peer, me] = key_by(self.edition, drawn)
         return self._keys[me, peer]
 
     # ---- sending

@@ -1,7 +1,9 @@
 """What machines say by telegram, as kind and payload; numbers stand for the names of the layout that both ends have.
 
 One table: the fields of each kind, in their order, and the set of the abstract radio in which a message stands once
-it was sent.  There is one way to write a message, and nothing written otherwise is read (T11).
+it was sent.  There is one way to write a message, and nothing written otherwise is read (T11).  A number does not say
+what it stood for where it was written: that both ends have the same names, the key of their link sees to
+(``models.simulation.links``).
 """
 
 from __future__ import annotations
@@ -136,6 +138,9 @@ class Wording:
         self._blocks = _names(layout.blocks)
         self._tags = _names(layout.tag_in)
         points, lies = _names(layout.points), _names({*positions, Position("normal")})
+        sorts = (self._trains, self._routes, self._blocks, self._tags, points, lies)
+        self.numbered = tuple(tuple(names.by_number) for names in sorts)
+        """What its numbers stand for, sort by sort."""
         self._ways: Mapping[str, tuple[Callable[[Any], bytes], Callable[[_Reader], Any]]] = {
             "run": (self._write_run, self._read_run),
             "train": (self._trains.write, self._trains.read),

@@ -14,11 +14,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kernel import link as kernel_link
-from kernel.link import Arrived, Limits, Link, Outcome, Party
-from kernel.telegram import Rejection, Said
+from kernel.link import Arrived, Life, Limits, Link, Outcome, Party, Telegram
+from kernel.machine.centre import NO_ROUTE
+from kernel.names import Block, Point, Position, Read, Route, Run, Serial, Tag, Train, UnitLife
+from kernel.telegram import KEY_BYTES, Rejection, Said, content_of, decode, encode
 from models.simulation import links as ends
 from models.simulation.faults import BY_NAME, NO_FAULT, Chosen, Setting
-from models.simulation.links import CENTRE, LIFE_SIGN_S, LIMITS, Links
+from models.simulation.links import CENTRE, LIFE_SIGN_S, LIMITS, Addresses, Links, edition_of, key_by
 from models.simulation.posted import ONLY_WHAT_WAS_SENT, SILENCE
 from models.simulation.simulation import Simulation
 from models.simulation.wording import Fields, Wording, was_sent
@@ -131,6 +133,58 @@ def test_an_outage_is_told_as_silence_and_ends() -> None:
     assert 120_000 + LIMITS.silence_ms - 1_000 * LIFE_SIGN_S <= told[0][0] <= 160_000
     assert told[1][0] <= 200_000
     assert 30 <= max(sim.links.unheard_s.values()) <= 60
+
+
+# ---- names: numbers stand for others after works
+
+
+def test_what_is_said_with_other_names_is_not_authentic() -> None:
+    """Works make one block more, and a number that a machine with the plan of before tells stands for another one."""
+    site = line(NO_FAULT).play.site
+    layout = site.layout
+    trains, points, roads = sorted(layout.fleet), sorted(layout.points), ["Mill Road"]
+    more = replace(site, layout=replace(layout, blocks=layout.blocks | {Block("a siding")}))
+    before, now = Wording(site), Wording(more)
+    block = {"run": Run(Serial(1), trains[0], UnitLife(1), NO_ROUTE), "block": max(layout.blocks)}
+    read = Read(*min(site.records.record.items()))
+    said = before.written("tail report", {**block, "left": read, "entered": read})
+    told = now.read(said)
+    assert told is not None
+    assert told[1]["block"] != block["block"]
+    addresses, key = Addresses(trains, points, roads), bytes(KEY_BYTES)
+    ours, theirs = (key_by(edition_of(addresses, wording), key) for wording in (now, before))
+    content = content_of(said)
+    assert isinstance(content, str)
+    raw = encode(theirs, Telegram(addresses.unit[trains[0]], CENTRE, False, Life(1), Life(1), 1, 0, content))
+    assert isinstance(raw, bytes)
+    arrived = [decode(each, raw) for each in (theirs, ours)]
+    assert [each.code == each.expected for each in arrived if isinstance(each, Arrived)] == [True, False]
+
+
+def test_every_sort_of_name_has_its_part_in_the_edition() -> None:
+    site = line(NO_FAULT).play.site
+    layout = site.layout
+    trains, points, roads = sorted(layout.fleet), sorted(layout.points), ["Mill Road"]
+    point = Point("a trap")
+    route = Route("a way to a siding")
+    another = [
+        replace(layout, fleet=layout.fleet | {Train("a train")}),
+        replace(layout, routes=layout.routes | {route}),
+        replace(layout, blocks=layout.blocks | {Block("a siding")}),
+        replace(layout, tag_in=dict(layout.tag_in.items()) | {Tag("a tag"): min(layout.blocks)}),
+        replace(layout, points=layout.points | {point}),
+        replace(layout, needs=dict(layout.needs.items()) | {route: {min(layout.points): Position("a1-b1")}}),
+    ]
+    wordings = [Wording(site), *(Wording(replace(site, layout=each)) for each in another)]
+    addresses = [
+        Addresses([*trains, Train("a train")], points, roads),
+        Addresses(trains, [*points, point], roads),
+        Addresses(trains, points, []),
+    ]
+    ours = Addresses(trains, points, roads)
+    editions = [*(edition_of(ours, each) for each in wordings), *(edition_of(each, wordings[0]) for each in addresses)]
+    assert len(set(editions)) == len(editions) == 1 + len(another) + len(addresses)
+    assert edition_of(Addresses(trains[::-1], points[::-1], roads), Wording(site)) == editions[0]
 
 
 # ---- planted faults: an oracle sees each
