@@ -77,6 +77,7 @@ ON_BOARD_ALONE = frozenset(
 MAY_CALL: Mapping[str, str] = {
     "kernel/": "the kernel itself",
     "models/world/": "the world that the proof knows",
+    "models/onboard/joint.py": "the world of the joint, where giving a run back is proved with its list",
     "proofs/": "what is said of the steps, and what becomes of the proof if they are others",
     "tests/bench_kernel.py": "how long each step takes",
     "tests/kernel/": "single steps, tried one by one",

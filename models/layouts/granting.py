@@ -152,7 +152,8 @@ def hold_flank(
 ) -> None:
     """Hold points off the path so that no vehicle comes from the side; each is released with what it shields.
 
-    Of several covered blocks that one shields it is released with the last, so that it is held as long as any of them.
+    Of several covered blocks that one shields it is released with the last, so that it is held as long as any of them;
+    with an overlap only where it shields nothing else.
     """
     for junction, wanted in sorted(flank.items()):
         point, position = Point(junction), Position(wanted)

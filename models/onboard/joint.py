@@ -15,12 +15,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from kernel import first_loop
 from kernel.authority import may_leave, may_proceed
 from kernel.maps import Map
 from kernel.names import Block, Car, Run, Train
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake, BrakeBounds
 from kernel.onboard.odometry import Loss, Motion
+from kernel.standstill import Standstill
 from kernel.unit import Unit
 from models.world.state import Site, System
 from models.world.truth import goes_by_the_centres_list
@@ -284,6 +286,26 @@ def take_list(site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_
         system,
         begins_mm=system.begins_mm | {run: begins_mm},
         block_ends_mm=system.block_ends_mm | {run: block_ends_mm},
+    )
+
+
+def give_back(site: Survey, system: Joint, run: Run, at: Standstill) -> Joint:
+    """A run is given back while the brake holds an end before it, and its list dropped with that (T9, T12).
+
+    Its points may lie for another run from then on, so that the list tells the track no longer.
+    """
+    if run not in system.block_ends_mm or run.train not in system.system.units:
+        return system
+    unit, start_end_mm = system.system.units[run.train], system.block_ends_mm[run][site.site.layout.start[run.route]]
+    given = first_loop.give_back(site.site.lists, unit, run, at, system.brake[run.train].end_mm, start_end_mm)
+    if first_loop.acknowledges_back(unit, run) or not first_loop.acknowledges_back(given, run):
+        return system
+    return replace(
+        system,
+        system=replace(system.system, units=system.system.units | {run.train: given}),
+        begins_mm={other: begins_mm for other, begins_mm in system.begins_mm.items() if other != run},
+        block_ends_mm={other: ends_mm for other, ends_mm in system.block_ends_mm.items() if other != run},
+        asked=system.asked - {run},
     )
 
 

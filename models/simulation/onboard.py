@@ -132,13 +132,21 @@ class OnBoard:
     # ---- what the unit was told
 
     def follow(self, unit: Unit) -> None:
-        """Let the brake do what the orders of the unit ask, await the next tag by them, and list others (T4, T5)."""
+        """Let the brake do what the orders of the unit ask, await the next tag by them, and list others (T4, T5).
+
+        The list of a run that was given back is dropped: its points may lie for another run from then on (T9).
+        """
+        self.lists = {
+            run: listed
+            for run, listed in self.lists.items()
+            if run not in unit.orders or not unit.orders[run].given_back
+        }
         runs = [run for run in self.lists if run in unit.orders]
         computer = replace(self.computer, brake=self._asked(unit, runs))
         awaited, listed = list[Listed](), list[Listed]()
         for run in runs:
             order, tags = unit.orders[run], self.lists[run].tags_mm
-            if order.permitted and not order.given_back:
+            if order.permitted:
                 places = {tag: (place_mm, self.lists[run].kinds[tag]) for tag, place_mm in tags.items()}
                 listed += places.values()
                 awaited += [place for tag, place in places.items() if tag == order.expected]

@@ -11,6 +11,7 @@ from models.onboard.joint import (
     ask_for_the_end,
     cars_move,
     every_route_has_an_overlap,
+    give_back,
     head_passes,
     head_runs,
     locate,
@@ -239,7 +240,17 @@ INVARIANTS = (
     no_car_came_under_a_run_ahead,
 )
 PREMISES = (every_route_has_an_overlap, a_centres_list_says_what_its_layout_does)
-STEPS = (locate, take_list, ask_for_the_end, obey_the_orders, head_runs, head_passes, cars_move, unit_changes)
+STEPS = (
+    locate,
+    take_list,
+    give_back,
+    ask_for_the_end,
+    obey_the_orders,
+    head_runs,
+    head_passes,
+    cars_move,
+    unit_changes,
+)
 
 THEORY = Theory(
     "joint",

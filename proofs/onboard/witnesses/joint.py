@@ -8,6 +8,7 @@ from kernel import first_loop
 from kernel.names import Route, Run, Serial, Train, UnitLife
 from kernel.onboard.braking import Brake
 from models.onboard.joint import may_move
+from models.simulator.senses import AT_REST
 from proofs.onboard.witnesses import joint_nature, on_lines
 from proofs.onboard.witnesses.station import (
     A_PAIR,
@@ -238,6 +239,28 @@ def a_run_is_given_back_when_the_brake_holds_the_end_before_it() -> None:
     assert released(station.system.brake[T1], 401_000).applied
 
 
+def a_run_that_is_given_back_takes_its_list_with_it() -> None:
+    """Its points may lie for another run then; one that is not given back, or was before, keeps its list (T9)."""
+    station = under_way()
+    station.refuses("give_back", run=RUN, at=AT_REST)
+    station.changes(first_loop.recall(station.unit(), RUN))
+    station.refuses("give_back", run=RUN, at=AT_REST)
+    station.holds(440_000, withheld=True)
+    station.refuses("give_back", run=RUN, at=replace(AT_REST, known=False))
+    station.refuses("give_back", run=OTHER, at=AT_REST)
+    before = station.system
+    station.step("give_back", run=RUN, at=AT_REST)
+    assert station.order(RUN).given_back
+    assert not station.system.begins_mm
+    assert not station.system.block_ends_mm
+    assert not station.system.asked
+    assert not station.ends(399_000, 401_000)
+    assert station.asks().withheld
+    station.system = before
+    assert station.gives_back()
+    station.refuses("give_back", run=RUN, at=AT_REST)
+
+
 def a_train_too_near_to_be_held_gives_nothing_back() -> None:
     """A metre before the end of its block: the brake keeps the old end, stays on, and nothing is freed (T9, T12).
 
@@ -392,6 +415,7 @@ WITNESSES = (
     a_false_pair_does_not_stop_the_train_on_the_spot,
     what_the_tail_has_left_is_no_authority,
     a_run_is_given_back_when_the_brake_holds_the_end_before_it,
+    a_run_that_is_given_back_takes_its_list_with_it,
     a_train_too_near_to_be_held_gives_nothing_back,
     a_train_that_rolls_in_keeps_its_run,
     a_run_that_another_leads_on_from_is_not_given_back,
