@@ -23,6 +23,9 @@ Answer = Literal["unsat", "sat", "unknown"]
 BUDGET = {"z3": 4_000_000, "cvc5": 400_000}
 """What a solver may spend on one question, each in its own units."""
 
+FIRST = BUDGET["z3"] // 4
+"""What Z3 may spend on a question before others are tried that prove the same: mostly less is enough, or all is not."""
+
 SIMPLER = {"ite-simp": "true", "full-saturate-quant": "true"}
 """The options by which cvc5 is asked a weaker question."""
 
@@ -83,20 +86,22 @@ def if_proved(answer: Answer, spent: int) -> tuple[Answer, int]:
 
 
 def z3_tries(part: Part, seed: int) -> Iterator[tuple[Answer, int]]:
-    """Ask Z3 with a fresh solver; at a loss the shorter question; the weaker, so and by text; a new context; its text.
+    """Ask Z3 with a fresh solver each, by one question after another that prove the same.
 
-    In the context that all questions share, what terms are numbered by depends on what was made before, and so,
-    now and then, does whether an answer is found; the order of terms goes with them into another context.  By its text
-    a question is the same in every process; there Z3 does not choose options by what it sees in it, which had it look
-    in the wrong place.  Each try has the budget.
+    First the question, with part of the budget; at a loss the shorter one; the weaker one, so and by text; then the
+    question with all of the budget, in a new context, and by its text.  In the context that all questions
+    share, what terms are numbered by depends on what was made before, and so, now and then, does whether an answer is
+    found; the order of terms goes with them into another context.  By its text a question is the same in every
+    process; there Z3 does not choose options by what it sees in it, which had it look in the wrong place.
     """
-    solver = _told(part)
-    yield _ask_z3_once(solver, seed)
+    yield _ask_z3_once(_told(part), seed, FIRST)
     if (less := shorter(part)) is not None:
         yield if_proved(*_ask_z3_once(_told(less), seed))
     if (less := weaker(part)) is not None:
         yield if_proved(*_ask_z3_once(_told(less), seed))
         yield if_proved(*_ask_z3_once(_by_text(less), seed))
+    solver = _told(part)
+    yield _ask_z3_once(solver, seed)
     yield _ask_z3_once(solver.translate(z3.Context()), seed)
     yield _ask_z3_once(_by_text(part), seed)
 
@@ -119,8 +124,8 @@ def _by_text(part: Part) -> z3.Solver:
     return solver
 
 
-def _ask_z3_once(solver: z3.Solver, seed: int) -> tuple[Answer, int]:
-    solver.set("rlimit", BUDGET["z3"])
+def _ask_z3_once(solver: z3.Solver, seed: int, budget: int = BUDGET["z3"]) -> tuple[Answer, int]:
+    solver.set("rlimit", budget)
     # An interruption is this program's: taken by the solver it would be lost, and come out as an answer.
     solver.set("ctrl_c", False)
     solver.set("random_seed", seed)

@@ -31,7 +31,7 @@ from proofs.theories import THEORIES, columns
 from proofs.theory import EVERY_LOOKUP_IS_DEFINED
 from proofs.workbench import Part, Workbench
 
-TRIES = 3
+TRIES = 4
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SAMPLE = (
@@ -443,16 +443,19 @@ def test_how_many_cells_ask_nothing_is_told(capsys: pytest.CaptureFixture[str]) 
 
 
 def test_what_z3_leaves_unknown_is_asked_again_and_then_by_its_text(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In three contexts, with the same seed; the last is the one that the text alone makes."""
+    """Twice in its context, the first time with less of the budget, then in two more; the last is the text's alone."""
     x = z3.Int("x")
     part = Part({"x_is_positive": [x > 0]}, [], x > -1)
     asked: list[tuple[z3.Context, str]] = []
+    budgets: list[int] = []
 
-    def at_a_loss(solver: z3.Solver, seed: int) -> tuple[str, int]:
+    def at_a_loss(solver: z3.Solver, seed: int, budget: int = solvers.BUDGET["z3"]) -> tuple[str, int]:
         asked.append((solver.ctx, solver.to_smt2()))
+        budgets.append(budget)
         return ("unknown", 5) if len(asked) < TRIES else (str(solver.check()), 3)
 
     monkeypatch.setattr(solvers, "_ask_z3_once", at_a_loss)
     assert solvers.first_answer(solvers.z3_tries(part, 7)) == ("unsat", 5)
-    assert len({str(context.ref()) for context, _ in asked}) == TRIES
+    assert len({str(context.ref()) for context, _ in asked}) == TRIES - 1
+    assert budgets == [solvers.FIRST, *[solvers.BUDGET["z3"]] * (TRIES - 1)]
     assert "(> x 0)" in asked[-1][1]
