@@ -23,8 +23,8 @@ Answer = Literal["unsat", "sat", "unknown"]
 BUDGET = {"z3": 4_000_000, "cvc5": 400_000}
 """What a solver may spend on one question, each in its own units."""
 
-FIRST = BUDGET["z3"] // 4
-"""What Z3 may spend on a question before others are tried that prove the same: mostly less is enough, or all is not."""
+FIRST = 4
+"""Z3 is first asked with this part of its budget, before other questions that prove the same: mostly that is enough."""
 
 SIMPLER = {"ite-simp": "true", "full-saturate-quant": "true"}
 """The options by which cvc5 is asked a weaker question."""
@@ -124,8 +124,8 @@ def _by_text(part: Part) -> z3.Solver:
     return solver
 
 
-def _ask_z3_once(solver: z3.Solver, seed: int, budget: int = BUDGET["z3"]) -> tuple[Answer, int]:
-    solver.set("rlimit", budget)
+def _ask_z3_once(solver: z3.Solver, seed: int, share: int = 1) -> tuple[Answer, int]:
+    solver.set("rlimit", max(1, BUDGET["z3"] // share))
     # An interruption is this program's: taken by the solver it would be lost, and come out as an answer.
     solver.set("ctrl_c", False)
     solver.set("random_seed", seed)

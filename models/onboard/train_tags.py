@@ -1,13 +1,15 @@
 """One train and its tags: what its antennas read, what is missed, and what the orders list (T1, T2, T5, T12).
 
 Each world takes its own step, as it is proved there: had it refused one, its train would have stayed behind.
+A host may ask for a record at any time.  What was delivered was read below the antenna, whatever the computer makes of
+it; where nothing was, the computer alone has its say.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.onboard import computer, restriction_ahead
+from kernel.onboard import computer, restriction_ahead, tag_reader
 from kernel.onboard.antenna_spacing import is_healthy
 from kernel.onboard.computer import Computer
 from models.onboard import antenna_above, antenna_spacing, braking, odometry, speed_limit, tag_window, train_length
@@ -52,8 +54,8 @@ def read_a_tag(site: Train, system: Whole, place_mm: int, in_curve: bool, at_tur
     if not a_kind_hides_no_restriction(in_curve, at_turnout, tag.kind):
         return system
     told = computer.read_by_head(site.limits, system.computer, place_mm)
-    if told == system.computer:
-        return system
+    if not tag_reader.delivers(system.computer.head):
+        return replace(system, computer=told)
     if place_mm == system.awaited_mm:
         expecting = tag_window.read_a_tag(
             stretch(site),
@@ -147,8 +149,8 @@ def read_unlisted(site: Train, system: Whole, in_curve: bool, at_turnout: bool) 
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     told = computer.read_unlisted(system.computer)
-    if told == system.computer:
-        return system
+    if not tag_reader.delivers(system.computer.head):
+        return replace(system, computer=told)
     there = speed_limit.pass_tag(
         profile(site), passage(system, system.head.read_at_nm), in_curve, at_turnout, UNASSIGNED, False, 0, 0, 0
     )
@@ -167,8 +169,8 @@ def read_by_the_tail(site: Train, system: Whole) -> Whole:
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     told = computer.read_by_tail(site.limits, system.computer)
-    if told == system.computer:
-        return system
+    if not tag_reader.delivers(system.computer.tail):
+        return replace(system, computer=told)
     uid, read_at_nm = system.tail.lay_below.uid, system.tail.read_at_nm
     there = antenna_spacing.run(track(site), system.trailing, read_at_nm)
     read = replace(

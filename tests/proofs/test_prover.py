@@ -447,15 +447,15 @@ def test_what_z3_leaves_unknown_is_asked_again_and_then_by_its_text(monkeypatch:
     x = z3.Int("x")
     part = Part({"x_is_positive": [x > 0]}, [], x > -1)
     asked: list[tuple[z3.Context, str]] = []
-    budgets: list[int] = []
+    shares: list[int] = []
 
-    def at_a_loss(solver: z3.Solver, seed: int, budget: int = solvers.BUDGET["z3"]) -> tuple[str, int]:
+    def at_a_loss(solver: z3.Solver, seed: int, share: int = 1) -> tuple[str, int]:
         asked.append((solver.ctx, solver.to_smt2()))
-        budgets.append(budget)
+        shares.append(share)
         return ("unknown", 5) if len(asked) < TRIES else (str(solver.check()), 3)
 
     monkeypatch.setattr(solvers, "_ask_z3_once", at_a_loss)
     assert solvers.first_answer(solvers.z3_tries(part, 7)) == ("unsat", 5)
     assert len({str(context.ref()) for context, _ in asked}) == TRIES - 1
-    assert budgets == [solvers.FIRST, *[solvers.BUDGET["z3"]] * (TRIES - 1)]
+    assert shares == [solvers.FIRST, *[1] * (TRIES - 1)]
     assert "(> x 0)" in asked[-1][1]

@@ -31,7 +31,7 @@ def nothing_is_read(ride: Ride) -> bool:
     ride.step("read_a_tag", **LISTED)
     ride.step("read_unlisted", in_curve=True, at_turnout=True)
     ride.step("read_by_the_tail")
-    return ride.system is before
+    return ride.system == before
 
 
 def one_frame_alone_is_no_read() -> None:
