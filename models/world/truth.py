@@ -125,13 +125,10 @@ def keeps_before(system: System, run: Run, held_end_mm: int, start_end_mm: int) 
 
     It is in it with any car that is in a block which it came into under this run.
     """
-    return held_end_mm > start_end_mm or (
-        run not in system.track.rolling
-        and all(
-            other != run or block not in system.track.at.get(car, frozenset())
-            for car in system.track.under
-            for block, other in system.track.under[car].items()
-        )
+    return (held_end_mm > start_end_mm or run not in system.track.rolling) and all(
+        held_end_mm > start_end_mm or other != run or block not in system.track.at.get(car, frozenset())
+        for car in system.track.under
+        for block, other in system.track.under[car].items()
     )
 
 
