@@ -298,11 +298,11 @@ def give_back(site: Survey, system: Joint, run: Run, at: Standstill) -> Joint:
         return system
     unit, start_end_mm = system.system.units[run.train], system.block_ends_mm[run][site.site.layout.start[run.route]]
     given = first_loop.give_back(site.site.lists, unit, run, at, system.brake[run.train].end_mm, start_end_mm)
+    told = replace(system, system=replace(system.system, units=system.system.units | {run.train: given}))
     if first_loop.acknowledges_back(unit, run) or not first_loop.acknowledges_back(given, run):
-        return system
+        return told
     return replace(
-        system,
-        system=replace(system.system, units=system.system.units | {run.train: given}),
+        told,
         begins_mm={other: begins_mm for other, begins_mm in system.begins_mm.items() if other != run},
         block_ends_mm={other: ends_mm for other, ends_mm in system.block_ends_mm.items() if other != run},
         asked=system.asked - {run},
