@@ -116,12 +116,12 @@ def as_they_end(
 ) -> Iterator[Found]:
     """Do each piece of work in one of so many processes; what comes of them, whichever ends first.
 
-    ``one_each``: each has a process of its own, where there are several of this machine.
+    ``one_each``: each has a process of its own, if it is of this machine.
     """
     if not isinstance(jobs, int):
         yield from jobs.as_they_end(do, todo)
         return
-    if jobs <= 1 or len(todo) <= 1:
+    if not one_each and (jobs <= 1 or len(todo) <= 1):
         yield from map(do, todo)
         return
     with processes(jobs, one_each=one_each) as pool:

@@ -110,9 +110,10 @@ def test_all_is_done_and_in_order_where_that_is_said(jobs: int) -> None:
     assert list(spread(square, [], jobs)) == []
 
 
-def test_one_each_has_a_process_of_its_own() -> None:
-    with processes(2, one_each=True) as pool:
-        assert len(set(pool.map(process_of, range(4)))) == 4
+@pytest.mark.parametrize(("jobs", "todo"), [(1, 3), (2, 3), (2, 1)])
+def test_one_each_has_a_process_of_its_own_however_few_there_are(jobs: int, todo: int) -> None:
+    found = list(as_they_end(process_of, range(todo), jobs, one_each=True))
+    assert len({os.getpid(), *found}) == todo + 1
 
 
 def test_what_has_not_begun_is_not_begun() -> None:

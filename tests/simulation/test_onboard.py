@@ -103,3 +103,17 @@ def test_the_brake_is_asked_where_the_train_is_and_not_where_it_was(monkeypatch:
     assert len(asked) > 1_000
     assert all(asked)
     assert all(decided)
+
+
+def test_the_list_of_a_run_that_is_given_back_is_dropped() -> None:
+    """Its points may lie for another run from then on, so that it is true of the track no longer (T9)."""
+    sim = Simulation(plan("passing_station"))
+    while not (listed := [train for train, each in sim.vehicles.items() if each.board.lists]):
+        sim.second()
+    board, unit = sim.vehicles[listed[0]].board, sim.play.system.units[listed[0]]
+    (run,) = board.lists
+    board.follow(unit)
+    assert set(board.lists) == {run}
+    board.follow(replace(unit, orders=unit.orders | {run: replace(unit.orders[run], given_back=True)}))
+    assert not board.lists
+    assert board.brake.withheld
