@@ -82,6 +82,8 @@ def test_unknown_notices_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(solvers, "ask", at_a_loss)
     monkeypatch.setattr(canaries, "answered", lambda *_asked: "unknown")
+    # A process of its own would know nothing of the two lines above.
+    monkeypatch.setattr(planted_changes, "as_they_end", lambda do, todo, *_jobs, **_each: map(do, todo))
     seen = tried("watch_unlatched")
     assert seen.outcome == "undecided"
     assert seen.objection == "not noticed: undecided"
