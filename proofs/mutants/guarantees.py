@@ -101,6 +101,8 @@ def tried(use: Use) -> Outcome:
     found.as_well += [name for name in sorted(left) if proved(use, [*use.base, name], name)]
     left -= {*found.as_well}
     _refute(use, None, found, left, [*_together(left), *_alone(left)], defined=False)
+    for place in places(use):
+        _refute(use, place, found, left, [*_together(left), *_alone(left)], defined=True, apart=True)
     found.open_with = sorted(left)
     found.seconds = round(time.perf_counter() - began, 2)
     return found
@@ -127,17 +129,25 @@ def proved(use: Use, names: Sequence[str], instead: str = "") -> bool:
 
 
 def _refute(
-    use: Use, place: int | None, found: Outcome, left: set[str], in_turn: Sequence[Sequence[str]], *, defined: bool
+    use: Use,
+    place: int | None,
+    found: Outcome,
+    left: set[str],
+    in_turn: Sequence[Sequence[str]],
+    *,
+    defined: bool,
+    apart: bool = False,
 ) -> None:
     """Look for states in which the claim breaks; strike off ``left`` every invariant that holds in one of them.
 
     ``in_turn``: what is to hold there beside the rest.  ``defined``: in which the step looks up nothing that is not
-    there; else those in which it does.
+    there; else those in which it does.  ``apart``: whatever Z3 was asked before, it finds the same; that takes twice
+    as long.
     """
     for names in in_turn:
         if found.without != "open" and not set(names) & left:
             continue
-        state = questions(use.row, place).broken(use, [*use.base, *names], defined)
+        state = questions(use.row, place).broken(use, [*use.base, *names], defined, apart)
         if state is not None:
             found.without, found.by = "refuted", found.by or ", ".join(state.false)
             left -= {name for name in left if state.holds(name)}
@@ -178,15 +188,23 @@ class Questions:
         self.before = said(self.theory.name, place)
         self._wrong: dict[str, list[Any]] = {}
 
-    def broken(self, use: Use, names: Sequence[str], defined: bool) -> Broken | None:
-        """Look for a step that breaks the claim, or is not defined, though all of these hold before it."""
+    def broken(self, use: Use, names: Sequence[str], defined: bool, apart: bool) -> Broken | None:
+        """Look for a step that breaks the claim, or is not defined, though all of these hold before it.
+
+        What Z3 finds in the context that all questions share may depend on those asked before: ``apart``, each has a
+        context of its own.
+        """
         for formula in self.wrong(use.column) if defined else [z3.Not(self.defined)]:
             solver = z3.Solver()
-            solver.set("rlimit", SPENDING)
             solver.add(*(self.before[name] for name in names), formula)
             solver.add(*(named.formula for named in self.on.scope.axioms()))
-            if solver.check() == z3.sat and (state := self.replayed(use, names, solver.model())) is not None:
-                return state
+            if apart:
+                solver = solver.translate(z3.Context())
+            solver.set("rlimit", SPENDING)
+            if solver.check() == z3.sat:
+                state = self.replayed(use, names, solver.model().translate(z3.main_ctx()))
+                if state is not None:
+                    return state
         return None
 
     def wrong(self, column: str) -> list[Any]:

@@ -93,6 +93,19 @@ def test_what_is_unknown_refutes_nothing(monkeypatch: pytest.MonkeyPatch) -> Non
     assert set(told["open_with"]) == set(HEADS_BLOCK.others)
 
 
+def test_what_is_not_found_in_the_context_of_all_questions_is_found_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, broken = list[bool](), guarantees.Questions.broken
+
+    def apart_alone(self: guarantees.Questions, use: Use, names: list[str], defined: bool, apart: bool) -> Any:
+        asked.append(apart)
+        return broken(self, use, names, defined, apart) if apart else None
+
+    monkeypatch.setattr(guarantees.Questions, "broken", apart_alone)
+    found = guarantees.tried(HEADS_BLOCK)
+    assert (found.without, found.as_well, found.open_with) == ("refuted", [HEADS_BLOCK.column], [])
+    assert {*asked} == {True, False}
+
+
 def test_a_step_that_nobody_confirms_in_cpython_refutes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(guarantees.Questions, "replayed", lambda *_: None)
     monkeypatch.setattr(guarantees, "proved", lambda *_: False)
