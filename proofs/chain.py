@@ -34,6 +34,10 @@ CORES = (Path() if is_installed() else assumptions.ROOT) / "out" / "cores.json"
 """What ``python -m proofs.cores --json out/cores.json`` leaves; of another commit it tells nothing."""
 THEOREM = ("occupancy", "train")
 """The theories whose claims are the theorem: of all trains on the line, and of each alone, both in millimetres."""
+IN_WORDS = (
+    "no two trains touch, no point moves under one, none is beyond the end of its authority, and none is faster than"
+    " permitted by more than it gains until its brake responds"
+)
 
 
 @dataclass(frozen=True)
@@ -175,10 +179,7 @@ def _theory(name: str) -> str:
 def print_chain(console: Console, report: Report) -> None:
     """Print the chain as a tree, with what was proved of each theory in it, and how many links are tied how."""
     found, proved = chain(), _proved(report)
-    root, shown = (
-        Tree("no two trains touch, no point moves under one, and none is beyond the end of its authority"),
-        set[str](),
-    )
+    root, shown = Tree(IN_WORDS), set[str]()
     for name in THEOREM:
         _grow(root, name, found, proved, shown)
     console.print(root)

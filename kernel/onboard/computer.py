@@ -240,13 +240,16 @@ def note_listed(limits: Limits, computer: Computer, place_mm: int, kind: int) ->
 
     It is told in the same cycle as the end of authority beyond it, or before.
     """
-    ahead = restriction_ahead.note_listed(computer.known.ahead, kind, read_from_mm(limits, place_mm))
+    ahead = restriction_ahead.note_listed(computer.known.ahead, kind, begins_from_mm(limits, place_mm))
     return note_entered(replace(computer, known=replace(computer.known, ahead=ahead)))
 
 
-def read_from_mm(limits: Limits, place_mm: int) -> int:
-    """Give where the front is at the least when the head reads a tag that is listed at ``place_mm`` (T1, T2)."""
-    return place_mm + limits.tags.antenna_mm - limits.tags.error_mm
+def begins_from_mm(limits: Limits, place_mm: int) -> int:
+    """Give where at the nearest that begins which a tag listed at ``place_mm`` says: at the tag itself (T1, T12).
+
+    The front gets there before its antenna, which is behind it, reads the tag.
+    """
+    return place_mm - limits.tags.error_mm
 
 
 def await_none(computer: Computer) -> Computer:

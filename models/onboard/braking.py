@@ -136,9 +136,9 @@ def a_list_hides_no_restriction(in_curve: bool, at_turnout: bool, kind: int) -> 
     return speed_limit.a_kind_hides_no_restriction(in_curve, at_turnout, kind)
 
 
-def a_listed_tag_is_read_no_earlier(from_mm: int, read_from_nm: int) -> bool:
-    """Where the unit reckons that a listed tag is read first, none is read before (T1, T2)."""
-    return NM_A_MM * from_mm <= read_from_nm
+def what_a_listed_tag_begins_lies_no_nearer(from_mm: int, begins_nm: int) -> bool:
+    """Where the unit reckons that a listed tag begins a restriction, none begins before (T1, T2)."""
+    return NM_A_MM * from_mm <= begins_nm
 
 
 # ---- transitions
@@ -212,14 +212,14 @@ def list_tag(
     at_turnout: bool,
     kind: int,
     from_mm: int,
-    read_from_nm: int,
+    begins_nm: int,
 ) -> Approach:
-    """A tag is listed ahead; the front is at ``read_from_nm`` or beyond when it is read (T1, T12)."""
+    """A tag is listed ahead; what it says begins at ``begins_nm`` (T1, T12)."""
     if not a_list_hides_no_restriction(in_curve, at_turnout, kind):
         return system
-    if not a_listed_tag_is_read_no_earlier(from_mm, read_from_nm):
+    if not what_a_listed_tag_begins_lies_no_nearer(from_mm, begins_nm):
         return system
-    return replace(system, slowing=slowing.listed(system.slowing, in_curve, at_turnout, kind, from_mm, read_from_nm))
+    return replace(system, slowing=slowing.listed(system.slowing, in_curve, at_turnout, kind, from_mm, begins_nm))
 
 
 def list_none(site: Vehicle, system: Approach) -> Approach:

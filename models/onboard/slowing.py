@@ -79,12 +79,12 @@ def at_rest(bounds: BrakeBounds, head_nm: int, end_mm: int) -> Slowing:
     )
 
 
-def listed(slowing: Slowing, in_curve: bool, at_turnout: bool, kind: int, from_mm: int, read_from_nm: int) -> Slowing:
+def listed(slowing: Slowing, in_curve: bool, at_turnout: bool, kind: int, from_mm: int, begins_nm: int) -> Slowing:
     """A tag is listed ahead, from which a curve, a turnout, both or neither lies."""
     return replace(
         slowing,
-        curve_nm=smaller(slowing.curve_nm, read_from_nm) if in_curve else slowing.curve_nm,
-        turnout_nm=smaller(slowing.turnout_nm, read_from_nm) if at_turnout else slowing.turnout_nm,
+        curve_nm=smaller(slowing.curve_nm, begins_nm) if in_curve else slowing.curve_nm,
+        turnout_nm=smaller(slowing.turnout_nm, begins_nm) if at_turnout else slowing.turnout_nm,
         ahead=restriction_ahead.note_listed(slowing.ahead, kind, from_mm),
     )
 

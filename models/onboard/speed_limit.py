@@ -84,6 +84,18 @@ def a_list_has_what_a_missed_tag_begins(system: Passage, in_curve: bool, at_turn
     )
 
 
+# ---- how fast it may run
+
+
+def permitted_mm_s(site: Profile, system: Passage) -> int:
+    """Give how fast the line, and every curve and turnout that some part of the train is in, lets it run (T12)."""
+    rear_nm = system.front_nm - NM_A_MM * site.length_mm
+    in_curve = system.in_curve or rear_nm <= system.left_curve_nm
+    at_turnout = system.at_turnout or rear_nm <= system.left_turnout_nm
+    in_curve_mm_s = smaller(site.table.line_mm_s, site.table.curve_mm_s) if in_curve else site.table.line_mm_s
+    return smaller(in_curve_mm_s, site.table.turnout_mm_s) if at_turnout else in_curve_mm_s
+
+
 # ---- transitions
 
 

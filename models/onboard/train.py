@@ -25,8 +25,10 @@ from models.onboard import (
     tag_window,
     train_length,
 )
+from models.onboard import ceiling as ceilings
 from models.onboard.antenna_spacing import Trailing
 from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
+from models.onboard.ceiling import Keeping
 from models.onboard.train_length import Formation
 from models.onboard.train_nature import (
     Train,
@@ -126,10 +128,19 @@ def run_a_cycle(
             at.speed_most_mm_s,
         ),
         proceeds=may_proceed,
+        permitted=_permitted(site, system, decided),
         head=antenna_above.begin_a_cycle(receiver(site), system.head),
         tail=antenna_above.begin_a_cycle(receiver(site), system.tail),
         computer=decided,
     )
+
+
+def _permitted(site: Train, system: Whole, decided: Computer) -> Keeping:
+    """While its brake is off the train keeps to what its track permits now, and then to what that was (T12)."""
+    if decided.brake.applied:
+        return ceilings.held(system.permitted)
+    now_mm_s = speed_limit.permitted_mm_s(profile(site), passage(system, system.front_nm))
+    return ceilings.begun(site.limits.train.brake, now_mm_s)
 
 
 def sense_the_cycle(
@@ -336,6 +347,7 @@ def _at_rest(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
         watched=replace(watched(system), allowed_mm_s=0),
         asked=system.computer.brake,
         held=True,
+        permitted=KEEPING_AT_REST,
         expecting=tag_window.expect_none(stretch(site), system.expecting),
         passing=come_to_listed(
             site, speed_limit.locate_anew(profile(site), passage(system, system.front_nm)), system.computer

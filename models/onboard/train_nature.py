@@ -28,6 +28,7 @@ from models.onboard.antenna_above import Above
 from models.onboard.antenna_spacing import Track, Trailing
 from models.onboard.brake_watch import Watched
 from models.onboard.braking import Approach
+from models.onboard.ceiling import Keeping
 from models.onboard.odometry import Line, Running
 from models.onboard.speed_limit import Passage, Profile
 from models.onboard.tag_fix import Antenna
@@ -71,6 +72,7 @@ class Whole:
     line, came over the tag that was awaited then, and which was not overdue.
     ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
     ``proceeds``: history: the orders let it proceed when its computer decided last.
+    ``permitted``: history: the train as it keeps to what all of its track let it run when its brake was off last.
     ``head``, ``tail``: the antennas of head and tail, as the tag reader is proved with each.
     ``computer``: what its computer remembers.
     """
@@ -94,6 +96,7 @@ class Whole:
     asked: Brake
     held: bool
     proceeds: bool
+    permitted: Keeping
     head: Above
     tail: Above
     computer: Computer

@@ -241,10 +241,9 @@ def note_listed(
 def _listed(
     site: Train, there: Approach, place_mm: int, kind: int, uid: int, in_curve: bool, at_turnout: bool
 ) -> Approach:
-    """The head reads it no earlier than at the near end of its read window (T2)."""
-    from_mm, read_from_mm = computer.read_from_mm(site.limits, place_mm), uid - site.read_within_mm
-    read_from_nm = NM_A_MM * (read_from_mm + site.limits.tags.antenna_mm)
-    return braking.list_tag(braked(site), there, in_curve, at_turnout, kind, from_mm, read_from_nm)
+    """What it says begins where it lies, whether its antenna reads it there or not (T1)."""
+    from_mm = computer.begins_from_mm(site.limits, place_mm)
+    return braking.list_tag(braked(site), there, in_curve, at_turnout, kind, from_mm, NM_A_MM * uid)
 
 
 def await_none(site: Train, system: Whole) -> Whole:

@@ -10,6 +10,7 @@ from models.onboard.speed_limit import (
     locate_anew,
     miss_a_tag,
     pass_tag,
+    permitted_mm_s,
     run_on,
 )
 from models.onboard.units import NM_A_MM, UM_A_MM
@@ -33,14 +34,7 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Profile, system: Passage)
 
 def keeps_to_its_track(site: Profile, system: Passage) -> bool:
     """Tell whether the train is no faster than line, curve and turnout allow, with any part of it in them."""
-    rear_nm = system.front_nm - NM_A_MM * site.length_mm
-    in_curve = system.in_curve or rear_nm <= system.left_curve_nm
-    at_turnout = system.at_turnout or rear_nm <= system.left_turnout_nm
-    return (
-        system.speed_um_s <= UM_A_MM * site.table.line_mm_s
-        and (system.speed_um_s <= UM_A_MM * site.table.curve_mm_s or not in_curve)
-        and (system.speed_um_s <= UM_A_MM * site.table.turnout_mm_s or not at_turnout)
-    )
+    return system.speed_um_s <= UM_A_MM * permitted_mm_s(site, system)
 
 
 # ---- what it rests on

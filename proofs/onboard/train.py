@@ -13,6 +13,7 @@ from kernel.onboard.odometry import Loss
 from kernel.standstill import is_braked, stands
 from models.onboard import antenna_spacing as world_of_antennas
 from models.onboard import train_tags
+from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
 from models.onboard.joint import (
     the_brake_takes_the_end_or_stays_applied,
     the_head_stays_inside_authority,
@@ -131,6 +132,7 @@ def the_train_stands_held_by_its_brake(site: Train, system: Whole) -> bool:
         and system.computer.before.loss == Loss.LOCATED_ANEW
         and system.computer.brake == system.approach.brake
         and not system.astern
+        and system.permitted == KEEPING_AT_REST
         and system.computer.brake == system.asked
         and system.held
         and speed_limit.nothing_is_known_of_the_track(profile(site), system.passing)
@@ -373,6 +375,7 @@ SAFETY = (
     a_whole_train_is_never_accused,
     a_tail_that_counts_is_the_trains_last,
     a_train_too_fast_for_any_of_its_track_brakes,
+    train_parts.no_train_is_faster_than_permitted_by_more_than_it_gains,
     train_parts.no_train_enters_a_listed_restriction_faster_than_permitted,
     train_parts.no_head_passes_the_end_that_it_was_let_run_to,
     train_parts.no_train_is_faster_than_the_ceiling_that_it_keeps_to,
@@ -420,6 +423,7 @@ INVARIANTS = (
     train_parts.it_is_reckoned_with_no_more_than_is_guaranteed,
     the_way_to_stop_lies_before_the_end,
     the_way_to_stop_is_enough,
+    train_parts.until_its_brake_responds_a_train_gains_no_more,
     train_parts.the_worst_is_no_faster_than_the_ceiling,
     train_parts.a_train_that_keeps_to_a_ceiling_gets_no_faster,
     train_parts.motors_are_cut_off_before_the_brake_responds,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from kernel.onboard import computer
 from kernel.onboard.odometry import Loss
 from kernel.onboard.train_length import PointKind
@@ -146,6 +148,23 @@ def no_train_enters_a_listed_restriction_faster_than_permitted(site: Train, syst
     return braking.no_train_enters_a_listed_restriction_faster_than_permitted(braked(site), approach(system))
 
 
+def no_train_is_faster_than_permitted_by_more_than_it_gains(site: Train, system: Whole) -> bool:
+    """No faster than line, curve or turnout let any part of it run when its brake was off last, but for its gain (T12).
+
+    That is what motors and descent give it in that cycle, and until the brake has responded: it keeps to what is
+    permitted as it does to a ceiling, which may be lowered only so far that it still can.
+    """
+    return system.speed_um_s <= system.permitted.worst_um_s
+
+
+def until_its_brake_responds_a_train_gains_no_more(site: Train, system: Whole) -> bool:
+    """Until the brake has responded the speed stays below that, the motors cut off sooner (T12)."""
+    permitted = replace(approach(system), keeping=system.permitted)
+    return braking.a_train_that_keeps_to_a_ceiling_gets_no_faster(
+        braked(site), permitted
+    ) and braking.motors_are_cut_off_before_the_brake_responds(braked(site), permitted)
+
+
 def no_train_is_faster_than_the_ceiling_that_it_keeps_to(site: Train, system: Whole) -> bool:
     """At the end of each cycle: while the brake responds, lost, and after a restart, too (X2, T12)."""
     return braking.no_train_is_faster_than_the_ceiling_that_it_keeps_to(braked(site), approach(system))
@@ -176,6 +195,8 @@ def the_brake_responds_once_it_was_commanded_for_long_enough(site: Train, system
         and cycles + system.approach.slowing.response_cycles >= response_cycles
         and cycles + ceiling.response_cycles(system.approach.keeping) >= response_cycles
         and cycles + system.approach.keeping.cut_cycles >= site.limits.train.brake.cut_cycles
+        and cycles + ceiling.response_cycles(system.permitted) >= response_cycles
+        and cycles + system.permitted.cut_cycles >= site.limits.train.brake.cut_cycles
     )
 
 

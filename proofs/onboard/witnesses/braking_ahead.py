@@ -38,7 +38,7 @@ class Train(Play[Vehicle, Approach]):
     def lists(self, kind: int, from_mm: int, *, curve: bool = False, turnout: bool = False, off_nm: int = 0) -> None:
         """A tag is listed ahead, with what lies from it on."""
         event = {"in_curve": curve, "at_turnout": turnout, "kind": kind, "from_mm": from_mm}
-        self.step("list_tag", **event, read_from_nm=NM_A_MM * from_mm + off_nm)
+        self.step("list_tag", **event, begins_nm=NM_A_MM * from_mm + off_nm)
 
     def cycle(self, speed_um_s: int, *, acknowledged: bool = False, front_mm: int | None = None) -> None:
         """Get to a speed in one cycle, as far as can be."""

@@ -128,6 +128,7 @@ def at_rest() -> Whole:
         asked=begun.brake,
         held=True,
         proceeds=False,
+        permitted=KEEPING_AT_REST,
         head=ABOVE_NOTHING,
         tail=ABOVE_NOTHING,
         computer=replace(begun, known=known, before=odometry.past(motion), spacing=JUST_STARTED.spacing),
@@ -184,6 +185,7 @@ class Ride(Play[Train, Whole]):
         event = {"may_proceed": may_proceed, "acknowledged": acknowledged, "to_nm": to_nm, "speed_um_s": speed_um_s}
         self.step("run_a_cycle", **event)
         assert self.system.runs
+        assert self.system.proceeds == may_proceed
         assert (self.system.front_nm, self.system.speed_um_s) == (to_nm, speed_um_s)
 
     def sense(self, tail: TailReadings = TAIL) -> None:

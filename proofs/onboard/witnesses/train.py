@@ -21,7 +21,7 @@ from models.onboard.train_nature import (
 )
 from models.onboard.units import NM_A_MM
 from proofs.onboard.train import the_train_stands_held_by_its_brake
-from proofs.onboard.witnesses import found_sound, train_promising, train_reading
+from proofs.onboard.witnesses import found_sound, train_on_its_track, train_promising, train_reading
 from proofs.onboard.witnesses.one_train import (
     BRAKE,
     END_MM,
@@ -48,14 +48,6 @@ from proofs.onboard.witnesses.train_measured import (
     a_train_is_measured_by_a_tag_that_both_antennas_read,
     no_length_is_measured_by_anothers_antenna,
     the_faster_end_of_a_cycle_counts_for_a_pass_and_none_runs_backwards,
-)
-from proofs.onboard.witnesses.train_on_its_track import (
-    a_curve_whose_tag_was_missed_is_not_forgotten,
-    a_listed_turnout_is_entered_no_faster_than_it_allows,
-    a_restriction_is_entered_with_the_list_that_has_it,
-    a_tag_that_hides_a_curve_is_none_of_this_world,
-    the_track_is_what_the_tags_say_for_the_whole_train,
-    what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
 )
 
 # ---- it runs
@@ -461,12 +453,7 @@ WITNESSES = (
     an_awaited_tag_is_refused_by_a_train_that_did_not_know_where_it_was,
     an_awaited_tag_that_does_not_come_brakes_the_train,
     a_tag_listed_elsewhere_says_nothing,
-    the_track_is_what_the_tags_say_for_the_whole_train,
-    what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
-    a_curve_whose_tag_was_missed_is_not_forgotten,
-    a_restriction_is_entered_with_the_list_that_has_it,
-    a_listed_turnout_is_entered_no_faster_than_it_allows,
-    a_tag_that_hides_a_curve_is_none_of_this_world,
+    *train_on_its_track.WITNESSES,
     a_fix_that_contradicts_leaves_the_track_unknown,
     a_tail_that_follows_as_preset_counts,
     a_tail_comes_over_a_tag_by_what_tags_and_reads_may_err,

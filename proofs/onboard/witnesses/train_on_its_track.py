@@ -7,9 +7,23 @@ from dataclasses import replace
 from kernel.onboard import computer
 from kernel.onboard.restriction_ahead import NONE_LISTED, Ahead
 from kernel.onboard.speed_limit import UNKNOWN as NO_TRACK_KNOWN
+from kernel.onboard.speed_limit import SpeedTable
 from kernel.onboard.tag_kind import CURVE, PLAIN, TURNOUT
+from models.onboard.ceiling import AT_REST as KEEPING_AT_REST
+from models.onboard.ceiling import Keeping
+from models.onboard.speed_limit import permitted_mm_s
+from models.onboard.train_nature import profile
 from models.onboard.units import NM_A_MM
-from proofs.onboard.witnesses.one_train import LIMITS, PLAIN_TRACK, Ride, approaching, heard, record
+from proofs.onboard.witnesses.one_train import (
+    LIMITS,
+    PLAIN_TRACK,
+    SITE,
+    Ride,
+    approaching,
+    at_rest,
+    heard,
+    record,
+)
 from proofs.onboard.witnesses.rolling_stock import START_MM
 
 
@@ -68,8 +82,8 @@ def a_listed_turnout_is_entered_no_faster_than_it_allows() -> None:
     ride.step("note_listed", place_mm=turnout_mm, uid=turnout_mm + 201, **turnout)
     assert ride.system.computer.known.ahead == NONE_LISTED, "no list hides it, nor has it elsewhere"
     ride.step("note_listed", place_mm=turnout_mm, uid=turnout_mm, **turnout)
-    from_mm = turnout_mm + 4_000 - 700
-    assert ride.system.computer.known.ahead == Ahead(NONE_LISTED.curve_mm, from_mm), "where it is read at the earliest"
+    from_mm = turnout_mm - 700
+    assert ride.system.computer.known.ahead == Ahead(NONE_LISTED.curve_mm, from_mm), "where it lies at the nearest"
     ride.gather(5_000)
     ride.until(tag_mm + 4_000)
     ride.reads(tag_mm)
@@ -166,3 +180,55 @@ def what_is_listed_is_forgotten_with_the_tag_that_is_awaited() -> None:
     front_mm = ride.system.front_nm // NM_A_MM
     ride.step("locate_anew", least_mm=front_mm, most_mm=front_mm + 1_000)
     assert ride.system.computer.known.ahead == NONE_LISTED
+
+
+def it_gains_until_its_brake_responds() -> None:
+    """Whoever gathers speed at the limit is as much faster as motors and descent give until then, and no more (T12)."""
+    ride = Ride()
+    ride.start()
+    run_until_it_brakes(ride, 100)
+    assert ride.system.from_um_s == 14_900_000
+    worst_um_s = 15_000_000 + 2 * 102 * 1_300 + 2 * 102 * 300
+    assert ride.system.permitted == Keeping(cut_cycles=0, falling_cycles=2, worst_um_s=worst_um_s)
+    for falling_cycles in (1, 0, 0):
+        ride.cycle(ride.system.speed_um_s // 1_000 + (30 if ride.system.permitted.falling_cycles else -70))
+        assert ride.system.permitted == Keeping(0, falling_cycles, worst_um_s)
+    assert ride.system.speed_um_s == 14_990_000
+    ride.stop()
+    front_mm = ride.system.front_nm // NM_A_MM
+    ride.stand_until_held()
+    ride.step("locate_anew", least_mm=front_mm - 1_000, most_mm=front_mm + 1_000)
+    assert ride.system.permitted == KEEPING_AT_REST
+
+
+def the_smallest_is_permitted_from_head_to_rear() -> None:
+    """A curve and a turnout restrict while a part of the train is in them, to their end and not beyond (T12)."""
+    site, plain = profile(SITE), replace(at_rest().passing, front_nm=0, at_turnout=False)
+    rear_nm = -site.length_mm * NM_A_MM
+    beyond = replace(plain, left_curve_nm=rear_nm - 1, left_turnout_nm=rear_nm - 1)
+    seen = {
+        40: beyond,
+        20: replace(beyond, in_curve=True),
+        15: replace(beyond, at_turnout=True),
+    }
+    for permitted_m_s, passage in seen.items():
+        assert permitted_mm_s(site, passage) == 1_000 * permitted_m_s
+    assert permitted_mm_s(site, replace(beyond, left_curve_nm=rear_nm)) == 20_000
+    assert permitted_mm_s(site, replace(beyond, left_turnout_nm=rear_nm)) == 15_000
+    assert permitted_mm_s(site, replace(beyond, in_curve=True, at_turnout=True)) == 15_000
+    slow = replace(site, table=SpeedTable(line_mm_s=10_000, curve_mm_s=12_000, turnout_mm_s=14_000))
+    assert permitted_mm_s(slow, replace(beyond, in_curve=True, at_turnout=True)) == 10_000
+    sharp = replace(site, table=SpeedTable(line_mm_s=40_000, curve_mm_s=12_000, turnout_mm_s=14_000))
+    assert permitted_mm_s(sharp, replace(beyond, in_curve=True, at_turnout=True)) == 12_000
+
+
+WITNESSES = (
+    the_track_is_what_the_tags_say_for_the_whole_train,
+    what_is_listed_is_forgotten_with_the_tag_that_is_awaited,
+    a_curve_whose_tag_was_missed_is_not_forgotten,
+    a_restriction_is_entered_with_the_list_that_has_it,
+    a_listed_turnout_is_entered_no_faster_than_it_allows,
+    a_tag_that_hides_a_curve_is_none_of_this_world,
+    it_gains_until_its_brake_responds,
+    the_smallest_is_permitted_from_head_to_rear,
+)
