@@ -111,9 +111,12 @@ def is_one_train_written(sensors: SensorBounds, brake: BrakeBounds) -> bool:
     )
 
 
-def is_reverse_lawful(reverse: ReverseLimits, surveyed: Surveyed) -> bool:
-    """Tell whether it is noticed that a train rolls back, before its tail reads a boundary's tags in reverse (T2)."""
-    return 0 <= reverse.roll_back_mm < surveyed.pair_mm
+def is_reverse_lawful(reverse: ReverseLimits, pulse_mm: int, surveyed: Surveyed) -> bool:
+    """Tell whether it is noticed that a train rolls back, before its tail reads a boundary's tags in reverse (T2).
+
+    By a wheel that shows a twentieth and a pulse too little of it.
+    """
+    return reverse.roll_back_mm >= 0 and 21 * reverse.roll_back_mm + 20 * pulse_mm < 20 * surveyed.pair_mm
 
 
 def are_tags_lawful(tags: TagLimits, window: WindowLimits, surveyed: Surveyed) -> bool:
@@ -146,14 +149,15 @@ def is_window_lawful(window: WindowLimits, line_mm_s: int, antennas_mm: int, sur
 def is_spacing_lawful(spacing: SpacingLimits, surveyed: Surveyed) -> bool:
     """Tell whether what is allowed the antennas covers presetting them and both their read windows (T3, T13).
 
-    A vehicle that is missing is more than tolerance, read windows and width of the range can hide together: what is
-    known no better than that is not compared, and what is compared finds another antenna in the tail's place.
+    A vehicle that is missing is more than tolerance, read windows, width of the range and the error of presetting can
+    hide together: what is known no better is not compared, and what is compared finds another antenna in the tail's
+    place.
     """
     windows_mm = 2 * surveyed.read_within_mm
     return (
         surveyed.preset_within_mm >= 0
         and spacing.tolerance_mm >= surveyed.preset_within_mm + windows_mm
-        and spacing.tolerance_mm + windows_mm + spacing.width_mm < surveyed.vehicle_mm
+        and spacing.tolerance_mm + windows_mm + spacing.width_mm + surveyed.preset_within_mm < surveyed.vehicle_mm
     )
 
 
@@ -226,5 +230,5 @@ def are_lawful(limits: Limits, surveyed: Surveyed) -> bool:
         and is_length_lawful(limits, surveyed)
         and is_reader_lawful(limits.reader)
         and is_one_train_written(limits.sensors, limits.train.brake)
-        and is_reverse_lawful(limits.reverse, surveyed)
+        and is_reverse_lawful(limits.reverse, limits.sensors.pulse_mm, surveyed)
     )

@@ -116,22 +116,40 @@ def premises(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "split": split.limits_are_not_negative(split.Coupled(limits.split, 0, 0, 0))
         and leaves_whole_trains_alone(limits.split, surveyed.whole_mm_s2),
         "spacing": antenna_spacing.the_tolerance_covers_preset_and_read_window(track)
-        and antenna_spacing.is_off(track, NM_A_MM * surveyed.vehicle_mm),
+        and antenna_spacing.is_off(track, NM_A_MM * (surveyed.vehicle_mm - surveyed.preset_within_mm)),
         "length": the_lengths_bounds_fit(site) and one_length_is_written_and_it_covers_the_antennas(site),
         "reverse": reverse_movement.bounds_are_not_negative(wheel)
-        and not reverse_movement_hides(limits.reverse.roll_back_mm, surveyed.pair_mm),
+        and not reverse_movement_hides(wheel, surveyed.pair_mm),
         "one train": can_be_one_train(limits.sensors, limits.train.brake),
         "reader": a_gap_between_tags_has_a_length(site),
         "rest": is_held_at_last(limits),
     }
 
 
-def reverse_movement_hides(roll_back_mm: int, pair_mm: int) -> bool:
-    """Tell whether a train whose tail has rolled from one tag of a boundary to the other may count as located still."""
+def reverse_movement_hides(wheel: reverse_movement.Wheel, pair_mm: int) -> bool:
+    """Tell whether a train whose tail has rolled from one tag of a boundary to the other may count as located still.
+
+    By any number of pulses that a wheel which rolls may show of it.
+    """
+    hides = not reverse_movement.is_too_far_back(wheel, NM_A_MM * pair_mm)
+    shown_mm = range(-pair_mm, 1)
+    if pair_mm >= 0 and reverse_movement.bounds_are_not_negative(wheel):
+        assert hides == any(may_show(wheel, pair_mm, each) and is_missed(wheel, each) for each in shown_mm)
+    return hides
+
+
+def may_show(wheel: reverse_movement.Wheel, back_mm: int, shown_mm: int) -> bool:
+    """Tell whether a wheel that rolls and is read may show so much of the way back."""
+    seen = reverse_movement.Rolling(0, True, 0, 0, False, reverse.LOCATED)
+    readings = Readings(100, True, 0, shown_mm, True, 0)
+    return reverse_movement.a_rolling_wheel_measures(wheel, seen, readings, -NM_A_MM * back_mm, True)
+
+
+def is_missed(wheel: reverse_movement.Wheel, shown_mm: int) -> bool:
+    """Tell whether the watch takes so many pulses for no reverse movement."""
     movement = reverse.LOCATED
-    for way_mm in (0, -pair_mm):
-        readings = Readings(100, True, 0, way_mm, True, 0)
-        movement = reverse.note_cycle(reverse.ReverseLimits(roll_back_mm), movement, readings)
+    for way_mm in (0, shown_mm):
+        movement = reverse.note_cycle(wheel.limits, movement, Readings(100, True, 0, way_mm, True, 0))
     return not movement.reversed
 
 
@@ -170,7 +188,7 @@ def parts(limits: Limits, surveyed: Surveyed) -> dict[str, bool]:
         "split": is_split_lawful(limits.split, surveyed),
         "spacing": is_spacing_lawful(limits.spacing, surveyed),
         "length": is_length_lawful(limits, surveyed),
-        "reverse": is_reverse_lawful(limits.reverse, surveyed),
+        "reverse": is_reverse_lawful(limits.reverse, limits.sensors.pulse_mm, surveyed),
         "one train": is_one_train_written(limits.sensors, limits.train.brake),
         "reader": is_reader_lawful(limits.reader),
         "rest": is_found_at_rest(limits.sensors, limits.train.brake),
@@ -220,9 +238,9 @@ def test_the_plan_is_lawful_and_just_so() -> None:
         {"pace_cycles": 19},
         {"laid_within_mm": 44},
         {"preset_within_mm": 87},
-        {"vehicle_mm": 19_114},
+        {"vehicle_mm": 19_194},
         {"whole_mm_s2": 511},
-        {"pair_mm": 2_000},
+        {"pair_mm": 2_146},
     )
     for worse in worst:
         survey = replace(SURVEYED, **worse)
