@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from kernel.names import Block, Epoch, UnitLife
-from kernel.standstill import Standstill, ThroughLine, is_held, is_whole
+from kernel.standstill import Standstill, ThroughLine, is_whole, stays_held
 from kernel.unit import NO_BLOCKS, NO_ORDERS, Unit
 
 
@@ -13,12 +13,13 @@ def answer(
     """Answer the challenge of ``epoch``: drop every authority, begin a new life, tell where the train stands (T8).
 
     ``blocks``: by the tags at both ends, all the blocks that the train may be in.
-    The brake holds the train by then: what has just been given away cannot be run into while a brake responds.
+    The brake holds the train by then: what has just been given away cannot be run into while a brake responds.  It is
+    withheld besides: an end that was taken before, or an order that was looked at before, releases it no more.
     What a life has said stays true, since it cannot move before the centre has taken it.  A challenge that has been
     answered (:func:`tells_standing`) is answered again only for the driver, who asks to be located anew: so a train
     at rest gives back whatever it can neither run under nor give back one by one.
     """
-    if not is_held(at) or not is_whole(line) or life <= unit.life:
+    if not stays_held(at) or not is_whole(line) or life <= unit.life:
         return unit
     return Unit(
         life=life,

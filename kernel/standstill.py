@@ -15,6 +15,7 @@ class Standstill:
     ``standstill_mm_s``: certainly no faster than this, either way, the train counts as standing (T12).
     ``braked_cycles``: for how many cycles on end its brake has been commanded, counted up to its response.
     ``response_cycles``: the brake holds the train once it has been commanded for so many (T12).
+    ``releasable``: an acknowledgement releases it; if not, it is withheld until an end of authority is taken (T4).
     """
 
     known: bool
@@ -25,6 +26,7 @@ class Standstill:
     standstill_mm_s: int
     braked_cycles: int
     response_cycles: int
+    releasable: bool
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,11 @@ def is_braked(at: Standstill) -> bool:
 def is_held(at: Standstill) -> bool:
     """Tell whether the train certainly stands, and its brake holds it there (T8, T12)."""
     return stands(at) and is_braked(at)
+
+
+def stays_held(at: Standstill) -> bool:
+    """Tell whether it holds the train there until an end of authority is taken, whoever acknowledges (T4, T8, T12)."""
+    return is_held(at) and not at.releasable
 
 
 def is_held_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:

@@ -25,7 +25,7 @@ from kernel.names import (
     UnitLife,
 )
 from kernel.standstill import Standstill, ThroughLine
-from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, ROLLING, WHOLE
+from models.simulator.senses import AT_REST, BROKEN, NOT_HELD, RELEASABLE, ROLLING, WHOLE
 from models.world.state import Site, System
 from proofs.catalogue import STEPS
 from proofs.transitions import event_types
@@ -145,7 +145,7 @@ VALUES: Mapping[Any, Value] = {
     Epoch: _epoch,
     UnitLife: _unit_life,
     TerminalLife: _terminal_life,
-    Standstill: lambda site, system, pick: _one((AT_REST, ROLLING, NOT_HELD), pick),
+    Standstill: lambda site, system, pick: _one((AT_REST, ROLLING, NOT_HELD, RELEASABLE), pick),
     ThroughLine: lambda site, system, pick: _one((WHOLE, BROKEN), pick),
     bool: lambda site, system, pick: bool(pick(2)),
     int: lambda site, system, pick: pick(2),

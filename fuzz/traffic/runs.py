@@ -23,7 +23,7 @@ from models.world.start import start
 from proofs.catalogue import INVARIANTS
 from proofs.transitions import TRANSITIONS, event_types
 
-WIDTHS: Mapping[Any, int] = {Run: 4, Read: 2, Standstill: 8, ThroughLine: 3}
+WIDTHS: Mapping[Any, int] = {Run: 4, Read: 2, Standstill: 9, ThroughLine: 3}
 """How many words of an event a record takes."""
 
 STAGES = ("reserved", "offered", "set", "standing", "over", "no run at the centre")

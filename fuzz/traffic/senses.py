@@ -6,7 +6,7 @@ from typing import Any
 
 from fuzz.traffic.compiling import compiled
 
-STANDSTILL_WORDS, LINE_WORDS = 8, 3
+STANDSTILL_WORDS, LINE_WORDS = 9, 3
 """The words of `Standstill` and of `ThroughLine`."""
 
 

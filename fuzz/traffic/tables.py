@@ -130,7 +130,7 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Cab: (IS_CAB,),
     bool: (IS_BOOL,),
     int: (IS_MM,),
-    Standstill: (IS_BOOL, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM),
+    Standstill: (IS_BOOL, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_BOOL),
     ThroughLine: (IS_BOOL, IS_BOOL, IS_BOOL),
 }
 

@@ -7,7 +7,7 @@ where a train at rest is.  So no tag is called overdue in the cycle in which it 
 
 A tag is read when its reader delivers its record, and by nothing else; the unit looks up where its lists have it.
 
-Tags and ends of authority lie on one kilometrage, the front's: a tag lies where the front is when it is read.
+Tags and ends of authority lie on one kilometrage, each tag at its own place; its antenna is behind the front.
 """
 
 from __future__ import annotations
@@ -131,6 +131,7 @@ def at_rest(limits: Limits, computer: Computer) -> Standstill:
         standstill_mm_s=bounds.standstill_mm_s,
         braked_cycles=computer.known.watch.cycles,
         response_cycles=bounds.response_cycles,
+        releasable=not computer.brake.withheld,
     )
 
 
@@ -245,10 +246,7 @@ def note_listed(limits: Limits, computer: Computer, place_mm: int, kind: int) ->
 
 
 def begins_from_mm(limits: Limits, place_mm: int) -> int:
-    """Give where at the nearest that begins which a tag listed at ``place_mm`` says: at the tag itself (T1, T12).
-
-    The front gets there before its antenna, which is behind it, reads the tag.
-    """
+    """Give where at the nearest a listed tag's track begins: at the tag, which the front reaches unread (T1, T12)."""
     return place_mm - limits.tags.error_mm
 
 

@@ -7,8 +7,8 @@ it keeps out of a run while its brake holds an end before it.
 
 Each train has one kilometrage, in which its head runs forward, until it is located anew at a standstill.  Of
 the interlocking's ``rolling`` and ``leavable`` this world makes the least that it may: a run rolls from the moment
-when the brake takes an end beyond the block that the run starts in until it takes one before it, and a block is
-leavable if it might be left when the brake was last asked for an end.
+when the brake takes an end beyond the block that it starts in until it takes one before it, or has brought the train
+to rest, withheld; and a block is leavable if it might be left when the brake was last asked for an end.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Joint:
 
     ``head_mm``: where the head is; ``block``, ``block_end_mm``: the block it is in, and where that ends ahead.
     ``brake``: what the brake control knows.
-    ``standing``: trains at rest whose brake has not been free since they were located.
+    ``standing``: trains at rest whose brake has not been free since they were located, or came to rest, withheld.
     ``begins_mm``, ``block_ends_mm``: for each listed run where its start block begins, and where its blocks end.
     ``asked``: history: the runs whose lists were there when the brake was last asked for an end.
     ``does_as_assumed``: history: of each train whether its brake control, asked for an end, did what is assumed of one.
@@ -161,7 +161,7 @@ def the_unit_goes_by_the_centres_list(site: Survey, unit: Unit) -> bool:
 def the_head_stays_inside_authority(held: bool, brake: Brake, from_mm: int, to_mm: int) -> bool:
     """A head gets no farther than the end that its brake holds; and one that no end has freed holds it there (T12).
 
-    ``held``: no end has freed the brake since the train was located at rest.
+    ``held``: no end has freed the brake since the train was located at rest, or came to rest with its brake withheld.
     """
     return to_mm <= brake.end_mm and (not held or to_mm <= from_mm)
 
@@ -254,17 +254,8 @@ def locate(
     """A train at rest is located, in a new kilometrage: after a restart, a loss of position, a change of ends (P7)."""
     if not a_head_is_located_in_its_block(head_mm, block_end_mm, front_most_mm):
         return system
-    track = system.system.track
     return replace(
-        system,
-        system=replace(
-            system.system,
-            track=replace(
-                track,
-                rolling=frozenset(run for run in track.rolling if run.train != train),
-                leavable=frozenset((run, block) for run, block in track.leavable if run.train != train),
-            ),
-        ),
+        at_rest(system, train),
         head_mm=system.head_mm | {train: head_mm},
         block=system.block | {train: block},
         block_end_mm=system.block_end_mm | {train: block_end_mm},
@@ -272,8 +263,23 @@ def locate(
         standing=system.standing | {train},
         begins_mm={run: begins_mm for run, begins_mm in system.begins_mm.items() if run.train != train},
         block_ends_mm={run: ends for run, ends in system.block_ends_mm.items() if run.train != train},
-        asked=frozenset(run for run in system.asked if run.train != train),
     )
+
+
+def come_to_rest(site: Survey, system: Joint, train: Train) -> Joint:
+    """A withheld brake has brought the train to rest: until it takes an end the train rolls under no run (T8, T12)."""
+    if train not in system.brake or not system.brake[train].withheld:
+        return system
+    return replace(at_rest(system, train), standing=system.standing | {train})
+
+
+def at_rest(system: Joint, train: Train) -> Joint:
+    """What a train was let run by counts no more: it rolls under no run, and might leave no block."""
+    track = system.system.track
+    rolling = frozenset(run for run in track.rolling if run.train != train)
+    leavable = frozenset((run, block) for run, block in track.leavable if run.train != train)
+    others = replace(system.system, track=replace(track, rolling=rolling, leavable=leavable))
+    return replace(system, system=others, asked=frozenset(run for run in system.asked if run.train != train))
 
 
 def take_list(site: Survey, system: Joint, run: Run, begins_mm: int, block_ends_mm: Map[Block, int]) -> Joint:
@@ -423,7 +429,9 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
     within = frozenset(
         run
         for run in system.block_ends_mm
-        if run.train == train and system.block_ends_mm[run][layout.start[run.route]] < end_mm
+        if run.train == train
+        and train not in system.standing
+        and system.block_ends_mm[run][layout.start[run.route]] < end_mm
     )
     rolling = frozenset(run for run in track.rolling if run.train != train or run in within) | frozenset(
         run for run in within if may_proceed(unit, run)
@@ -439,7 +447,7 @@ def with_end(site: Survey, system: Joint, train: Train) -> Joint:
         system,
         system=replace(system.system, track=replace(track, rolling=rolling, leavable=leavable)),
         asked=frozenset(run for run in system.asked if run.train != train)
-        | frozenset(run for run in system.block_ends_mm if run.train == train),
+        | frozenset(run for run in system.block_ends_mm if run.train == train and train not in system.standing),
     )
 
 

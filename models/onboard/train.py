@@ -277,6 +277,15 @@ def locate_anew(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whol
     return _at_rest(site, anew, smaller(least_mm, most_mm), larger(least_mm, most_mm))
 
 
+def come_to_rest(site: Train, system: Whole) -> Whole:
+    """A withheld brake has brought the train to rest: nothing but an end that is taken lets it go on (T8, T12)."""
+    if not a_cycle_begins_when_the_one_before_was_sensed(system):
+        return system
+    brake, holds = system.computer.brake, system.watched.cycles >= site.limits.train.brake.response_cycles
+    rests = brake.withheld and brake.applied and holds and system.speed_um_s <= 0
+    return replace(system, held=system.held or rests)
+
+
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
     """Somebody says between which places the front is, late it may be, and the computer goes on (P7, T8)."""
     if not a_cycle_begins_when_the_one_before_was_sensed(system):

@@ -70,7 +70,8 @@ class Whole:
     ``awaited_mm``: history: where the list has the tag that its computer was told to await last.
     ``astern``: history: in the newest cycle the tail of a whole train, which ran at no more than twice the speed of its
     line, came over the tag that was awaited then, and which was not overdue.
-    ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was located.
+    ``asked``: history: the brake when it was asked for an end last; ``held``: no end has freed it since it was
+    located, or came to rest withheld.
     ``proceeds``: history: the orders let it proceed when its computer decided last.
     ``permitted``: history: the train as it keeps to what all of its track let it run when its brake was off last.
     ``head``, ``tail``: the antennas of head and tail, as the tag reader is proved with each.

@@ -135,7 +135,10 @@ class Simulation:
         return self.services[train].may_answer()
 
     def _sensed(self, train: Train) -> tuple[Standstill, ThroughLine]:
+        """The driver puts the brake on first: an end that was taken before releases it no more (T4, T8)."""
         vehicle = self.services[train].vehicle
+        vehicle.board.hold()
+        vehicle.look_again()
         return vehicle.board.standstill, vehicle.board.line(vehicle.line_answers(self.line.now_ms))
 
     def _asked_for(self, run: Run) -> tuple[Standstill, int, int] | None:

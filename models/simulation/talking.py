@@ -209,9 +209,10 @@ class Talk:
     def _unit_hears(self, train: Train, told: ToUnit) -> bool:
         if not isinstance(told, Challenge):
             return tell_unit(self.play, train, told, NOWHERE)
+        if not self.may_answer(train):
+            return False
         at, line = self.sensed(train)
-        stands = place(self.play, train, at, line, asks_anew=False)
-        return self.may_answer(train) and tell_unit(self.play, train, told, stands)
+        return tell_unit(self.play, train, told, place(self.play, train, at, line, asks_anew=False))
 
     def _passes_on(self, train: Train, kind: str, fields: Fields, told: ToUnit | ToCentre) -> None:
         """A unit passes on what a terminal says, or is to hear."""

@@ -17,12 +17,15 @@ AT_REST = Standstill(
     standstill_mm_s=0,
     braked_cycles=0,
     response_cycles=0,
+    releasable=False,
 )
-"""A train that stands, held by its brake."""
+"""A train that stands, held by its brake until an end of authority is taken."""
 ROLLING = replace(AT_REST, speed_most_mm_s=1)
 """One that may be under way."""
 NOT_HELD = replace(AT_REST, response_cycles=1)
 """One that stands, while its brake still takes hold, or is off."""
+RELEASABLE = replace(AT_REST, releasable=True)
+"""One that is held, and could run under an end that it has taken."""
 INSIDE: Mapping[str, Any] = {"at": AT_REST, "begin_mm": 0, "end_mm": 0}
 """One that stands with its front inside its destination: what `note_stopped` is told."""
 ON_THE_WAY: Mapping[str, Any] = {"at": AT_REST, "begin_mm": 1, "end_mm": 1}

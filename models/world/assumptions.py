@@ -22,6 +22,7 @@ from models.world.truth import (
     reads_both_first,
     says_it_is_held,
     says_it_is_held_between,
+    says_it_stays_held,
     stands_as_it_says,
     stands_within,
 )
@@ -166,10 +167,11 @@ def a_located_train_stands_where_it_says(
 ) -> bool:
     """An unbroken train that its brake holds is at rest, with no car outside the blocks that the tags at both ends say.
 
-    Nothing is assumed of where it is if it names a block that the line does not have.
+    Nothing is assumed of one whose brake an acknowledgement releases, nor of where it is if it names a block that the
+    line does not have.
     """
     return (
-        not says_it_is_held(at)
+        not says_it_stays_held(at)
         or not (line.answers and line.is_intact)
         or stands_as_it_says(site, system, train, blocks)
     )

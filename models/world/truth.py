@@ -142,6 +142,11 @@ def says_it_is_held(at: Standstill) -> bool:
     return says_it_stands(at) and at.braked_cycles >= at.response_cycles
 
 
+def says_it_stays_held(at: Standstill) -> bool:
+    """And nothing but an end of authority that is taken releases it."""
+    return says_it_is_held(at) and not at.releasable
+
+
 def says_it_is_held_between(at: Standstill, begin_mm: int, end_mm: int) -> bool:
     """And the odometry claims a range of the front that is between two places."""
     return says_it_is_held(at) and begin_mm <= at.front_least_mm and at.front_most_mm <= end_mm

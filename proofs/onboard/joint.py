@@ -10,6 +10,7 @@ from models.onboard.joint import (
     a_list_tells_the_track,
     ask_for_the_end,
     cars_move,
+    come_to_rest,
     every_route_has_an_overlap,
     give_back,
     head_passes,
@@ -99,6 +100,11 @@ def a_train_that_no_run_lets_move_is_braked(site: Survey, system: Joint) -> bool
 def a_brake_is_told_without_an_end(site: Survey, system: Joint) -> bool:
     """Where the train has no end of authority the brake is told something, and so is not left as it was (T12)."""
     return all(is_told for _train, is_told in system.is_told_without_an_end.items())
+
+
+def a_train_that_stands_rolls_under_no_run(site: Survey, system: Joint) -> bool:
+    """Brought to rest by a withheld brake, it is at rest to the interlocking, until that takes an end (T8, T12)."""
+    return all(run.train not in system.standing for run in system.system.track.rolling)
 
 
 # ---- what they rest on
@@ -226,6 +232,7 @@ SAFETY = (
     a_brake_control_does_what_is_assumed_of_it,
     a_train_that_no_run_lets_move_is_braked,
     a_brake_is_told_without_an_end,
+    a_train_that_stands_rolls_under_no_run,
 )
 INVARIANTS = (
     *SAFETY,
@@ -242,6 +249,7 @@ INVARIANTS = (
 PREMISES = (every_route_has_an_overlap, a_centres_list_says_what_its_layout_does)
 STEPS = (
     locate,
+    come_to_rest,
     take_list,
     give_back,
     ask_for_the_end,

@@ -21,6 +21,7 @@ from models.onboard.joint import (
 )
 from models.onboard.train import (
     come_apart,
+    come_to_rest,
     find_whole,
     inspect_the_brake,
     keep_to,
@@ -89,20 +90,13 @@ from proofs.onboard.train_parts import (
     the_brake_responds_once_it_was_commanded_for_long_enough,
     the_computer_was_located_a_cycle_ago,
     the_gradient_estimate_is_no_steeper_than_the_line,
-    the_heads_last_eight_are_remembered,
     the_response_ends,
-    the_tails_newest_read_is_noted,
     the_watch_counts_no_more_than_the_brake,
     the_way_left_is_enough,
     the_way_left_lies_before_the_end,
     the_way_to_a_restriction_is_enough,
     the_way_to_a_restriction_lies_before_it,
-    the_way_to_stop_is_enough,
     the_way_to_stop_lies_before_the_end,
-    what_agrees_is_known_as_it_was_shown,
-    what_is_caught_is_broken,
-    what_is_not_preset_is_broken,
-    what_is_remembered_was_read,
     what_no_end_has_freed_stands,
     what_the_head_is_on_is_known,
 )
@@ -287,17 +281,21 @@ def a_train_too_fast_for_any_of_its_track_brakes(site: Train, system: Whole) -> 
 
 
 def a_standstill_that_is_told_is_one(site: Train, system: Whole) -> bool:
-    """What is told of a train at rest, and by its staff, is so; if it is told to be held its brake is (P7, T9, T12)."""
+    """What is told of a train at rest is so; told to be held, or withheld, its brake is (P7, T9, T12)."""
     at, slow_um_s = computer.at_rest(site.limits, system.computer), UM_A_MM * site.limits.train.brake.standstill_mm_s
     return (
-        not is_braked(at)
-        or (system.computer.brake.applied and system.watched.cycles >= site.limits.train.brake.response_cycles)
-    ) and (
-        system.runs
-        or not stands(at)
-        or (
-            NM_A_MM * at.front_least_mm <= system.front_nm <= NM_A_MM * at.front_most_mm
-            and -slow_um_s <= system.speed_um_s <= slow_um_s
+        (
+            not is_braked(at)
+            or (system.computer.brake.applied and system.watched.cycles >= site.limits.train.brake.response_cycles)
+        )
+        and (at.releasable or system.computer.brake.withheld)
+        and (
+            system.runs
+            or not stands(at)
+            or (
+                NM_A_MM * at.front_least_mm <= system.front_nm <= NM_A_MM * at.front_most_mm
+                and -slow_um_s <= system.speed_um_s <= slow_um_s
+            )
         )
     )
 
@@ -406,7 +404,7 @@ INVARIANTS = (
     anchor_contained_front,
     a_trusted_wheel_has_not_slipped,
     a_trusted_wheel_is_known_as_it_was_shown,
-    what_agrees_is_known_as_it_was_shown,
+    train_parts.what_agrees_is_known_as_it_was_shown,
     a_wheel_that_agrees_keeps_pace,
     the_gradient_estimate_is_no_steeper_than_the_line,
     speed_range_contains_speed,
@@ -422,20 +420,20 @@ INVARIANTS = (
     the_way_to_a_restriction_is_enough,
     train_parts.it_is_reckoned_with_no_more_than_is_guaranteed,
     the_way_to_stop_lies_before_the_end,
-    the_way_to_stop_is_enough,
+    train_parts.the_way_to_stop_is_enough,
     train_parts.until_its_brake_responds_a_train_gains_no_more,
     train_parts.the_worst_is_no_faster_than_the_ceiling,
     train_parts.a_train_that_keeps_to_a_ceiling_gets_no_faster,
     train_parts.motors_are_cut_off_before_the_brake_responds,
     a_train_that_keeps_is_no_faster_than_the_limit,
     the_watch_counts_no_more_than_the_brake,
-    what_is_not_preset_is_broken,
-    what_is_caught_is_broken,
+    train_parts.what_is_not_preset_is_broken,
+    train_parts.what_is_caught_is_broken,
     a_whole_train_is_near_its_preset,
     a_whole_train_has_passed_what_its_tail_read,
-    what_is_remembered_was_read,
-    the_tails_newest_read_is_noted,
-    the_heads_last_eight_are_remembered,
+    train_parts.what_is_remembered_was_read,
+    train_parts.the_tails_newest_read_is_noted,
+    train_parts.the_heads_last_eight_are_remembered,
     no_restriction_ends_before_the_rear_has_passed,
     what_the_head_is_on_is_known,
     train_parts.no_list_has_more_where_the_front_may_be,
@@ -466,6 +464,7 @@ STEPS = (
     withhold_end,
     keep_to,
     locate_anew,
+    come_to_rest,
     note_place,
     recognise_a_feature,
     put_into_service,

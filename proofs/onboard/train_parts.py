@@ -307,7 +307,7 @@ def a_whole_train_is_preset_as_written(site: Train, system: Whole) -> bool:
 
 
 def what_no_end_has_freed_stands(site: Train, system: Whole) -> bool:
-    """A train whose brake no end has freed since it was located is held by it, and runs forward no more (T8, T12)."""
+    """A train whose brake no end has freed since it was at rest is held by it, and runs forward no more (T8, T12)."""
     return not system.held or (
         system.speed_um_s <= 0
         and system.computer.brake.withheld

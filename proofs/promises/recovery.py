@@ -7,7 +7,7 @@ from kernel.recovery import train_missing
 from kernel.standstill import Standstill, ThroughLine
 from models.world import at_the_centre, on_board, radio
 from models.world.state import Site, System
-from models.world.truth import name_a_place, says_it_is_held, stands_within
+from models.world.truth import name_a_place, says_it_stays_held, stands_within
 from proofs.promise import Link, Promise
 from proofs.promises.vocabulary import lives
 
@@ -37,10 +37,10 @@ def it_can_answer(
     at: Standstill,
     line: ThroughLine,
 ) -> bool:
-    """The train is at rest and held, and whole, knows where it is, and begins a new life."""
+    """The train stays held at rest until an end is taken, is whole, knows where it is, and begins a new life."""
     unit = system.units.get(train)
     return (
-        says_it_is_held(at)
+        says_it_stays_held(at)
         and line.answers
         and line.is_intact
         and unit is not None

@@ -1,4 +1,4 @@
-"""One train and what staff finds of it at rest: that it is whole, and its antennas sound (P5, T13)."""
+"""One train at rest: what staff finds of it, and what holds it there (P5, T12, T13)."""
 
 from __future__ import annotations
 
@@ -150,10 +150,38 @@ def the_order_in_which_two_places_are_named_says_nothing() -> None:
         assert (motion.front_least_mm, motion.front_most_mm) == (front_mm - within_mm, front_mm + within_mm)
 
 
+def a_train_that_came_to_rest_withheld_stays_until_it_takes_an_end() -> None:
+    """No sooner than its brake holds it, nor of a brake that an acknowledgement releases (T8, T12)."""
+    ride = Ride()
+    ride.start()
+    ride.step("withhold_end")
+    for _ in range(BRAKE.response_cycles - 1):
+        ride.cycle(0, may_proceed=False)
+    ride.step("come_to_rest")
+    assert not stays(ride), "its brake has yet to respond"
+    ride.cycle(0, may_proceed=False)
+    ride.step("take_end", end_mm=END_MM)
+    ride.step("come_to_rest")
+    assert not stays(ride), "an acknowledgement releases it"
+    ride.step("withhold_end")
+    ride.step("come_to_rest")
+    assert stays(ride)
+    ride.cycle(0, acknowledged=True)
+    assert ride.system.computer.brake.applied
+    ride.step("take_end", end_mm=END_MM)
+    assert not stays(ride)
+
+
+def stays(ride: Ride) -> bool:
+    """Tell whether no end has freed it."""
+    return ride.system.held
+
+
 WITNESSES = (
     a_train_that_is_not_held_is_not_found_whole,
     a_split_is_not_forgotten_when_the_computer_is_switched_off_and_on,
     a_broken_bound_is_not_forgotten_when_the_computer_is_switched_off_and_on,
     nobody_locates_a_train_that_is_known_to_move,
     the_order_in_which_two_places_are_named_says_nothing,
+    a_train_that_came_to_rest_withheld_stays_until_it_takes_an_end,
 )

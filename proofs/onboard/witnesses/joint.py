@@ -82,6 +82,31 @@ def under_orders_the_authority_ends_with_the_destination() -> None:
     station.refuses("head_passes", train=T1, to_mm=750_001, block=OUTLET, block_end_mm=860_000)
 
 
+def a_train_brought_to_rest_rolls_under_no_run_until_it_takes_an_end() -> None:
+    """Withheld, it is at rest to the interlocking, and no order that is known to it lets it go (T4, T8, T12)."""
+    station = under_way(439_000)
+    station.refuses("come_to_rest", train=T1)
+    station.changes(first_loop.recall(station.unit(), RUN))
+    assert station.asks(error_mm=500).withheld
+    assert station.rolling() == {RUN}
+    station.step("come_to_rest", train=T1)
+    assert station.system.standing == {T1}
+    assert not station.rolling()
+    assert not station.system.system.track.leavable
+    assert not station.system.asked
+    station.refuses("head_runs", train=T1, to_mm=439_001)
+    for opens in (False, True):
+        if opens:
+            station.loop_opens()
+        assert station.asks().withheld
+        assert not station.rolling()
+    station.changes(replace(station.unit(), loop_open=False))
+    station.told({RUN: PERMITTED})
+    station.holds(750_000)
+    assert station.rolling() == {RUN}
+    assert not station.system.standing
+
+
 def a_range_that_reaches_beyond_the_end_takes_none_away() -> None:
     """Near its end the front may, by its range, be beyond the list: the end stays, and the train draws up (T4, P7)."""
     station = under_way()
@@ -403,6 +428,7 @@ WITNESSES = (
     a_train_that_was_told_nothing_stands,
     every_part_of_the_permission_is_needed,
     under_orders_the_authority_ends_with_the_destination,
+    a_train_brought_to_rest_rolls_under_no_run_until_it_takes_an_end,
     a_range_that_reaches_beyond_the_end_takes_none_away,
     a_train_that_told_it_stopped_draws_up_no_more,
     two_runs_make_one_end,

@@ -13,8 +13,8 @@ BOUNDS = BrakeBounds(
 """A brake of 1 m/s² within 0.8 s, and motors as strong."""
 
 
-def standstill(sight: Sight) -> Standstill:
-    """What odometry and brake say of front, speed, and for how long the brake has been on."""
+def standstill(sight: Sight, brake: Brake) -> Standstill:
+    """What odometry and brake say of front, speed, for how long the brake has been on, and until when it is."""
     front_least_mm, front_most_mm = sight.front_mm
     return Standstill(
         known=True,
@@ -25,6 +25,7 @@ def standstill(sight: Sight) -> Standstill:
         standstill_mm_s=0,
         braked_cycles=sight.braked_cycles,
         response_cycles=BOUNDS.response_cycles,
+        releasable=not brake.withheld,
     )
 
 

@@ -235,7 +235,7 @@ class Calls:
 
     def told(self, board: Board, told: messages.ToUnit | messages.Isolation, sight: Sight) -> Unit:
         """What becomes of a unit by what it is told."""
-        place = Place(sight.blocks, standstill(sight), line(sight.whole), board.asks_anew)
+        place = Place(sight.blocks, standstill(sight, board.brake), line(sight.whole), board.asks_anew)
         return machine_of_unit.answer(self.lists, board.unit, told, place)
 
     def board_hears(self, board: Board, message: Message, sight: Sight) -> list[Message]:
@@ -285,7 +285,8 @@ class Calls:
             self.obey(board, sight)
         for run in sorted(wanted & set(board.ends_mm), reverse=True):
             held_mm, end_mm = board.brake.end_mm, board.ends_mm[run][self.layout.start[run.route]]
-            board.unit = first_loop.give_back(self.lists, board.unit, run, standstill(sight), held_mm, end_mm)
+            at = standstill(sight, board.brake)
+            board.unit = first_loop.give_back(self.lists, board.unit, run, at, held_mm, end_mm)
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
         before = board.unit
@@ -321,7 +322,8 @@ class Calls:
         board.brake = put_on(board.brake, sight)
         end_mm = ends_mm[self.layout.destination[run.route]]
         begin_mm = max((each for _, each in ends_mm.items() if each < end_mm), default=board.begins_mm[run])
-        board.unit = authority.note_stopped(self.lists, board.unit, run, standstill(sight), begin_mm, end_mm)
+        at = standstill(sight, board.brake)
+        board.unit = authority.note_stopped(self.lists, board.unit, run, at, begin_mm, end_mm)
         self.follow(board, sight)
 
     def change_ends(self, board: Board, sight: Sight) -> None:

@@ -154,7 +154,7 @@ class AnswersUnbraked(Calls):
     """A train that stands answers at once, whether or not its brake holds it."""
 
     def answer(self, board: Board, epoch: Epoch, sight: Sight) -> None:
-        before, at = board.unit, replace(standstill(sight), response_cycles=0)
+        before, at = board.unit, replace(standstill(sight, board.brake), response_cycles=0, releasable=False)
         place = Place(sight.blocks, at, line(sight.whole), board.asks_anew)
         board.unit = unit.answer(self.lists, before, Challenge(epoch), place)
         if board.unit is not before:
