@@ -282,8 +282,7 @@ def come_to_rest(site: Train, system: Whole) -> Whole:
     if not a_cycle_begins_when_the_one_before_was_sensed(system):
         return system
     brake, holds = system.computer.brake, system.watched.cycles >= site.limits.train.brake.response_cycles
-    rests = brake.withheld and brake.applied and holds and system.speed_um_s <= 0
-    return replace(system, held=system.held or rests)
+    return replace(system, held=brake.withheld and brake.applied and holds and system.speed_um_s <= 0)
 
 
 def note_place(site: Train, system: Whole, least_mm: int, most_mm: int) -> Whole:
