@@ -21,7 +21,8 @@ from models.commands import print_line
 from models.exit_codes import DOES_NOT_HOLD, HOLDS, UNDECIDED, WORDS
 from models.processes import Workers, as_they_end
 from proofs.joints import BY_NAME
-from proofs.mutants import assumed, guarantees
+from proofs.mutants import assumed, built_in, guarantees
+from proofs.planted.changes import planted
 from proofs.sampling import sampled
 
 NEEDED, UNNEEDED, OPEN, BESIDE = "needed", "unneeded", "open", "beside"
@@ -66,7 +67,13 @@ def became_of(without: str, open_with: Sequence[str]) -> str:
 
 
 def record(todo: Sequence[str], jobs: Workers, progress: Progress = lambda *_: None) -> dict[str, Any]:
-    """Try all of these; what is written of it."""
+    """Try all of these; what is written of it.
+
+    Raises:
+        ValueError: a text of ``built_in.toml`` is gone; so before anything is asked.
+    """
+    for each in (each for every in built_in.drops().values() for each in every):
+        planted(each)
     began, found = time.perf_counter(), dict[str, dict[str, Any]]()
     for done, (name, told) in enumerate(as_they_end(trial, todo, jobs), 1):
         found[name] = told
