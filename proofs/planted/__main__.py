@@ -1,8 +1,9 @@
-"""``python -m proofs.planted [FOLDER]``: draw every planted fault, as text and as a page, into ``out/planted``."""
+"""Draw every planted fault, as text and as a page: ``python -m proofs.planted [FOLDER]``."""
 
 from __future__ import annotations
 
-import sys
+import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 from proofs import drawing
@@ -16,8 +17,15 @@ from proofs.planted.weakenings import WEAKENINGS
 FOLDER = Path("out/planted")
 
 
-def main(folder: Path = FOLDER) -> int:
-    """Draw them, and give the number of those that were not refuted."""
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Draw them into the folder that is named, or that one; 1 if some were not refuted."""
+    parser = argparse.ArgumentParser(prog="python -m proofs.planted", description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path, default=FOLDER, help="where to; out/planted if not said")
+    return draw(parser.parse_args(arguments).folder)
+
+
+def draw(folder: Path) -> int:
+    """Draw them there; 1 if some were not refuted."""
     folder.mkdir(parents=True, exist_ok=True)
     missed = 0
     for protocol in PROTOCOLS:
@@ -60,4 +68,4 @@ def write(folder: Path, name: str, as_text: object, as_html: object, given: tupl
 
 
 if __name__ == "__main__":
-    raise SystemExit(main(*map(Path, sys.argv[1:2])))
+    raise SystemExit(main())
