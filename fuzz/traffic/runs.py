@@ -17,13 +17,14 @@ from fuzz.traffic.desk import MOST_EVENTS, Desk, Ints, cars_of, desk_for
 from fuzz.traffic.driver import run_trace
 from fuzz.traffic.entries import callbacks
 from fuzz.traffic.faults import FAULTS
+from fuzz.traffic.senses import LINE_WORDS, STANDSTILL_WORDS
 from kernel.names import Block, Car, Point, Position, Read, Run, Train
 from kernel.standstill import Standstill, ThroughLine
 from models.world.start import start
 from proofs.catalogue import INVARIANTS
 from proofs.transitions import TRANSITIONS, event_types
 
-WIDTHS: Mapping[Any, int] = {Run: 4, Read: 2, Standstill: 9, ThroughLine: 3}
+WIDTHS: Mapping[Any, int] = {Run: 4, Read: 2, Standstill: STANDSTILL_WORDS, ThroughLine: LINE_WORDS}
 """How many words of an event a record takes."""
 
 STAGES = ("reserved", "offered", "set", "standing", "over", "no run at the centre")

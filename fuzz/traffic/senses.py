@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 from fuzz.traffic.compiling import compiled
+from kernel.standstill import Standstill, ThroughLine
 
-STANDSTILL_WORDS, LINE_WORDS = 9, 3
+STANDSTILL_WORDS, LINE_WORDS = len(fields(Standstill)), len(fields(ThroughLine))
 """The words of `Standstill` and of `ThroughLine`."""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, get_origin
+from typing import Any, get_origin, get_type_hints
 
 from kernel.names import (
     Block,
@@ -130,8 +130,10 @@ _TYPES: Mapping[Any, tuple[int, ...]] = {
     Cab: (IS_CAB,),
     bool: (IS_BOOL,),
     int: (IS_MM,),
-    Standstill: (IS_BOOL, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_MM, IS_BOOL),
-    ThroughLine: (IS_BOOL, IS_BOOL, IS_BOOL),
+    **{
+        sensed: tuple(IS_BOOL if kind is bool else IS_MM for kind in get_type_hints(sensed).values())
+        for sensed in (Standstill, ThroughLine)
+    },
 }
 
 

@@ -77,7 +77,7 @@ class Simulation:
         ]
         self.play = begin(site, cars, where, self._watch)
         self.motors = Motors(self.play, self.agenda, Random(f"{plan.seed} motors"), plan.chosen)
-        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._sensed, self._asked_for)
+        self.talk = Talk(self.play, self.links, self.motors, self._may_answer, self._held, self._asked_for)
         self.vehicles = {train: self._vehicle(train, cars[train], where[train]) for train in names}
         self.line = Line(self.play, self.rails, self.vehicles, Random(f"{plan.seed} tags"), plan.chosen)
         roads = [WaysToRoad(self.rails, road) for road in plan.roads]
@@ -134,8 +134,8 @@ class Simulation:
     def _may_answer(self, train: Train) -> bool:
         return self.services[train].may_answer()
 
-    def _sensed(self, train: Train) -> tuple[Standstill, ThroughLine]:
-        """The driver puts the brake on first: an end that was taken before releases it no more (T4, T8)."""
+    def _held(self, train: Train) -> tuple[Standstill, ThroughLine]:
+        """The driver puts the brake on, so that no end taken before releases it, and the sensors say how it stands."""
         vehicle = self.services[train].vehicle
         vehicle.board.hold()
         vehicle.look_again()

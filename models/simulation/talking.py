@@ -59,8 +59,8 @@ from models.simulator.play import Play
 
 MayAnswer = Callable[[Train], bool]
 """Whether a train is to tell where it stands."""
-Sensed = Callable[[Train], tuple[Standstill, ThroughLine]]
-"""What odometry, line and the machines on board say of a train's standstill and of the way to its tail."""
+Held = Callable[[Train], tuple[Standstill, ThroughLine]]
+"""Has a train held, and gives what is known of its standstill and of the way to its tail."""
 AskedFor = Callable[[Run], tuple[Standstill, int, int] | None]
 """How a run's train stands, which end its brake holds, and where the block ends that the run starts in."""
 Say = tuple[Party, Party, Message]
@@ -99,13 +99,13 @@ class Talk:
     """The conversations of every train."""
 
     def __init__(
-        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, sensed: Sensed, asked_for: AskedFor
+        self, play: Play, links: Links, motors: Motors, may_answer: MayAnswer, held: Held, asked_for: AskedFor
     ) -> None:
         self.play = play
         self.links = links
         self.motors = motors
         self.may_answer = may_answer
-        self.sensed = sensed
+        self.held = held
         self.asked_for = asked_for
         self._offered, self._echoed = Joined(), Joined()
         self._nothing_said: dict[Train, tuple[object, ...]] = {}
@@ -211,7 +211,7 @@ class Talk:
             return tell_unit(self.play, train, told, NOWHERE)
         if not self.may_answer(train):
             return False
-        at, line = self.sensed(train)
+        at, line = self.held(train)
         return tell_unit(self.play, train, told, place(self.play, train, at, line, asks_anew=False))
 
     def _passes_on(self, train: Train, kind: str, fields: Fields, told: ToUnit | ToCentre) -> None:
