@@ -7,8 +7,10 @@ believed about the files that do not.
 from __future__ import annotations
 
 import ast
+import re
 import sys
 from collections.abc import Iterable, Iterator
+from fnmatch import fnmatch
 from functools import cache
 from pathlib import Path
 
@@ -365,6 +367,14 @@ def test_functions_fit_a_screen() -> None:
 def test_files_can_be_read_in_one_sitting() -> None:
     lengths = {named(path): len(path.read_text("utf-8").splitlines()) for path in all_files()}
     assert {path: length for path, length in lengths.items() if length > LINES_OF_A_FILE} == {}
+
+
+def test_every_folder_is_on_the_map() -> None:
+    ignored = {line.rstrip("/") for line in (ROOT / ".gitignore").read_text("utf-8").splitlines()}
+    found = {path.name for path in ROOT.iterdir() if path.is_dir() and not path.name.startswith(".")}
+    kept = {name for name in found if not any(fnmatch(name, each) for each in ignored)}
+    on_the_map = re.findall(r"^\| `(\w+)/` \|", (ROOT / "README.md").read_text("utf-8"), re.MULTILINE)
+    assert kept == set(on_the_map)
 
 
 def test_every_test_can_fail() -> None:
