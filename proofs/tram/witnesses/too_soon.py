@@ -103,6 +103,23 @@ def none_recovers_where_it_comes() -> None:
     assert day.says(FIRST) == RECOVERS
 
 
+def none_recovers_over_a_stop_that_is_not_cleared_yet() -> None:
+    """Who cleared the way has left it at the second stop: beyond that one a tram may stand that nobody knows (G5)."""
+    day = Day(is_cleared=False)
+    day.wait(LIMITS.coming_ms + 1)
+    day.run_to(FIRST, 1, 1)
+    day.depart(FIRST)
+    assert day.system.centre.cleared == mark(1, True)
+    day.leave(FIRST)
+    day.wait(1)
+    day.off(FIRST)
+    day.come(SECOND, 2, 0)
+    day.depart(SECOND)
+    day.arrive(SECOND)
+    for hand in (Hand.NOTHING, Hand.RECOVER):
+        assert day.says(SECOND, hand) == NEITHER
+
+
 def who_comes_may_take_what_was_ordered_since_it_was_confirmed() -> None:
     """Its unit began when the way was set; before it was confirmed nothing was made for it that counts (G6)."""
     day = Day()
@@ -273,6 +290,7 @@ WITNESSES = (
     a_run_that_is_still_to_come_stays_confirmed,
     who_is_to_come_is_ahead_of_nobody,
     none_recovers_where_it_comes,
+    none_recovers_over_a_stop_that_is_not_cleared_yet,
     who_comes_may_take_what_was_ordered_since_it_was_confirmed,
     who_has_left_the_way_clears_no_more_of_it,
     what_is_told_of_the_run_before_does_not_count,
