@@ -15,6 +15,7 @@ class Refusal(Enum):
     START_NOT_SECURED = "the run that the train stands under is not set"
     START_NOT_HELD = "the start block is not held for this train"
     START_IS_RUN_THROUGH = "an earlier run of the train leads out of the start block the same way, and still holds it"
+    NOT_CLEAR_OF_ITS_OWN_TRAIN = "the train has not told that all of it has left a block of the route beyond its start"
     UNKNOWN_BLOCK = "there is no such block"
     BLOCK_HELD_FOR_ANOTHER = "a block is held for another train"
     BLOCK_LOST = "a block of the route has not been recovered since the restart"

@@ -31,6 +31,8 @@ def request_refusal(layout: Layout, centre: Centre, run: Run, base: Run) -> Refu
     against = conflict(layout, centre, run)
     if against is None and is_run_through(layout, centre, run):
         return Refusal.START_IS_RUN_THROUGH
+    if against is None and meets_its_own_train(layout, centre, run):
+        return Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN
     return against
 
 
@@ -46,6 +48,28 @@ def is_run_through(layout: Layout, centre: Centre, run: Run) -> bool:
     return any(
         layout.tag_after.get(other.route, NO_TAGS).get(first) == layout.tag_after.get(run.route, NO_TAGS).get(first)
         for other in centre.claimed.get(layout.start[run.route], NO_RUNS)
+    )
+
+
+def meets_its_own_train(layout: Layout, centre: Centre, run: Run) -> bool:
+    """Tell whether cars of the train may stand in a block beyond the start of ``run``, or in one that fouls it (T9).
+
+    Its tail was not told to have left that block, so that cars which parted from it may be there: the train comes back
+    to them on a ring, or once it has turned.  Where an earlier run holds a block as its overlap alone, none does.
+    """
+    start = layout.start[run.route]
+    return any(
+        other.route not in layout.routes or block not in layout.overlap[other.route]
+        for block in layout.claims[run.route]
+        if block != start
+        for other in centre.claimed.get(block, NO_RUNS)
+    ) or any(
+        other.route not in layout.routes or beside not in layout.overlap[other.route]
+        for block in layout.claims[run.route]
+        if block != start
+        for beside in layout.fouls.get(block, NO_BLOCKS)
+        if beside != start
+        for other in centre.claimed.get(beside, NO_RUNS)
     )
 
 

@@ -2,9 +2,10 @@
 
 It comes back into a block, or into one that fouls it, or over a junction within the block that it stands on.
 
-What a train holds bars none of its own routes.  One that is as long as a ring, or as the lobe of a figure of eight,
-may be let run into its own tail; a point that it would need in another position, and stands upon, is locked and bars
-it.  No file knows its trains, so whoever admits them is told the length.
+What a train holds bars its own routes beyond their start alone.  One that is as long as the lobe of a figure of eight
+before the flat crossing that its route starts at, or as a loop within one block, may be let run into its own tail; a
+point that it would need in another position, and stands upon, is locked and bars it.  No file knows its trains, so
+whoever admits them is told the length.
 """
 
 from __future__ import annotations

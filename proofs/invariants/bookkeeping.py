@@ -118,13 +118,13 @@ def a_standing_run_locks_only_below_itself(site: Site, system: System) -> bool:
 
 
 def a_train_stands_under_one_run(site: Site, system: System) -> bool:
-    """Of two runs that stand for one train, one is over (T8)."""
+    """Of two runs that stand for one train, one is over; and so is any older than the one that stands for it (T8)."""
     return all(
-        run == other or run.train != other.train
+        run == other or run.train != other.train or (beside.stage != Stage.STANDING and run.serial < other.serial)
         for run, grant in system.centre.runs.items()
         if grant.stage == Stage.STANDING
         for other, beside in system.centre.runs.items()
-        if beside.stage == Stage.STANDING
+        if beside.stage != Stage.OVER
     )
 
 

@@ -12,7 +12,13 @@ from models.world.truth import (
     no_fouling_blocks_hold_two_trains,
     no_point_under_a_car_is_unlocked,
 )
-from proofs.invariants.vocabulary import genuine, reaches, track_is_open
+from proofs.invariants.vocabulary import (
+    genuine,
+    is_apart_from,
+    is_overlap_of_the_earlier,
+    reaches,
+    track_is_open,
+)
 
 
 def no_two_trains_in_a_block(site: Site, system: System) -> bool:
@@ -66,6 +72,91 @@ def no_run_is_set_a_lap_ahead(site: Site, system: System) -> bool:
         if run.route in site.layout.routes and site.layout.start[run.route] == block
         for other in system.centre.claimed[block]
         if other.serial < run.serial
+    )
+
+
+def no_run_is_set_over_its_own_train(site: Site, system: System) -> bool:
+    """What a run holds beyond its start no earlier one of its train holds, but for what is that one's overlap (T9)."""
+    return all(
+        other.route in site.layout.routes and (run.serial < other.serial or block in site.layout.overlap[other.route])
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        if run.route in site.layout.routes and site.layout.start[run.route] != block
+        for other in system.centre.claimed[block]
+        if other != run
+    )
+
+
+def no_run_is_set_too_close_to_its_own_train(site: Site, system: System) -> bool:
+    """Nor does an earlier run of its train hold a block that fouls one of these, but for its overlap (T9)."""
+    return all(
+        other.route in site.layout.routes and (run.serial < other.serial or beside in site.layout.overlap[other.route])
+        for block in system.centre.claimed
+        for run in system.centre.claimed[block]
+        if run.route in site.layout.routes and site.layout.start[run.route] != block
+        for beside in site.layout.fouls.get(block, frozenset())
+        if site.layout.start[run.route] != beside
+        for other in system.centre.claimed.get(beside, frozenset())
+        if other != run
+    )
+
+
+def no_train_is_led_into_its_own_cars(site: Site, system: System) -> bool:
+    """Beyond a run's start only cars that came there under that run are, parted ones too, or that slipped (T2, T9).
+
+    Those that slipped came into a block that is the overlap of the earlier of the two runs.
+    """
+    return all(
+        is_overlap_of_the_earlier(site, run, other, block)
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if block != site.layout.start[run.route] and reaches(site, system, run, block)
+        for other in system.radio.permits
+        if other.train == run.train
+        and other.route in site.layout.routes
+        and block in site.layout.claims[other.route]
+        and block != site.layout.start[other.route]
+        and reaches(site, system, other, block)
+    ) and all(
+        run.train != other.train
+        or run.route not in site.layout.routes
+        or block == site.layout.start[run.route]
+        or not reaches(site, system, run, block)
+        or is_overlap_of_the_earlier(site, run, other, block)
+        for car in system.track.under
+        for block, other in system.track.under[car].items()
+        if block in system.track.at.get(car, frozenset())
+        for run in system.radio.permits
+    )
+
+
+def no_train_is_led_too_close_to_its_own_cars(site: Site, system: System) -> bool:
+    """The same of cars in a block that fouls the one that a train is led into, but where either run starts (T2, T9)."""
+    return all(
+        is_apart_from(site, run, block, other, beside)
+        for run in system.radio.permits
+        if run.route in site.layout.routes
+        for block in site.layout.claims[run.route]
+        if block != site.layout.start[run.route] and reaches(site, system, run, block)
+        for beside in site.layout.fouls.get(block, frozenset())
+        for other in system.radio.permits
+        if other.train == run.train
+        and other.route in site.layout.routes
+        and beside in site.layout.claims[other.route]
+        and beside != site.layout.start[other.route]
+        and reaches(site, system, other, beside)
+    ) and all(
+        run.train != other.train
+        or run.route not in site.layout.routes
+        or block == site.layout.start[run.route]
+        or not reaches(site, system, run, block)
+        or is_apart_from(site, run, block, other, beside)
+        for car in system.track.under
+        for beside, other in system.track.under[car].items()
+        if beside in system.track.at.get(car, frozenset())
+        for block in site.layout.fouls.get(beside, frozenset())
+        for run in system.radio.permits
     )
 
 

@@ -47,6 +47,35 @@ def reaches(site: Site, system: System, run: Run, block: Block) -> bool:
     )
 
 
+def is_overlap_of_the_earlier(site: Site, run: Run, other: Run, block: Block) -> bool:
+    """Two runs are the same, or the block is the overlap of the one that was granted first."""
+    return (
+        run == other
+        or (run.serial <= other.serial and block in site.layout.overlap.get(run.route, frozenset()))
+        or (other.serial <= run.serial and block in site.layout.overlap.get(other.route, frozenset()))
+    )
+
+
+def is_apart_from(site: Site, run: Run, block: Block, other: Run, beside: Block) -> bool:
+    """Of two blocks that foul each other the one is the overlap of the run granted first, or the later starts there."""
+    return (
+        run == other
+        or (
+            run.serial <= other.serial
+            and (
+                block in site.layout.overlap.get(run.route, frozenset()) or site.layout.start.get(other.route) == block
+            )
+        )
+        or (
+            other.serial <= run.serial
+            and (
+                beside in site.layout.overlap.get(other.route, frozenset())
+                or site.layout.start.get(run.route) == beside
+            )
+        )
+    )
+
+
 def at_stage(system: System, run: Run, stage: Stage) -> bool:
     """The centre knows the run, and has it at this stage."""
     grant = system.centre.runs.get(run)

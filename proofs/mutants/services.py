@@ -206,9 +206,36 @@ def a_run_from_where_the_train_came_from_does_not_lead_on(steps: Steps) -> Scena
     scenario, runs = telling.recovered(steps, standing(ONE))
     out = setting.set_route(scenario, T1, ONE_TO_WEST, runs[T1])
     running.run_through(scenario, out, ONE, THROAT, WEST)
+    running.report(scenario, runs[T1], ONE, THROAT)
+    for block, target in pairwise((ONE, THROAT, WEST)):
+        running.report(scenario, out, block, target)
     back = setting.set_route(scenario, T1, WEST_TO_ONE, out)
     setting.recall(scenario, back)
     setting.return_it(scenario, back)
+    return scenario
+
+
+def _stand_too_close(scenario: Scenario, block: Block, other: Block) -> None:
+    """Two blocks of the layout foul each other."""
+    layout = scenario.site.layout
+    fouls = {**layout.fouls, block: frozenset({other}), other: frozenset({block})}
+    scenario.site = replace(scenario.site, layout=replace(layout, fouls=fouls))
+
+
+def a_run_is_set_on_from_a_block_that_the_one_behind_fouls(steps: Steps) -> Scenario:
+    """A block and the one behind it foul each other, as on the leg of a point: the way on is set all the same (T9)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    _stand_too_close(scenario, THROAT, ONE)
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    setting.reserve(scenario, T1, ONE_TO_EAST, run)
+    return scenario
+
+
+def a_run_back_is_set_from_a_block_that_fouls_the_next(steps: Steps) -> Scenario:
+    """The block that a train stands in and the next foul each other, as on the leg of a point: it runs on (T9)."""
+    scenario, runs = telling.recovered(steps, standing(ONE))
+    _stand_too_close(scenario, THROAT, ONE)
+    setting.reserve(scenario, T1, ONE_TO_WEST, runs[T1])
     return scenario
 
 
@@ -226,6 +253,10 @@ def a_run_of_another_train_does_not_lead_on(steps: Steps) -> Scenario:
     running.report(scenario, west, TWO, THROAT)
     running.report(scenario, west, THROAT, WEST)
     east = setting.set_route(scenario, T2, WEST_TO_ONE, west)
+    running.run_through(scenario, east, WEST, THROAT, ONE)
+    running.report(scenario, west, WEST, THROAT)
+    for block, target in pairwise((WEST, THROAT, ONE)):
+        running.report(scenario, east, block, target)
     setting.reserve(scenario, T2, ONE_TO_WEST, east)
     setting.want_back(scenario, run)
     return scenario

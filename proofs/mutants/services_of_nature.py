@@ -14,7 +14,7 @@ from models.simulator.senses import AT_REST, BEYOND, BROKEN, INSIDE, NOT_HELD, O
 from proofs.mutants.services import standing
 from proofs.witnesses import running, setting, telling
 from proofs.witnesses.changes import GONE, came, went
-from proofs.witnesses.lines import line_on
+from proofs.witnesses.lines import boundaries, line_on
 from proofs.witnesses.on_lines import ready
 from proofs.witnesses.scenario import Scenario, Steps
 from proofs.witnesses.stations import (
@@ -229,17 +229,21 @@ def what_the_other_cab_led_is_no_way_on(steps: Steps) -> Scenario:
     return scenario
 
 
-def a_train_comes_home_on_a_way_permitted_before_it_left(steps: Steps) -> Scenario:
-    """On a ring a train is permitted to run home before it leaves: it has not been home under that run (T2, T5)."""
+def a_train_comes_home_on_a_ring(steps: Steps) -> Scenario:
+    """Home is where it began: it has not been there under the run home before that leads there (T2, T5)."""
     line = line_on("a_ring")
     assert line.loop is not None
     scenario = Scenario(steps, line.site, line.on_the_loop())
     standing, _ = ready(scenario)
     out = setting.set_route(scenario, T1, line.loop.round, standing)
+    running.roll(scenario, out)
+    way = line.blocks(line.loop.round)
+    running.pass_through(scenario, out, *way)
+    running.report(scenario, standing, *way[:2])
+    for block, target in boundaries(way):
+        running.report(scenario, out, block, target)
     home = setting.set_route(scenario, T1, line.loop.home, out)
-    for run in (out, home):
-        running.roll(scenario, run)
-    running.pass_through(scenario, out, *line.blocks(line.loop.round))
+    running.roll(scenario, home)
     running.pass_through(scenario, home, *line.blocks(line.loop.home))
     running.rest(scenario, home)
     return scenario
@@ -264,6 +268,24 @@ def a_head_that_was_elsewhere_has_not_gone_on(steps: Steps) -> Scenario:
     for tag in running.pair(scenario.site.layout, WEST, THROAT):
         scenario.does("tail_reads", **running.tail_read(scenario, run, tag))
     scenario.must((ahead, WEST) not in scenario.system.track.gone, "no head went on from there under it")
+    return scenario
+
+
+def a_head_that_went_another_way_has_not_gone_on(steps: Steps) -> Scenario:
+    """Blocks that meet twice: a run that led into the next one over the other boundary went on over that one (T2)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    ahead = setting.set_route(scenario, T1, ONE_TO_EAST, run)
+    running.roll(scenario, run)
+    running.pass_boundary(scenario, run, WEST, THROAT)
+    later = Run(Serial(ahead.serial + 1), T1, ahead.life, WEST_TO_TWO)
+    _has_gone_on(scenario, later, scenario.site.formation.front[run], THROAT)
+    layout = scenario.site.layout
+    first, second = running.pair(layout, WEST, THROAT)
+    scenario.does("tail_reads", **running.tail_read(scenario, run, first))
+    other = replace(scenario.site, layout=replace(layout, tag_after={**layout.tag_after, WEST_TO_TWO: {}}))
+    after = scenario.steps["tail_reads"](other, scenario.system, **running.tail_read(scenario, run, second))
+    scenario.must((ahead, WEST) not in after.track.gone, "its head went on from there by other tags")
     return scenario
 
 
@@ -349,6 +371,9 @@ def a_train_that_backs_out_leaves_what_it_came_into(steps: Steps) -> Scenario:
     scenario, runs = telling.recovered(steps, standing(WEST))
     run = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
+    running.report(scenario, runs[T1], WEST, THROAT)
+    for block, target in ((WEST, THROAT), (THROAT, ONE)):
+        running.report(scenario, run, block, target)
     back = setting.set_route(scenario, T1, ONE_TO_WEST, run)
     running.run_through(scenario, back, ONE, THROAT)
     running.report(scenario, run, ONE, THROAT)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Read, Record, Serial, Tag, UnitLife
+from kernel.names import Read, Record, Route, Run, Serial, Tag, UnitLife
 from kernel.refusal import Refusal
+from kernel.unit import Order
 from models.simulator.senses import BROKEN, INSIDE
 from proofs.mutants.services import standing
 from proofs.witnesses import restarts, running, setting, telling
@@ -20,6 +21,11 @@ from proofs.witnesses.stations import (
     B1,
     EAST,
     EAST_TO_ONE,
+    HERE,
+    MIDDLE,
+    MIDDLE_TO_NORTH,
+    NORTH,
+    NORTH_TO_MIDDLE,
     ONE,
     ONE_TO_EAST,
     ONE_TO_WEST,
@@ -27,6 +33,7 @@ from proofs.witnesses.stations import (
     P1,
     P2,
     PASSED_IN_PARTS,
+    PLAIN_LINE,
     T1,
     T2,
     THROAT,
@@ -67,35 +74,67 @@ def a_run_not_begun_is_read_from_its_first_tag_after_a_turn(steps: Steps) -> Sce
     return scenario
 
 
-def an_overtaken_run_does_not_go_on_with_its_successor(steps: Steps) -> Scenario:
-    """A train that turned back midway comes there again: the run that it left off stays behind (T2, T5)."""
-    at = {**standing(WEST), B1: frozenset({YARD_EAST})}
-    scenario, runs = telling.recovered(steps, at, station=PASSED_IN_PARTS)
-    overtaken = setting.set_route(scenario, T1, WEST_TO_EAST, runs[T1])
-    running.run_through(scenario, overtaken, WEST, THROAT, ONE)
-    running.report(scenario, runs[T1], WEST, THROAT)
-    running.report(scenario, overtaken, WEST, THROAT)
-    back = setting.set_route(scenario, T1, ONE_TO_WEST, overtaken)
-    running.run_through(scenario, back, ONE, THROAT, WEST)
-    for block, target in ((ONE, THROAT), (THROAT, WEST)):
-        running.report(scenario, overtaken, block, target)
-        running.report(scenario, back, block, target)
-    there = setting.set_route(scenario, T1, WEST_TO_ONE, back)
-    running.run_through(scenario, there, WEST, THROAT, ONE)
-    run = setting.set_route(scenario, T1, ONE_TO_EAST, there)
+def a_run_back_does_not_begin_with_the_way_in(steps: Steps) -> Scenario:
+    """The tag at which a way in ends begins the way back: it is read for the way in alone, and no loop opens (T5).
+
+    The centre sets no way back so early; a unit that was permitted one would keep its loop.
+    """
+    at = {**standing(NORTH), B1: frozenset({HERE})}
+    scenario, runs = telling.recovered(steps, at, station=PLAIN_LINE)
+    run = setting.set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
     running.roll(scenario, run)
-    expected = scenario.system.units[T1].orders[overtaken].expected
-    running.head_passes(scenario, run, ONE, OUTLET)
-    left_off = scenario.system.units[T1].orders[overtaken]
-    scenario.must(left_off.expected == expected, "only the newer run goes on")
+    ends, begins = running.pair(scenario.site.layout, NORTH, MIDDLE)
+    running.head_reads(scenario, run, ends)
+    running.enters(scenario, run, A1, NORTH, MIDDLE)
+    back = _reads_beside(scenario, run, MIDDLE_TO_NORTH, begins)
+    scenario.must(back.expected == begins and back.led_by is None, "the way back has yet to begin")
     return scenario
+
+
+def an_overtaken_run_does_not_go_on_with_its_successor(steps: Steps) -> Scenario:
+    """Of two runs that lead over one boundary the one that a later one has overtaken stays behind (T2, T5)."""
+    scenario, runs = telling.recovered(steps, standing(WEST))
+    later = setting.set_route(scenario, T1, WEST_TO_ONE, runs[T1])
+    running.roll(scenario, later)
+    running.head_passes(scenario, later, WEST, THROAT)
+    tag = running.pair(scenario.site.layout, THROAT, ONE)[0]
+    overtaken = _reads_beside(scenario, later, WEST_TO_EAST, tag, begun=True, earlier=True)
+    scenario.must(overtaken.expected == tag, "only the newer run goes on")
+    return scenario
+
+
+def _reads_beside(
+    scenario: Scenario, run: Run, route: Route, tag: Tag, begun: bool = False, earlier: bool = False
+) -> Order:
+    """A tag that ``run`` expects is read by a unit that is given another run besides; what becomes of that one."""
+    layout, unit = scenario.site.layout, scenario.system.units[T1]
+    other = Run(Serial(run.serial - 1 if earlier else run.serial + 1), T1, run.life, route)
+    order = replace(
+        unit.orders[run],
+        tag_list=layout.tag_list[route],
+        expected=tag,
+        begun=begun,
+        led_by=unit.leading if begun else None,
+        entered=frozenset(),
+    )
+    told = replace(unit, orders=unit.orders | {other: order})
+    made = replace(scenario.system, units=scenario.system.units | {T1: told})
+    cab = running.head_cab(scenario, run)
+    after = scenario.steps["head_reads"](scenario.site, made, train=T1, cab=cab, tag=tag, in_window=True)
+    scenario.must(after.units[T1].head_tag == tag, "the tag was read")
+    read: Order = after.units[T1].orders[other]
+    return read
 
 
 def a_train_that_turned_does_not_go_on_under_an_older_run(steps: Steps) -> Scenario:
     """A run that a later one has overtaken is past, though it had begun; it tells anew where it stands (T2, T9)."""
-    scenario, runs = telling.recovered(steps, standing(WEST))
+    at = {**standing(WEST), B1: frozenset({YARD_EAST})}
+    scenario, runs = telling.recovered(steps, at, station=PASSED_IN_PARTS)
     run = setting.set_route(scenario, T1, WEST_TO_EAST, runs[T1])
     running.run_through(scenario, run, WEST, THROAT, ONE)
+    running.report(scenario, runs[T1], WEST, THROAT)
+    for block, target in ((WEST, THROAT), (THROAT, ONE)):
+        running.report(scenario, run, block, target)
     back = setting.set_route(scenario, T1, ONE_TO_WEST, run)
     running.roll(scenario, back)
     running.head_passes(scenario, back, ONE, THROAT)

@@ -11,7 +11,7 @@ from kernel.names import Block, Cab, Cause, Epoch, Read, Run, Stage, TagList, Te
 from kernel.recovery import account_for, standing_refusal
 from kernel.refusal import Refusal
 from kernel.release import release_refusal
-from kernel.route_setting import conflict, is_run_through
+from kernel.route_setting import conflict, is_run_through, meets_its_own_train
 from kernel.standstill import Standstill, ThroughLine
 from kernel.tag_list import TagLists, TagPlan
 from kernel.tail_evidence import has_been_in
@@ -35,7 +35,16 @@ def request_by_runs_known(layout: Layout, centre: Centre, run: Run, base: Run) -
     if base.train != run.train or base not in centre.claimed.get(layout.start[run.route], NO_RUNS):
         return Refusal.START_NOT_HELD
     against = conflict(layout, centre, run)
-    return Refusal.START_IS_RUN_THROUGH if against is None and is_run_through(layout, centre, run) else against
+    if against is None and is_run_through(layout, centre, run):
+        return Refusal.START_IS_RUN_THROUGH
+    if against is None and meets_its_own_train(layout, centre, run):
+        return Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN
+    return against
+
+
+def no_run_is_in_the_way(layout: Layout, centre: Centre, run: Run) -> bool:
+    """Set a run over tags that an earlier one leads over, or over blocks that the train has not left."""
+    return False
 
 
 def terminal_keeps_its_life(terminal: Terminal, life: TerminalLife) -> Terminal:

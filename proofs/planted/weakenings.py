@@ -31,11 +31,11 @@ OVER_IT = (
     "lists.tag_after.get(order.tag_list, NO_TAGS).get(over.left.tag) == over.entered.tag"
 )
 """The guard by which a head has gone on only over the boundary that the tail gets over, and in that direction."""
-LAP_AHEAD = (
-    "kernel.route_setting.request_refusal: guard if against is None and is_run_through(layout, centre, run): "
-    "Refusal.START_IS_RUN_THROUGH"
+OVER_ITSELF = (
+    "kernel.route_setting.request_refusal: guard if against is None and meets_its_own_train(layout, centre, run): "
+    "Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN"
 )
-"""The guard by which no run is set over tags that an earlier one leads over, whose block it still holds."""
+"""The guard by which no run is set over a block that its own train has not been told to have left."""
 
 TURNED_ASTRIDE = Fault(
     "the tail's last read is good after two changes of ends",
@@ -51,16 +51,21 @@ LAP_BEFORE = Fault(
     "a pair of reads may be of two passages",
     "On a ring the head passes the boundary again between the two reads, so the train is in the block once more.",
     "head_reads",
-    dropped=(STILL_GOOD, OVER_IT, LAP_AHEAD),
+    {
+        route_setting.is_run_through: weakened.no_run_is_in_the_way,
+        route_setting.meets_its_own_train: weakened.no_run_is_in_the_way,
+    },
+    dropped=(STILL_GOOD, OVER_IT),
 )
-"""Three guards: such a pair is also of a way back over the boundary, and no head went on that way; and no second lap is
-set before the tail has left the first."""
+"""Four guards: such a pair is also of a way back over the boundary, and no head went on that way; no second lap is set
+before the tail has left the first, and no way home over what it has not left."""
 BLOCK_AHEAD = Fault(
     "a block ahead counts as left",
     "On a ring the tail leaves a block at the start of a run that has yet to come to it, and it is freed.",
     "tail_reads",
-    dropped=(HAS_LEFT,),
+    dropped=(HAS_LEFT, OVER_ITSELF),
 )
+"""Two guards: a run that ends where its own train stands is not set."""
 GIVEN_BACK_TOO_EARLY = Fault(
     "a run is given back that the brake lets the train into",
     "The centre frees it, and the train, which cannot stop before it any more, comes into it.",

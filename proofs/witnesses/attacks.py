@@ -7,14 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from kernel.names import Block, Car, Stage, Tag, UnitLife
+from kernel.names import Stage, Tag, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import WHOLE
-from models.world.formations import formation
 from proofs.witnesses.changes import came
 from proofs.witnesses.running import (
     enters,
-    follows,
     head_cab,
     head_passes,
     leaves,
@@ -44,29 +42,23 @@ from proofs.witnesses.stations import (
     A1,
     A2,
     B1,
-    CROSS,
     EAST,
     HERE,
-    INTO_THE_LOOP,
     MIDDLE,
     MIDDLE_TO_NORTH,
     MIDDLE_TO_SOUTH,
     NORTH,
     NORTH_TO_MIDDLE,
     ONE,
-    OUT_OF_THE_LOOP,
     PLAIN_LINE,
-    SPIRAL,
     T1,
     T2,
     THROAT,
     WEST,
     WEST_TO_ONE,
     WEST_TO_TWO,
-    site_of,
-    standing_at,
 )
-from proofs.witnesses.telling import all_tell, hear_terminals, next_run, recover, recovered
+from proofs.witnesses.telling import recovered
 
 IN_THE_NORTH = {A1: frozenset({NORTH}), A2: frozenset({NORTH}), B1: frozenset({HERE})}
 
@@ -92,21 +84,6 @@ def a_read_from_before_two_changes_of_ends_pairs_with_nothing(steps: Steps) -> S
     for run in (out, back, on):
         scenario.refuses("send_tail_report", **reported(scenario, run, MIDDLE, NORTH))
     holds(scenario, MIDDLE, out, back, on)
-    return scenario
-
-
-def a_run_back_permitted_before_the_arrival_keeps_its_loop(steps: Steps) -> Scenario:
-    """The tag at which a way in ends begins the way back: read on the way in, it counts for the way in alone (T5)."""
-    scenario, runs = recovered(steps, IN_THE_NORTH, station=PLAIN_LINE)
-    out = set_route(scenario, T1, NORTH_TO_MIDDLE, runs[T1])
-    back = set_route(scenario, T1, MIDDLE_TO_NORTH, out)
-    roll(scenario, out)
-    pass_boundary(scenario, out, NORTH, MIDDLE)
-    rest(scenario, out)
-    roll(scenario, back)
-    pass_boundary(scenario, back, MIDDLE, NORTH)
-    scenario.must(not scenario.system.units[T1].loop_open, "every tag was the expected one")
-    report(scenario, back, MIDDLE, NORTH)
     return scenario
 
 
@@ -234,58 +211,4 @@ def a_train_that_keeps_another_list_gets_no_permit(steps: Steps) -> Scenario:
     recall(scenario, run)
     return_it(scenario, run)
     at_stage(scenario, run, Stage.OVER)
-    return scenario
-
-
-def a_tail_leaves_the_track_that_its_head_went_on_over(steps: Steps) -> Scenario:
-    """A train longer than a loop comes back into a block on its other track, and goes on there into the same next one.
-
-    Its tail leaves the first track over the boundary that its head went on over long before; a car of it is on the
-    other track, under a run whose head went on over the other boundary: for that the block stays held, and its point
-    locked (T2).
-    """
-    k0, k, m, e, back, n = map(Block, ("k0", "k", "m", "e", "l", "n"))
-    front, middle, rear = Car("front"), Car("middle"), Car("rear")
-    cars = {T1: (front, middle, rear), T2: (B1,)}
-    site = replace(site_of(SPIRAL, cars), formation=formation(cars, lambda _: True))
-    at = {front: frozenset({k}), middle: frozenset({k}), rear: frozenset({k}), B1: frozenset({k0})}
-    scenario = Scenario(steps, site, standing_at(site, at, {}))
-    runs = all_tell(scenario)
-    hear_terminals(scenario)
-    recover(scenario)
-    into = set_route(scenario, T1, INTO_THE_LOOP, runs[T1])
-    out = set_route(scenario, T1, OUT_OF_THE_LOOP, into)
-    for run in (into, out):
-        roll(scenario, run)
-    head_passes(scenario, into, k, m)
-    head_passes(scenario, into, m, e)
-    follows(scenario, middle, front, m)
-    follows(scenario, rear, front, m)
-    follows(scenario, middle, front, e)
-    leaves(scenario, front, k)
-    head_passes(scenario, into, e, back)
-    leaves(scenario, front, m)
-    follows(scenario, middle, front, back)
-    leaves(scenario, middle, k)
-    head_passes(scenario, out, back, m)
-    leaves(scenario, front, e)
-    leaves(scenario, middle, m)
-    leaves(scenario, rear, k)
-    tail_passes(scenario, into, k, m)
-    follows(scenario, rear, middle, e)
-    follows(scenario, middle, front, m)
-    leaves(scenario, middle, e)
-    head_passes(scenario, out, m, e)
-    leaves(scenario, front, back)
-    head_passes(scenario, out, e, n)
-    leaves(scenario, front, m)
-    leaves(scenario, front, e)
-    leaves(scenario, rear, m)
-    tail_passes(scenario, into, m, e)
-    scenario.must(m in scenario.system.track.at[middle], "a car is on the other track of the block")
-    report(scenario, into, m, e)
-    scenario.refuses("send_tail_report", **(reported(scenario, into, m, e) | {"run": out}))
-    holds(scenario, m, out)
-    cross = next_run(scenario, T2, CROSS)
-    scenario.refuses("request", Refusal.BLOCK_HELD_FOR_ANOTHER, run=cross, base=runs[T2])
     return scenario

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from kernel.machine.centre import NO_ROUTE
-from kernel.names import Block, Epoch, Run, Stage, UnitLife
+from kernel.names import Block, Epoch, Route, Run, Stage, UnitLife
 from kernel.refusal import Refusal
 from models.simulator.senses import AT_REST, INSIDE, ROLLING
 from models.world.state import System
@@ -103,6 +103,8 @@ def the_tail_frees_no_block_ahead(scenario: Scenario, line: Line) -> None:
     standing, other = ready(scenario)
     way, behind = line.blocks(loop.round), line.blocks(loop.home)
     run = _frees_nothing_under_its_own_run(scenario, line, standing, way[:2])
+    if run is None:
+        return
     _, rear = in_order(scenario, run)
     for block, target in boundaries(behind[1:]):
         enters(scenario, run, rear, block, target)
@@ -136,20 +138,35 @@ def _runs_on(scenario: Scenario, line: Line, run: Run, standing: Run) -> None:
 
 
 def a_head_that_has_come_round_keeps_its_block(scenario: Scenario, line: Line) -> None:
-    """A train as long as its loop: the tail leaves the block that the head has come round into, for no run of it (T2).
+    """A train as long as its loop: no run is set round into its tail, and such a tail leaves no block for it (T2, T9).
 
     It is left for the run before, and stays held for the one under which the head is there.
     """
     standing, _ = ready(scenario)
     way = line.blocks(_loop_of(line).round)
-    _frees_nothing_under_its_own_run(scenario, line, standing, way)
-    scenario.must(way[-1] in scenario.system.units[T1].occupied, "the unit knows that its head is there")
+    if _frees_nothing_under_its_own_run(scenario, line, standing, way) is not None:
+        scenario.must(way[-1] in scenario.system.units[T1].occupied, "the unit knows that its head is there")
 
 
-def _frees_nothing_under_its_own_run(scenario: Scenario, line: Line, standing: Run, ahead: Sequence[Block]) -> Run:
+def _set_over_itself(scenario: Scenario, route: Route, base: Run) -> Run | None:
+    """No run is set over a block that its own train holds already; without that guard, the run."""
+    run = next_run(scenario, T1, route)
+    scenario.refuses("request", Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN, run=run, base=base)
+    if run not in scenario.system.centre.runs:
+        return None
+    prove_all(scenario, run)
+    close_first_loop(scenario, run)
+    return run
+
+
+def _frees_nothing_under_its_own_run(
+    scenario: Scenario, line: Line, standing: Run, ahead: Sequence[Block]
+) -> Run | None:
     """The head goes through the blocks ahead; the tail leaves the last of the way round, for the run before alone."""
     loop = _loop_of(line)
-    run = set_route(scenario, T1, loop.round, standing)
+    run = _set_over_itself(scenario, loop.round, standing)
+    if run is None:
+        return None
     roll(scenario, run)
     end, target = line.blocks(loop.home)[:2]
     _, rear = in_order(scenario, run)
@@ -165,7 +182,7 @@ def _frees_nothing_under_its_own_run(scenario: Scenario, line: Line, standing: R
 
 
 def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line) -> None:
-    """A tail that misses every tag of a lap: no second lap is set, nor does a read of the first pair with it (T2, T9).
+    """A tail that misses every tag of a lap: no way home is set, no second lap, nor does its first read pair (T2, T9).
 
     The train would be longer than a block and have its next run by then, its head out of the block already.
     """
@@ -178,7 +195,10 @@ def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line
     _passes_unread(scenario, runs[0], *way[:-1])
     pass_boundary(scenario, runs[0], before, end)
     rest(scenario, runs[0])
-    runs.append(set_route(scenario, T1, loop.home, runs[-1]))
+    homeward = _set_over_itself(scenario, loop.home, runs[-1])
+    if homeward is None:
+        return
+    runs.append(homeward)
     roll(scenario, runs[-1])
     _passes_unread(scenario, runs[-1], *home)
     rest(scenario, runs[-1])
@@ -191,7 +211,10 @@ def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line
     runs.append(again)
     roll(scenario, again)
     _passes_unread(scenario, again, *way[:-1])
-    runs.append(set_route(scenario, T1, loop.home, runs[-1]))
+    onward = _set_over_itself(scenario, loop.home, runs[-1])
+    if onward is None:
+        return
+    runs.append(onward)
     roll(scenario, runs[-1])
     front, rear = in_order(scenario, runs[-1])
     head_passes(scenario, runs[-2], before, end)
@@ -199,7 +222,7 @@ def a_read_from_the_lap_before_pairs_with_nothing(scenario: Scenario, line: Line
     enters(scenario, runs[-2], rear, before, end)
     leaves(scenario, front, before)
     tail_reads_first(scenario, runs[-1], pair(scenario.site.layout, before, end)[0])
-    first, second, last, onward = runs
+    first, second, last, _ = runs
     claims_nothing_of(scenario, end, before, first, second, onward, last)
     holds(scenario, end, *runs)
     leaves(scenario, rear, before)
@@ -311,31 +334,25 @@ def two_persons_who_name_two_places_account_for_nothing(scenario: Scenario, line
     holds(scenario, there[0], standing)
 
 
-def a_way_back_permitted_before_the_arrival_keeps_its_loop(scenario: Scenario, line: Line) -> None:
-    """The tag at which a way in ends begins the way back: read on the way in, it counts for the way in alone (T5)."""
+def a_way_back_is_set_once_the_way_in_is_clear(scenario: Scenario, line: Line) -> None:
+    """Until the tail has told that it left the way in, no way back is set: cars may have parted there (T2, T9)."""
     standing, _ = ready(scenario)
     there = line.blocks(line.out)
     out = set_route(scenario, T1, line.out, standing)
-    back = set_route(scenario, T1, line.back, out)
     roll(scenario, out)
+    if (early := _set_over_itself(scenario, line.back, out)) is not None:
+        roll(scenario, early)
     pass_through(scenario, out, *there)
     rest(scenario, out)
+    back = next_run(scenario, T1, line.back)
+    scenario.refuses("request", Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN, run=back, base=out)
+    report(scenario, standing, *there[:2])
+    for block in released(scenario.site.layout, out.route, there[:-1]):
+        report(scenario, out, block, there[there.index(block) + 1])
+    back = set_route(scenario, T1, line.back, out)
     roll(scenario, back)
     pass_through(scenario, back, *there[::-1])
     scenario.must(not scenario.system.units[T1].loop_open, "every tag was the expected one")
-    for block in released(scenario.site.layout, back.route, there[:0:-1]):
-        report(scenario, back, block, there[there.index(block) - 1])
-
-
-def a_train_that_has_yet_to_arrive_keeps_its_overlap(scenario: Scenario, line: Line) -> None:
-    """It stands where its way back is to end before it has run out: that is no arrival, and frees no overlap (T9)."""
-    standing, _ = ready(scenario)
-    out = set_route(scenario, T1, line.out, standing)
-    back = set_route(scenario, T1, line.back, out)
-    scenario.refuses("note_stopped", run=back, **INSIDE)
-    scenario.refuses("send_stop", run=back)
-    scenario.refuses("release_overlap", run=back)
-    holds(scenario, line.blocks(line.back)[-1], standing, out, back)
 
 
 def a_train_that_has_turned_frees_no_overlap(scenario: Scenario, line: Line) -> None:
@@ -390,8 +407,7 @@ ATTACKS: Mapping[str, Attack] = {
         Attack(a_run_that_another_leads_on_from_is_asked_back_last, Line.in_the_open),
         Attack(a_train_with_another_list_gets_no_permit, Line.in_the_open),
         Attack(two_persons_who_name_two_places_account_for_nothing, Line.in_the_open),
-        Attack(a_way_back_permitted_before_the_arrival_keeps_its_loop, Line.in_the_open),
-        Attack(a_train_that_has_yet_to_arrive_keeps_its_overlap, Line.in_the_open),
+        Attack(a_way_back_is_set_once_the_way_in_is_clear, Line.in_the_open),
         Attack(a_train_that_has_turned_frees_no_overlap, Line.in_the_open),
         Attack(a_life_stated_before_the_centre_restarted_is_stated_no_more, Line.in_the_open),
     )

@@ -5,8 +5,6 @@ from __future__ import annotations
 from kernel.names import Cause, Run, Stage
 from kernel.refusal import Refusal
 from models.simulator.senses import AT_REST
-from proofs.witnesses.lines import line_on
-from proofs.witnesses.on_lines import ready
 from proofs.witnesses.running import (
     enters,
     everything_is_free,
@@ -27,7 +25,6 @@ from proofs.witnesses.setting import (
     close_first_loop,
     echo,
     freed,
-    give_back,
     holds,
     lay,
     locks,
@@ -303,26 +300,6 @@ def a_begun_run_that_was_wanted_back_leads_on(steps: Steps) -> Scenario:
     scenario.refuses("request", Refusal.START_WANTED_BACK, run=onward, base=run)
     report(scenario, run, WEST, THROAT)
     reserve(scenario, T1, ONE_TO_EAST, run)
-    return scenario
-
-
-def the_nearer_of_two_runs_is_not_given_back_first(steps: Steps) -> Scenario:
-    """A unit that is asked for a run gives back first what leads on from it, whoever asked in what order (T9).
-
-    A long train stands on a ring, over the end of one route and the start of the next, and has both.
-    """
-    line = line_on("a_ring")
-    assert line.loop is not None
-    scenario = Scenario(steps, line.site, line.astride_the_loop())
-    standing, _ = ready(scenario)
-    run = set_route(scenario, T1, line.loop.home, standing)
-    recall(scenario, run)
-    scenario.does("recall", run=run)
-    onward = set_route(scenario, T1, line.loop.round, standing)
-    scenario.refuses("give_back", run=run, at=AT_REST, held_end_mm=0, start_end_mm=0)
-    recall(scenario, onward)
-    return_it(scenario, onward)
-    give_back(scenario, run)
     return scenario
 
 

@@ -198,77 +198,6 @@ to = "line end"
 points = { K = "reverse" }
 """
 
-SPIRAL = """
-# --[k0]--[k]--[m: PA]--[e: QA]--[l]--, and round again to --[m: PB]--[e: QB]--[n]--; [m] and [e] meet twice
-format = "heisoku-layout-1"
-name = "Spiral"
-trains = ["T1", "T2"]
-held_by_authority = "rest"
-[tracks.in]
-from = "west in"
-to = "PA.tip"
-length_mm = 500_000
-boundaries = { K0 = 200_000, K1 = 440_000 }
-[tracks.first]
-from = "PA.normal"
-to = "QA.tip"
-length_mm = 200_000
-boundaries = { E1 = 100_000 }
-[tracks.loop]
-from = "QA.normal"
-to = "PB.tip"
-length_mm = 700_000
-boundaries = { L1 = 100_000, M2 = 650_000 }
-[tracks.second]
-from = "PB.normal"
-to = "QB.tip"
-length_mm = 200_000
-boundaries = { E2 = 100_000 }
-[tracks.out]
-from = "QB.normal"
-to = "east out"
-length_mm = 1_500_000
-boundaries = { N1 = 60_000 }
-[tracks.crossover]
-from = "PA.reverse"
-to = "PB.reverse"
-length_mm = 40_000
-[tracks.another]
-from = "QA.reverse"
-to = "QB.reverse"
-length_mm = 40_000
-[points]
-PA = {}
-PB = {}
-QA = {}
-QB = {}
-[blocks]
-"k0" = { track = "in", at_mm = 100_000 }
-"k" = { track = "in", at_mm = 300_000 }
-"m" = { track = "in", at_mm = 460_000 }
-"e" = { track = "first", at_mm = 180_000 }
-"l" = { track = "loop", at_mm = 300_000 }
-"n" = { track = "out", at_mm = 500_000 }
-[routes."in"]
-from = "K1"
-direction = "forward"
-to = "M2"
-points = { PA = "normal", QA = "normal" }
-release_at = ["E1", "L1"]
-[routes."out"]
-from = "M2"
-direction = "forward"
-to = "east out"
-points = { PB = "normal", QB = "normal" }
-release_at = ["E2", "N1"]
-[routes."cross"]
-from = "K0"
-direction = "forward"
-to = "M2"
-points = { PA = "reverse", PB = "reverse" }
-release_at = ["K1"]
-"""
-
 RING = """
 # --b52--[b2]--b23--[b3]--b34--[b4]--b45--[b5]--b52-- round again; [x] lies too close to [b2]
 format = "heisoku-layout-1"
@@ -320,6 +249,10 @@ release_at = ["b45", "b52"]
 from = "b23"
 direction = "forward"
 to = "b34"
+[routes."next"]
+from = "b34"
+direction = "forward"
+to = "b45"
 [routes."back"]
 from = "b23"
 direction = "backward"
@@ -408,7 +341,6 @@ ARRIVE_1, DEPART_1, DEPART_2 = Route("arrive 1"), Route("depart 1"), Route("depa
 ROUND = Route("round")
 NORTH_TO_MIDDLE, MIDDLE_TO_SOUTH = Route("north to middle"), Route("middle to south")
 MIDDLE_TO_NORTH = Route("middle to north")
-INTO_THE_LOOP, OUT_OF_THE_LOOP, CROSS = Route("in"), Route("out"), Route("cross")
 LEADS: Mapping[str, Route] = {
     PASSING_PLACE: WEST_TO_ONE,
     PASSED_IN_PARTS: WEST_TO_ONE,
@@ -416,7 +348,6 @@ LEADS: Mapping[str, Route] = {
     RING: ROUND,
     EIGHT: ROUND,
     PLAIN_LINE: NORTH_TO_MIDDLE,
-    SPIRAL: INTO_THE_LOOP,
 }
 """A route of each station in which a1 leads."""
 

@@ -57,7 +57,7 @@ from proofs.witnesses.stations import (
     WEST_TO_ONE,
     K,
 )
-from proofs.witnesses.telling import recovered
+from proofs.witnesses.telling import next_run, recovered
 
 ON_THE_LINE = {A1: frozenset({LINE}), A2: frozenset({LINE})}
 
@@ -331,11 +331,10 @@ def a_train_reverses_at_the_terminus(steps: Steps) -> Scenario:
     return scenario
 
 
-def a_read_from_before_the_reversal_pairs_with_nothing(steps: Steps) -> Scenario:
-    """A read on the way in pairs with none on the way out, made by the other cab: nothing is released (T2).
+def no_train_is_led_back_over_what_its_tail_has_not_left(steps: Steps) -> Scenario:
+    """The tail has read one tag of a pair and missed the other: until it restarts the train has no way back (T2, T9).
 
-    The tail read one tag of the pair and missed the other; after the reversal the new tail reads
-    that other one, while the train stands over the points again.
+    Its cars may have parted, and then it would be led into those that it has lost.
     """
     scenario, runs = recovered(steps, ON_THE_LINE, station=TERMINUS)
     run = set_route(scenario, T1, ARRIVE_1, runs[T1])
@@ -344,19 +343,12 @@ def a_read_from_before_the_reversal_pairs_with_nothing(steps: Steps) -> Scenario
     head_passes(scenario, run, THROAT, PLATFORM_1)
     for car in (A1, A2):
         crosses(scenario, run, car, THROAT, PLATFORM_1)
-    missed = pair(scenario.site.layout, THROAT, PLATFORM_1)[1]
     tail_reads_first(scenario, run, pair(scenario.site.layout, THROAT, PLATFORM_1)[0])
     rest(scenario, run)
-    back = set_route(scenario, T1, DEPART_1, run)
-    roll(scenario, back)
-    head_passes(scenario, back, PLATFORM_1, THROAT)
-    for car in (A2, A1):
-        enters(scenario, back, car, PLATFORM_1, THROAT)
-    tail_reads_first(scenario, back, missed)
-    for old in (run, back):
-        scenario.refuses("send_tail_report", **reported(scenario, old, THROAT, PLATFORM_1))
-    holds(scenario, THROAT, run, back)
-    locks(scenario, K, run, back)
+    back = next_run(scenario, T1, DEPART_1)
+    scenario.refuses("request", Refusal.NOT_CLEAR_OF_ITS_OWN_TRAIN, run=back, base=run)
+    holds(scenario, THROAT, run)
+    locks(scenario, K, run)
     return scenario
 
 

@@ -81,6 +81,8 @@ def what_the_interlocking_excludes_does_not_happen() -> None:
     assert not Line().moves({T1: stretch(2, 15), T2: stretch(16, 27)}, at=both)
     layout = replace(STATION.layout, fouls={THROAT: frozenset({ONE}), ONE: frozenset({THROAT})})
     assert not Line(replace(SITE, site=replace(STATION, layout=layout))).moves(covers)
+    clear = replace(STATION.layout, fouls={THROAT: frozenset({EAST}), EAST: frozenset({THROAT})})
+    assert Line(replace(SITE, site=replace(STATION, layout=clear))).moves(covers)
     free = {point: FREE for points in STATION.layout.points_in.values() for point in points}
     assert not Line().moves(covers, terminals=free)
     assert not Line().moves(covers, terminals={})
