@@ -1,19 +1,21 @@
 """Holes that were once in the kernel, put in again one at a time.
 
 Each fault is the kernel of today with the old function in place of the new one.  So it shows that this world finds
-the hole, and that nothing else in the kernel hides it.
+the hole, and that nothing else in the kernel hides it; three are hidden, or hardly ever met, behind one
+more guard (`SetOverItself`), which is left out with them.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from unittest.mock import patch
 
-from kernel import authority, standing
+from kernel import authority, route_setting, standing
 from kernel.centre import Centre
 from kernel.machine import unit
 from kernel.machine.messages import Challenge
 from kernel.machine.unit import Place
-from kernel.names import Block, Cab, Epoch, Position, Read, Run, Stage, Train, UnitLife
+from kernel.names import Block, Cab, Epoch, Position, Read, Route, Run, Stage, Train, UnitLife
 from kernel.onboard import authority_end, braking
 from kernel.onboard.braking import Brake
 from kernel.tail_evidence import has_been_in
@@ -24,8 +26,20 @@ from tests.independent.world.kernel_calls import Board, Calls, Message
 from tests.independent.world.sight import Sight, line
 
 
-class EvidenceAhead(Calls):
-    """Hole 1: the tail's exit from a block is noted under every run that has begun."""
+class SetOverItself(Calls):
+    """A run is set over blocks that its own train has not left."""
+
+    def request(self, centre: Centre, train: Train, life: UnitLife, route: Route, base: Run) -> Centre:
+        with patch.object(route_setting, "meets_its_own_train", return_value=False):
+            return super().request(centre, train, life, route, base)
+
+    def is_refused(self, centre: Centre, train: Train, route: Route, base: Run) -> bool:
+        with patch.object(route_setting, "meets_its_own_train", return_value=False):
+            return super().is_refused(centre, train, route, base)
+
+
+class EvidenceAhead(SetOverItself):
+    """Hole 1: the tail's exit from a block is noted under every run that has begun; so that there is one ahead."""
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
         before = board.unit
@@ -42,7 +56,7 @@ class EvidenceAhead(Calls):
         self.follow(board, sight)
 
 
-class UnlockedUndetected(Calls):
+class UnlockedUndetected(SetOverItself):
     """A terminal whose contacts show nothing takes the point for lying otherwise, and unlocks it."""
 
     def terminal_hears(self, machine: Terminal, message: Message, detected: Position, is_detected: bool) -> Terminal:
@@ -50,8 +64,8 @@ class UnlockedUndetected(Calls):
         return super().terminal_hears(machine, message, seen, True)
 
 
-class EvidenceAcrossTurns(Calls):
-    """Hole 2: two reads of one cab make a pair whatever lies between them, of whichever end led there."""
+class EvidenceAcrossTurns(SetOverItself):
+    """Hole 2: two reads of one cab make a pair whatever lies between them, of whichever end led there; and as above."""
 
     def tail_reads(self, board: Board, cab: Cab, healthy: bool, read: Read, sight: Sight) -> None:
         if board.kept is not None and board.kept[0] == cab:
